@@ -1,0 +1,20 @@
+//! What a robot is, with exact parameters, and its dynamics written once over any scalar.
+//!
+//! - [`number`]: exact rationals, angles and the constants made of them
+//! - [`robot`]: the description: DH rows, masses, centres of mass, inertias, limits
+//! - [`read`]: robot files and what is wrong with them (feature `std`)
+//! - [`scalar`]: the arithmetic that every formula is generic over
+//! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
+#![no_std]
+#![forbid(unsafe_code)]
+
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+pub mod equations;
+pub mod number;
+#[cfg(feature = "std")]
+pub mod read;
+pub mod robot;
+pub mod scalar;

@@ -1,0 +1,115 @@
+//! A serial arm, fixed at build time, with exact parameters.
+//!
+//! One [`Joint`] per row of the DH table; everything is SI, angles are exact
+//! ([`Angle`]), all other numbers are exact rationals.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::number::{Angle, Rational};
+
+/// Which of the two DH conventions the table is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Convention {
+    /// A_i = Rz(θ_i) Tz(d_i) Tx(a_i) Rx(α_i): joint i acts along z_{i−1} (eq. 2.1).
+    Standard,
+    /// A_i = Rx(α_i) Tx(a_i) Rz(θ_i) Tz(d_i): joint i acts along z_i (Craig).
+    Modified,
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum JointKind {
+    /// Turns about its axis: θ_i = q_i + constant.
+    Revolute,
+    /// Slides along its axis: d_i = q_i + constant.
+    Prismatic,
+}
+
+/// A serial arm.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Robot {
+    /// Its name; the generated module is called after it.
+    pub name: String,
+    /// DH convention of every row.
+    pub convention: Convention,
+    /// Acceleration of gravity in base axes, m/s², e.g. (0, 0, −9.81).
+    pub gravity: [Rational; 3],
+    /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`].
+    pub joints: Vec<Joint>,
+}
+
+impl Robot {
+    /// The most joints a robot may have.
+    pub const MAX_JOINTS: usize = 64;
+}
+
+/// One joint and the link that it moves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Joint {
+    /// Name, if the file gives one.
+    pub name: Option<String>,
+    /// Revolute or prismatic.
+    pub kind: JointKind,
+    /// Twist α_i.
+    pub alpha: Angle,
+    /// Length a_i, m.
+    pub a: Rational,
+    /// Constant part of d_i, m: all of it for a revolute joint, the offset
+    /// added to q_i for a prismatic one.
+    pub d: Rational,
+    /// Constant part of θ_i: the offset added to q_i for a revolute joint,
+    /// all of it for a prismatic one.
+    pub theta: Angle,
+    /// Mass of the link, kg.
+    pub mass: Rational,
+    /// Centre of mass in the link frame, m.
+    pub com: [Rational; 3],
+    /// Inertia tensor about the centre of mass in link axes, kg·m².
+    pub inertia: Inertia<Rational>,
+    /// Viscous damping b_i, N·m·s/rad or N·s/m.
+    pub viscous: Rational,
+    /// Rotor inertia felt at the joint, added to D_ii, kg·m² or kg.
+    pub armature: Rational,
+    /// Limits of motion and load, each optional.
+    pub limits: Limits,
+}
+
+/// A symmetric tensor; off-diagonals are the tensor's entries as they stand.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Inertia<S> {
+    /// Row 1, column 1.
+    pub xx: S,
+    /// Row 2, column 2.
+    pub yy: S,
+    /// Row 3, column 3.
+    pub zz: S,
+    /// Row 1, column 2.
+    pub xy: S,
+    /// Row 2, column 3.
+    pub yz: S,
+    /// Row 1, column 3.
+    pub xz: S,
+}
+
+/// Limits of a joint, each optional.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Limits {
+    /// Lowest and highest position.
+    pub position: Option<[Position; 2]>,
+    /// Largest |q̇|, rad/s or m/s.
+    pub velocity: Option<Rational>,
+    /// Largest |q̈|, rad/s² or m/s².
+    pub acceleration: Option<Rational>,
+    /// Largest |τ|, N·m or N.
+    pub torque: Option<Rational>,
+}
+
+/// A position of a joint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Position {
+    /// Of a revolute joint.
+    Angle(Angle),
+    /// Of a prismatic joint, m.
+    Length(Rational),
+}

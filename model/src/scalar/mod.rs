@@ -1,0 +1,82 @@
+//! The arithmetic that every formula is generic over.
+//!
+//! A scalar never calls sin or cos: the equations take each joint's
+//! (sin, cos) pair as input. Zero and one need no context, so that symbolic
+//! and counting scalars can fold them without a global state.
+//!
+//! - floats (this file): the generic runtime
+//! - [`field`]: integers modulo 2⁶¹ − 1, for exact identity checks
+//! - [`count`]: counts the operations of a formula as written
+//! - `big`: a big float, the reference of tests and reports (feature `bigfloat`)
+
+#[cfg(feature = "bigfloat")]
+pub mod big;
+pub mod count;
+pub mod field;
+
+/// A commutative ring with a half, enough for every dynamics formula.
+///
+/// Named methods take references: a symbolic scalar is a shared handle and
+/// operators would hide its clones.
+pub trait Scalar: Clone {
+    /// The additive identity, known as such without context.
+    fn zero() -> Self;
+    /// The multiplicative identity, known as such without context.
+    fn one() -> Self;
+    /// `self + other`
+    fn add(&self, other: &Self) -> Self;
+    /// `self − other`
+    fn sub(&self, other: &Self) -> Self;
+    /// `self · other`
+    fn mul(&self, other: &Self) -> Self;
+    /// `−self`
+    fn neg(&self) -> Self;
+    /// `self / 2`, exact in every scalar (floats: but for underflow).
+    fn half(&self) -> Self;
+
+    /// Whether the value is zero *by structure*, whatever the state is.
+    ///
+    /// Floats answer `false` even for 0.0: skipping `0 · x` would lose a NaN
+    /// or an infinity in `x`, and would put a branch into the runtime.
+    fn is_zero(&self) -> bool {
+        false
+    }
+    /// Whether the value is one by structure.
+    fn is_one(&self) -> bool {
+        false
+    }
+    /// `2 · self`, one addition.
+    fn double(&self) -> Self {
+        self.add(self)
+    }
+}
+
+macro_rules! float_scalar {
+    ($t:ty) => {
+        impl Scalar for $t {
+            fn zero() -> Self {
+                0.0
+            }
+            fn one() -> Self {
+                1.0
+            }
+            fn add(&self, other: &Self) -> Self {
+                self + other
+            }
+            fn sub(&self, other: &Self) -> Self {
+                self - other
+            }
+            fn mul(&self, other: &Self) -> Self {
+                self * other
+            }
+            fn neg(&self) -> Self {
+                -*self
+            }
+            fn half(&self) -> Self {
+                0.5 * self
+            }
+        }
+    };
+}
+float_scalar!(f32);
+float_scalar!(f64);

@@ -1,0 +1,2 @@
+//! Verified, flat robot dynamics generated for one arm.
+#![no_std]
