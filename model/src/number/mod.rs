@@ -1,8 +1,17 @@
 //! Exact numbers: rationals, angles and the constants made of them.
+//!
+//! - [`Angle`]: a rational multiple of π or a rational number of radians
+//! - [`Exact`]: polynomials over ℚ in the sin and cos of constant angles
+//! - `trig`, `round`: their correctly rounded floating-point values
 
 mod angle;
+mod exact;
+mod round;
+mod trig;
 
 pub use angle::Angle;
+pub use exact::Exact;
+pub use round::Rounded;
 
 /// An exact rational number.
 pub type Rational = num_rational::BigRational;

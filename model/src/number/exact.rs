@@ -1,0 +1,396 @@
+//! Constants, exact to the end: polynomials over ℚ in the sines and cosines
+//! of constant angles.
+//!
+//! Every angle that is no multiple of π/2 contributes two generators, its
+//! sine and its cosine, with the one relation s² = 1 − c². Relations between
+//! different angles (sin π/3 and cos π/6 are the same generator, but 2·cos²
+//! π/6 − 1 = sin π/6 is not known) are lost, never wrongly assumed: two equal
+//! constants may look different, two different ones never look equal.
+
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+
+use num_traits::{One, Signed, Zero};
+
+use super::{Angle, Rational};
+use crate::equations::Rotor;
+use crate::robot::Inertia;
+use crate::scalar::Scalar;
+
+/// An exact constant.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Exact(Form);
+
+/// Canonical: `Polynomial` only where a generator occurs, no zero coefficient.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+enum Form {
+    Rational(Arc<Rational>),
+    Polynomial(Arc<BTreeMap<Monomial, Rational>>),
+}
+
+/// A product of powers of generators, sorted by angle.
+pub(super) type Monomial = Vec<Power>;
+
+/// sin(angle)^sin · cos(angle)^cos with sin ∈ {0, 1}.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Power {
+    pub(super) angle: Arc<Angle>,
+    pub(super) sin: u32,
+    pub(super) cos: u32,
+}
+
+impl Exact {
+    /// The pair of a constant angle; multiples of π/2 give 0 and ±1.
+    pub fn rotor(angle: &Angle) -> Rotor<Exact> {
+        let (turns, key) = reduce(angle);
+        let (sin, cos) = match key {
+            None => (Exact::zero(), Exact::one()),
+            Some((angle, Reflection::None)) => (generator(&angle, 1, 0), generator(&angle, 0, 1)),
+            Some((angle, Reflection::Negated)) => {
+                (generator(&angle, 1, 0).neg(), generator(&angle, 0, 1))
+            }
+            Some((angle, Reflection::Swapped)) => {
+                (generator(&angle, 0, 1), generator(&angle, 1, 0))
+            }
+        };
+        match turns {
+            0 => Rotor { sin, cos },
+            1 => Rotor {
+                sin: cos,
+                cos: sin.neg(),
+            },
+            2 => Rotor {
+                sin: sin.neg(),
+                cos: cos.neg(),
+            },
+            _ => Rotor {
+                sin: cos.neg(),
+                cos: sin,
+            },
+        }
+    }
+
+    /// The rational value, if no angle occurs.
+    pub fn as_rational(&self) -> Option<&Rational> {
+        match &self.0 {
+            Form::Rational(value) => Some(value),
+            Form::Polynomial(_) => None,
+        }
+    }
+
+    /// Whether the leading coefficient is negative: the sign that canonical
+    /// forms pull out (for a polynomial not necessarily that of the value).
+    pub fn leads_negative(&self) -> bool {
+        match &self.0 {
+            Form::Rational(value) => value.is_negative(),
+            Form::Polynomial(terms) => terms.values().next_back().is_some_and(|c| c.is_negative()),
+        }
+    }
+
+    /// The constant divided by a rational; `None` if that is zero.
+    pub fn divide(&self, divisor: &Rational) -> Option<Exact> {
+        (!divisor.is_zero()).then(|| self.scale(&divisor.recip()))
+    }
+
+    /// The number of monomials: 1 for a rational.
+    pub fn terms(&self) -> usize {
+        match &self.0 {
+            Form::Rational(_) => 1,
+            Form::Polynomial(terms) => terms.len(),
+        }
+    }
+
+    /// The value in another ring, from the images of rationals and of the
+    /// pairs of constant angles; `None` if `rational` gives one.
+    pub fn map<S: Scalar>(
+        &self,
+        rational: &mut impl FnMut(&Rational) -> Option<S>,
+        pair: &mut impl FnMut(&Angle) -> Rotor<S>,
+    ) -> Option<S> {
+        match &self.0 {
+            Form::Rational(value) => rational(value),
+            Form::Polynomial(terms) => {
+                let mut sum = S::zero();
+                for (monomial, coefficient) in terms.iter() {
+                    let mut product = rational(coefficient)?;
+                    for power in monomial {
+                        let rotor = pair(&power.angle);
+                        for _ in 0..power.sin {
+                            product = product.mul(&rotor.sin);
+                        }
+                        for _ in 0..power.cos {
+                            product = product.mul(&rotor.cos);
+                        }
+                    }
+                    sum = sum.add(&product);
+                }
+                Some(sum)
+            }
+        }
+    }
+
+    /// The polynomial's terms, for evaluation with an error bound.
+    pub(super) fn polynomial(&self) -> Option<&BTreeMap<Monomial, Rational>> {
+        match &self.0 {
+            Form::Rational(_) => None,
+            Form::Polynomial(terms) => Some(terms),
+        }
+    }
+
+    fn scale(&self, factor: &Rational) -> Exact {
+        match &self.0 {
+            Form::Rational(value) => Exact::from(value.as_ref() * factor),
+            Form::Polynomial(_) if factor.is_zero() => Exact::zero(),
+            Form::Polynomial(terms) => Exact(Form::Polynomial(Arc::new(
+                terms.iter().map(|(m, c)| (m.clone(), c * factor)).collect(),
+            ))),
+        }
+    }
+
+    fn to_terms(&self) -> BTreeMap<Monomial, Rational> {
+        match &self.0 {
+            Form::Rational(value) if value.is_zero() => BTreeMap::new(),
+            Form::Rational(value) => BTreeMap::from([(Monomial::new(), value.as_ref().clone())]),
+            Form::Polynomial(terms) => terms.as_ref().clone(),
+        }
+    }
+
+    fn from_terms(mut terms: BTreeMap<Monomial, Rational>) -> Exact {
+        terms.retain(|_, coefficient| !coefficient.is_zero());
+        if terms.is_empty() {
+            return Exact::zero();
+        }
+        if terms.len() == 1
+            && let Some(value) = terms.get(&Monomial::new())
+        {
+            return Exact::from(value.clone());
+        }
+        Exact(Form::Polynomial(Arc::new(terms)))
+    }
+
+    fn combine(&self, other: &Exact, sign: &Rational) -> Exact {
+        if let (Form::Rational(a), Form::Rational(b)) = (&self.0, &other.0) {
+            return Exact::from(a.as_ref() + b.as_ref() * sign);
+        }
+        let mut terms = self.to_terms();
+        for (monomial, coefficient) in other.to_terms() {
+            *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient * sign;
+        }
+        Exact::from_terms(terms)
+    }
+}
+
+impl From<Rational> for Exact {
+    fn from(value: Rational) -> Self {
+        Exact(Form::Rational(Arc::new(value)))
+    }
+}
+
+impl Scalar for Exact {
+    fn zero() -> Self {
+        Exact::from(Rational::zero())
+    }
+    fn one() -> Self {
+        Exact::from(Rational::one())
+    }
+    fn add(&self, other: &Self) -> Self {
+        self.combine(other, &Rational::one())
+    }
+    fn sub(&self, other: &Self) -> Self {
+        self.combine(other, &-Rational::one())
+    }
+    fn mul(&self, other: &Self) -> Self {
+        match (&self.0, &other.0) {
+            (Form::Rational(a), _) => other.scale(a),
+            (_, Form::Rational(b)) => self.scale(b),
+            (Form::Polynomial(a), Form::Polynomial(b)) => {
+                let mut terms = BTreeMap::new();
+                for (m, c) in a.iter() {
+                    for (n, d) in b.iter() {
+                        multiply_into(&mut terms, m, n, &(c * d));
+                    }
+                }
+                Exact::from_terms(terms)
+            }
+        }
+    }
+    fn neg(&self) -> Self {
+        self.scale(&-Rational::one())
+    }
+    fn half(&self) -> Self {
+        self.scale(&Rational::new(1.into(), 2.into()))
+    }
+    fn is_zero(&self) -> bool {
+        self.as_rational().is_some_and(Zero::is_zero)
+    }
+    fn is_one(&self) -> bool {
+        self.as_rational().is_some_and(One::is_one)
+    }
+}
+
+impl Inertia<Rational> {
+    /// The same tensor in exact constants.
+    pub fn to_exact(&self) -> Inertia<Exact> {
+        let e = |x: &Rational| Exact::from(x.clone());
+        Inertia {
+            xx: e(&self.xx),
+            yy: e(&self.yy),
+            zz: e(&self.zz),
+            xy: e(&self.xy),
+            yz: e(&self.yz),
+            xz: e(&self.xz),
+        }
+    }
+}
+
+fn generator(angle: &Arc<Angle>, sin: u32, cos: u32) -> Exact {
+    let monomial = Vec::from([Power {
+        angle: angle.clone(),
+        sin,
+        cos,
+    }]);
+    Exact(Form::Polynomial(Arc::new(BTreeMap::from([(
+        monomial,
+        Rational::one(),
+    )]))))
+}
+
+/// terms += c · m · n, each s² replaced by 1 − c².
+fn multiply_into(
+    terms: &mut BTreeMap<Monomial, Rational>,
+    m: &Monomial,
+    n: &Monomial,
+    c: &Rational,
+) {
+    let mut product = Monomial::with_capacity(m.len() + n.len());
+    let (mut i, mut j) = (0, 0);
+    while i < m.len() || j < n.len() {
+        let order = match (m.get(i), n.get(j)) {
+            (Some(a), Some(b)) => a.angle.cmp(&b.angle),
+            (Some(_), None) => Ordering::Less,
+            _ => Ordering::Greater,
+        };
+        match order {
+            Ordering::Less => {
+                product.push(m[i].clone());
+                i += 1;
+            }
+            Ordering::Greater => {
+                product.push(n[j].clone());
+                j += 1;
+            }
+            Ordering::Equal => {
+                product.push(Power {
+                    angle: m[i].angle.clone(),
+                    sin: m[i].sin + n[j].sin,
+                    cos: m[i].cos + n[j].cos,
+                });
+                i += 1;
+                j += 1;
+            }
+        }
+    }
+    // Each squared sine splits the monomial in two: 1 − c².
+    let mut pending = Vec::from([(product, c.clone())]);
+    while let Some((mut monomial, coefficient)) = pending.pop() {
+        match monomial.iter().position(|power| power.sin == 2) {
+            None => {
+                *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient;
+            }
+            Some(at) => {
+                monomial[at].sin = 0;
+                let mut squared = monomial.clone();
+                squared[at].cos += 2;
+                if monomial[at].cos == 0 {
+                    monomial.remove(at);
+                }
+                pending.push((squared, -coefficient.clone()));
+                pending.push((monomial, coefficient));
+            }
+        }
+    }
+}
+
+/// How an angle in (−π/2, π/2) relates to its generator's angle.
+enum Reflection {
+    /// The same.
+    None,
+    /// The generator's is −angle.
+    Negated,
+    /// The generator's is π/2 − angle.
+    Swapped,
+}
+
+/// Quarter turns (0 to 3) and what remains: angle = turns·π/2 + remainder.
+///
+/// Multiples of π are reduced to (0, π/4], so that π/3 and π/6 share their
+/// generators; radians only lose their sign, since they are no multiple.
+fn reduce(angle: &Angle) -> (u8, Option<(Arc<Angle>, Reflection)>) {
+    match angle {
+        Angle::PiTimes(multiple) => {
+            let halves = multiple * Rational::from_integer(2.into());
+            let whole = halves.floor();
+            let rest = &halves - &whole;
+            let turns = num_integer::Integer::mod_floor(&whole.to_integer(), &4.into());
+            let turns = u8::try_from(turns).unwrap_or(0);
+            if rest.is_zero() {
+                return (turns, None);
+            }
+            let half = Rational::new(1.into(), 2.into());
+            let (rest, reflection) = if rest > half {
+                (Rational::one() - rest, Reflection::Swapped)
+            } else {
+                (rest, Reflection::None)
+            };
+            (
+                turns,
+                Some((Arc::new(Angle::PiTimes(rest * half)), reflection)),
+            )
+        }
+        Angle::Radians(value) if value.is_zero() => (0, None),
+        Angle::Radians(value) if value.is_negative() => (
+            0,
+            Some((Arc::new(Angle::Radians(-value)), Reflection::Negated)),
+        ),
+        Angle::Radians(_) => (0, Some((Arc::new(angle.clone()), Reflection::None))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pi_times(n: i64, d: i64) -> Angle {
+        Angle::PiTimes(Rational::new(n.into(), d.into()))
+    }
+
+    #[test]
+    fn right_angles_are_exact() {
+        for (n, sin, cos) in [(0, 0, 1), (1, 1, 0), (2, 0, -1), (3, -1, 0), (-1, -1, 0)] {
+            let rotor = Exact::rotor(&pi_times(n, 2));
+            assert_eq!(rotor.sin, Exact::from(Rational::from_integer(sin.into())));
+            assert_eq!(rotor.cos, Exact::from(Rational::from_integer(cos.into())));
+        }
+    }
+
+    #[test]
+    fn the_circle_relation_folds() {
+        for angle in [
+            pi_times(1, 5),
+            Angle::Radians(Rational::new(3.into(), 10.into())),
+        ] {
+            let r = Exact::rotor(&angle);
+            assert!(r.sin.mul(&r.sin).add(&r.cos.mul(&r.cos)).is_one());
+        }
+    }
+
+    #[test]
+    fn complementary_angles_share_their_generators() {
+        assert_eq!(
+            Exact::rotor(&pi_times(1, 3)).sin,
+            Exact::rotor(&pi_times(1, 6)).cos
+        );
+    }
+}

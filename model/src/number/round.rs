@@ -1,0 +1,238 @@
+//! Correct rounding of exact constants: once, to nearest, ties to even.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::exact::Monomial;
+use super::trig::{SLACK, sin_cos};
+use super::{Exact, Rational};
+use alloc::collections::BTreeMap;
+
+/// A floating-point format that exact constants round to.
+pub trait Rounded: Copy + PartialEq {
+    /// Significand bits, the hidden one included.
+    const DIGITS: i64;
+    /// Exponent of the least subnormal: it is 2^`LEAST`.
+    const LEAST: i64;
+    /// Exponent e of the largest finite number: it is below 2^e.
+    const MOST: i64;
+    /// From a double that the format holds exactly, or an infinity.
+    fn from_exact_f64(value: f64) -> Self;
+    /// The nearest value of an exact constant; an infinity beyond the range.
+    fn nearest(value: &Exact) -> Self {
+        match value.polynomial() {
+            None => value
+                .as_rational()
+                .map_or(Self::from_exact_f64(0.0), Self::nearest_rational),
+            Some(terms) => round_polynomial(terms),
+        }
+    }
+    /// The nearest value of a rational; an infinity beyond the range.
+    fn nearest_rational(value: &Rational) -> Self {
+        let magnitude = round_magnitude(value, Self::DIGITS, Self::LEAST, Self::MOST);
+        Self::from_exact_f64(if value.is_negative() {
+            -magnitude
+        } else {
+            magnitude
+        })
+    }
+}
+
+impl Rounded for f64 {
+    const DIGITS: i64 = 53;
+    const LEAST: i64 = -1074;
+    const MOST: i64 = 1024;
+    fn from_exact_f64(value: f64) -> Self {
+        value
+    }
+}
+
+impl Rounded for f32 {
+    const DIGITS: i64 = 24;
+    const LEAST: i64 = -149;
+    const MOST: i64 = 128;
+    fn from_exact_f64(value: f64) -> Self {
+        value as f32
+    }
+}
+
+/// |value| rounded to a format, as a double that holds it exactly.
+fn round_magnitude(value: &Rational, digits: i64, least: i64, most: i64) -> f64 {
+    if value.is_zero() {
+        return 0.0;
+    }
+    let (n, d) = (value.numer().abs(), value.denom());
+    // 2^(top−1) < |value| < 2^(top+1): the last bit kept is 2^unit.
+    let top = n.bits() as i64 - d.bits() as i64;
+    let mut unit = (top - digits).max(least);
+    let mut quotient = divide(&n, d, unit);
+    if quotient.0.bits() as i64 > digits {
+        unit += 1;
+        quotient = divide(&n, d, unit);
+    }
+    let (mut significand, rest) = quotient;
+    // rest is twice the remainder against the divisor: round half to even.
+    match rest {
+        core::cmp::Ordering::Greater => significand += 1,
+        core::cmp::Ordering::Equal if significand.is_odd() => significand += 1,
+        _ => {}
+    }
+    if significand.bits() as i64 + unit > most {
+        return f64::INFINITY;
+    }
+    // Both factors are exact, and the product is representable.
+    scale(significand.to_f64().unwrap_or(f64::INFINITY), unit)
+}
+
+/// ⌊n/(d·2^unit)⌋ and how twice the remainder compares to the divisor.
+fn divide(n: &BigInt, d: &BigInt, unit: i64) -> (BigInt, core::cmp::Ordering) {
+    let (n, d) = if unit < 0 {
+        (n << unit.unsigned_abs(), d.clone())
+    } else {
+        (n.clone(), d << unit.unsigned_abs())
+    };
+    let (quotient, rest) = n.div_rem(&d);
+    (quotient, (rest << 1u32).cmp(&d))
+}
+
+/// x·2^e, exact where the result is representable.
+fn scale(mut x: f64, mut e: i64) -> f64 {
+    let power = |e: i64| f64::from_bits(((e + 1023) as u64) << 52);
+    while e < -1000 {
+        x *= power(-1000);
+        e += 1000;
+    }
+    while e > 1000 {
+        x *= power(1000);
+        e -= 1000;
+    }
+    x * power(e)
+}
+
+/// Ziv's strategy: more bits until both ends of the enclosure round alike.
+fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
+    let mut bits = 192;
+    loop {
+        let (value, error) = enclose(terms, bits);
+        let low = T::nearest_rational(&(&value - &error));
+        let high = T::nearest_rational(&(&value + &error));
+        if low == high {
+            return low;
+        }
+        if bits > 6000 {
+            // Only a relation that the representation does not know, such as
+            // sin π/4 = cos π/4, brings a constant this close to a boundary:
+            // the value is zero, or the boundary itself.
+            return T::nearest_rational(&if value.abs() <= error {
+                Rational::zero()
+            } else {
+                value
+            });
+        }
+        bits *= 2;
+    }
+}
+
+/// A value and a bound of its error, with sines and cosines to `bits` bits.
+fn enclose(terms: &BTreeMap<Monomial, Rational>, bits: usize) -> (Rational, Rational) {
+    let unit = BigInt::one() << bits;
+    let mut pairs = BTreeMap::new();
+    let (mut value, mut error) = (Rational::zero(), Rational::zero());
+    for (monomial, coefficient) in terms {
+        let mut product = BigInt::one();
+        let mut degree = 0u32;
+        for power in monomial {
+            let (sin, cos) = pairs
+                .entry(power.angle.clone())
+                .or_insert_with(|| sin_cos(&power.angle, bits));
+            product *= sin.pow(power.sin) * cos.pow(power.cos);
+            degree += power.sin + power.cos;
+        }
+        value += coefficient * Rational::new(product, unit.pow(degree));
+        // Each factor is at most 1 (+ its error): the product rule, doubled.
+        error += coefficient.abs() * Rational::from_integer((2 * degree).into());
+    }
+    let slack = Rational::new(BigInt::one() << SLACK, unit);
+    (value, error * slack)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Angle;
+    use crate::scalar::Scalar;
+
+    fn ratio(n: i64, d: i64) -> Rational {
+        Rational::new(n.into(), d.into())
+    }
+
+    #[test]
+    fn rationals_round_like_the_standard_parser() {
+        for text in [
+            "4318/10000",
+            "1/3",
+            "981/100",
+            "-17/10",
+            "1/7",
+            "9007199254740993/1",
+        ] {
+            let value: Rational = text.parse().unwrap();
+            let (n, d) = text.split_once('/').unwrap();
+            // A quotient of two doubles that hold n and d is correctly rounded.
+            if n.len() < 16 {
+                let expected = n.parse::<f64>().unwrap() / d.parse::<f64>().unwrap();
+                assert_eq!(f64::nearest_rational(&value), expected, "{text}");
+            }
+        }
+        assert_eq!(
+            f64::nearest_rational(&ratio(9007199254740993, 1)),
+            9007199254740992.0
+        );
+        assert_eq!(f32::nearest_rational(&ratio(16777217, 1)), 16777216.0);
+        assert_eq!(f32::nearest_rational(&ratio(1, 10)), 0.1f32);
+    }
+
+    #[test]
+    fn every_double_rounds_to_itself() {
+        let edge = [
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            5e-324,
+            2.2250738585072011e-308,
+            1e300,
+            -1e-310,
+        ];
+        for x in edge {
+            let exact = Rational::from_float(x).unwrap();
+            assert_eq!(f64::nearest_rational(&exact), x);
+        }
+        assert_eq!(
+            f64::nearest_rational(&(Rational::from_float(f64::MAX).unwrap() * ratio(3, 2))),
+            f64::INFINITY
+        );
+        assert_eq!(
+            f64::nearest_rational(&(Rational::from_float(5e-324).unwrap() / ratio(2, 1))),
+            0.0
+        );
+    }
+
+    #[test]
+    fn sines_are_rounded_correctly() {
+        let half = Exact::rotor(&Angle::PiTimes(ratio(1, 6))).sin;
+        assert_eq!(f64::nearest(&half), 0.5);
+        let third = Exact::rotor(&Angle::PiTimes(ratio(1, 3)));
+        assert_eq!(f64::nearest(&third.sin), 0.866_025_403_784_438_6);
+        assert_eq!(f64::nearest(&third.cos.neg()), -0.5);
+        let tenth = Exact::rotor(&Angle::Radians(ratio(3, 10)));
+        // sin of 3/10 itself: the sine of the double 0.3 rounds to another double.
+        assert_eq!(f64::nearest(&tenth.sin), 0.295_520_206_661_339_6);
+        assert_eq!(f32::nearest(&tenth.cos), 0.955_336_5_f32);
+    }
+
+    #[test]
+    fn a_hidden_zero_rounds_to_zero() {
+        let quarter = Exact::rotor(&Angle::PiTimes(ratio(1, 4)));
+        assert_eq!(f64::nearest(&quarter.sin.sub(&quarter.cos)), 0.0);
+    }
+}

@@ -1,0 +1,126 @@
+//! Sine and cosine of exact angles to any number of bits, in integers.
+//!
+//! Fixed point: a number x is ⌊x·2^w⌋ with an error of a few units. No
+//! platform libm takes part, so constants are the same on every machine.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use super::{Angle, Rational};
+
+/// The errors of [`sin_cos`] are below 2^(`SLACK` − w).
+pub(super) const SLACK: usize = 8;
+
+/// (sin, cos) of an angle as integers scaled by 2^w, each within
+/// 2^`SLACK` units of the true value.
+pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
+    // Bits to spare: for the reduction by π, and for the series' roundings.
+    let size = match angle {
+        Angle::PiTimes(_) => 0,
+        Angle::Radians(value) => value.to_integer().bits() as usize,
+    };
+    let work = w + size + 32;
+    let pi = pi(work + size);
+    let (turns, rest) = match angle {
+        Angle::PiTimes(multiple) => {
+            let halves = multiple * Rational::from_integer(2.into());
+            let whole = halves.round().to_integer();
+            let rest = halves - Rational::from_integer(whole.clone());
+            let scaled = (&pi >> size) * rest.numer();
+            (whole, scaled.div_floor(&(rest.denom() * 2)))
+        }
+        Angle::Radians(value) => {
+            let scaled = (value.numer() << (work + size)).div_floor(value.denom());
+            let quarter: BigInt = &pi >> 1;
+            let whole = (&scaled + (&quarter >> 1u32)).div_floor(&quarter);
+            let rest: BigInt = scaled - &whole * &quarter;
+            (whole, rest >> size)
+        }
+    };
+    let (sin, cos) = series(&rest, work);
+    let (sin, cos): (BigInt, BigInt) = (sin >> (work - w), cos >> (work - w));
+    match u8::try_from(turns.mod_floor(&4.into())).unwrap_or(0) {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// Taylor series for |x| ≤ 0.8, scaled by 2^w.
+fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {
+    let mut term = BigInt::one() << w;
+    let (mut sin, mut cos) = (BigInt::zero(), term.clone());
+    let mut n = 0u32;
+    while !term.is_zero() {
+        n += 1;
+        term = (&term * x) >> w;
+        // Truncate towards zero, so that the loop ends for negative x too.
+        term = if term.is_negative() {
+            -((-term) / n)
+        } else {
+            term / n
+        };
+        match n % 4 {
+            1 => sin += &term,
+            2 => cos -= &term,
+            3 => sin -= &term,
+            _ => cos += &term,
+        }
+    }
+    (sin, cos)
+}
+
+/// π·2^w by Machin's formula: π = 16 atan(1/5) − 4 atan(1/239).
+fn pi(w: usize) -> BigInt {
+    let guard = 32;
+    let one = BigInt::one() << (w + guard);
+    let atan_inverse = |n: u32| {
+        let square = BigInt::from(n) * n;
+        let mut power = &one / n;
+        let mut sum = power.clone();
+        let mut k = 1u32;
+        while !power.is_zero() {
+            power = -(power / &square);
+            k += 2;
+            sum += &power / k;
+        }
+        sum
+    };
+    (atan_inverse(5) * 16 - atan_inverse(239) * 4) >> guard
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::string::ToString;
+
+    #[test]
+    fn pi_to_60_digits() {
+        let digits = (pi(240) * BigInt::from(10).pow(60)) >> 240u32;
+        assert_eq!(
+            digits.to_string(),
+            "3141592653589793238462643383279502884197169399375105820974944"
+        );
+    }
+
+    #[test]
+    fn a_float_right_angle_keeps_its_tiny_cosine() {
+        let angle = Angle::Radians(Rational::from_float(1.570_796_326_794_896_6).unwrap());
+        let (sin, cos) = sin_cos(&angle, 200);
+        assert!((BigInt::one() << 200u32) - sin <= BigInt::one() << 100u32);
+        // cos of the double next to π/2 is 6.1232339957367658…e-17
+        let scaled = (cos * BigInt::from(10).pow(32)) >> 200u32;
+        assert_eq!(scaled.to_string(), "6123233995736765");
+    }
+
+    #[test]
+    fn a_huge_angle_is_reduced_exactly() {
+        // sin(1e22) is the classical reduction test.
+        let angle = Angle::Radians(Rational::from_integer(BigInt::from(10).pow(22)));
+        let (sin, _) = sin_cos(&angle, 128);
+        let scaled = (sin * BigInt::from(10).pow(16)) >> 128u32;
+        assert_eq!(scaled.to_string(), "-8522008497671889");
+    }
+}
