@@ -1,0 +1,175 @@
+//! The parameters and the position of an arm in the scalar of a computation.
+
+use alloc::vec::Vec;
+
+use super::matrix::{Columns, Vector, minus, plus, times};
+use crate::robot::{Convention, Inertia, JointKind};
+use crate::scalar::Scalar;
+
+/// Sine and cosine of one angle.
+#[derive(Clone, Debug)]
+pub struct Rotor<S> {
+    /// sin
+    pub sin: S,
+    /// cos
+    pub cos: S,
+}
+
+/// The parameters of an arm in the scalar of a computation.
+#[derive(Clone, Debug)]
+pub struct Arm<S> {
+    /// DH convention of every row.
+    pub convention: Convention,
+    /// Acceleration of gravity in base axes.
+    pub gravity: [S; 3],
+    /// Links from the base to the hand.
+    pub links: Vec<Link<S>>,
+}
+
+/// One row of the table: see [`crate::robot::Joint`] for shapes and units.
+#[derive(Clone, Debug)]
+pub struct Link<S> {
+    /// Revolute or prismatic.
+    pub kind: JointKind,
+    /// Twist α_i.
+    pub alpha: Rotor<S>,
+    /// Constant part of θ_i.
+    pub theta: Rotor<S>,
+    /// Length a_i.
+    pub a: S,
+    /// Constant part of d_i.
+    pub d: S,
+    /// Mass.
+    pub mass: S,
+    /// Centre of mass, link frame.
+    pub com: [S; 3],
+    /// About the centre of mass, link axes.
+    pub inertia: Inertia<S>,
+    /// Viscous damping b_i.
+    pub viscous: S,
+    /// Rotor inertia felt at the joint.
+    pub armature: S,
+}
+
+/// A joint's position as the equations take it.
+#[derive(Clone, Debug)]
+pub enum JointPosition<S> {
+    /// (sin q_i, cos q_i)
+    Revolute(Rotor<S>),
+    /// q_i
+    Prismatic(S),
+}
+
+/// θ_i as a pair and d_i of one row, offsets applied.
+#[derive(Clone, Debug)]
+pub struct DhVariables<S> {
+    /// θ_i
+    pub theta: Rotor<S>,
+    /// d_i
+    pub d: S,
+}
+
+impl<S: Scalar> Rotor<S> {
+    /// The pair of the sum of two angles.
+    pub fn compose(&self, other: &Self) -> Self {
+        Rotor {
+            sin: plus(&times(&self.sin, &other.cos), &times(&self.cos, &other.sin)),
+            cos: minus(&times(&self.cos, &other.cos), &times(&self.sin, &other.sin)),
+        }
+    }
+}
+
+impl<S: Scalar> Arm<S> {
+    /// θ_i and d_i of every row at a position.
+    ///
+    /// The offset enters as a product of pairs, never as a sum of angles:
+    /// q + offset would lose |q|·u, or |offset|·u, of the angle.
+    pub fn at(&self, position: &[JointPosition<S>]) -> Vec<DhVariables<S>> {
+        self.links
+            .iter()
+            .zip(position)
+            .map(|(link, q)| match q {
+                JointPosition::Revolute(pair) => DhVariables {
+                    theta: pair.compose(&link.theta),
+                    d: link.d.clone(),
+                },
+                JointPosition::Prismatic(q) => DhVariables {
+                    theta: link.theta.clone(),
+                    d: plus(q, &link.d),
+                },
+            })
+            .collect()
+    }
+}
+
+/// The step from frame i−1 to frame i at a position: ⁱ⁻¹A_i, applied factor by
+/// factor, so that each is a plane rotation or a shift along one axis.
+impl<S: Scalar> Link<S> {
+    /// M ⁱ⁻¹A_i (eq. 2.1).
+    pub fn append(
+        &self,
+        convention: Convention,
+        at: &DhVariables<S>,
+        before: &Columns<S>,
+    ) -> Columns<S> {
+        let m = before.clone();
+        match convention {
+            Convention::Standard => m
+                .turn_z(&at.theta)
+                .shift_z(&at.d)
+                .shift_x(&self.a)
+                .turn_x(&self.alpha),
+            Convention::Modified => m
+                .turn_x(&self.alpha)
+                .shift_x(&self.a)
+                .turn_z(&at.theta)
+                .shift_z(&at.d),
+        }
+    }
+
+    /// ⁱR_{i−1} v: components from frame i−1 into frame i.
+    pub fn into_link(
+        &self,
+        convention: Convention,
+        at: &DhVariables<S>,
+        v: &Vector<S>,
+    ) -> Vector<S> {
+        match convention {
+            Convention::Standard => turn_back_x(&self.alpha, turn_back_z(&at.theta, v.clone())),
+            Convention::Modified => turn_back_z(&at.theta, turn_back_x(&self.alpha, v.clone())),
+        }
+    }
+
+    /// ⁱ⁻¹R_i v: components from frame i into frame i−1.
+    pub fn into_previous(
+        &self,
+        convention: Convention,
+        at: &DhVariables<S>,
+        v: &Vector<S>,
+    ) -> Vector<S> {
+        match convention {
+            Convention::Standard => turn_z(&at.theta, turn_x(&self.alpha, v.clone())),
+            Convention::Modified => turn_x(&self.alpha, turn_z(&at.theta, v.clone())),
+        }
+    }
+}
+
+fn turn_x<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+    let [y, z] = angle.turn(&y, &z);
+    [x, y, z]
+}
+
+fn turn_back_x<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+    let [y, z] = angle.turn_back(&y, &z);
+    [x, y, z]
+}
+
+fn turn_z<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+    let [x, y] = angle.turn(&x, &y);
+    [x, y, z]
+}
+
+fn turn_back_z<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+    let [x, y] = angle.turn_back(&x, &y);
+    [x, y, z]
+}

@@ -1,0 +1,267 @@
+//! Lagrange–Euler, eqs. 2.2–2.15: D, h_ikm and c from the derivatives of the
+//! poses.
+//!
+//! The formulas stand as written: every h_ikm with k ≤ m is a sum of traces,
+//! also those that are zero for every arm. That makes this form the yardstick
+//! that everything else is proved against.
+//!
+//! Products with ʲ⁻¹A_i are taken one link at a time, U_ij = U_{i−1,j} ⁱ⁻¹A_i,
+//! and U_ij J_i is kept: the same products, each made once.
+
+use alloc::vec::Vec;
+
+use super::matrix::{
+    Columns, Vector, dot, halved, minus, negative, plus, scaled, sum, times, twice, zero_vector,
+    zeros,
+};
+use super::{Arm, DhVariables, Link};
+use crate::robot::Convention;
+use crate::scalar::Scalar;
+
+/// The derivatives of the poses at one position.
+#[derive(Clone, Debug)]
+pub struct LagrangeEuler<'a, S> {
+    arm: &'a Arm<S>,
+    at: &'a [DhVariables<S>],
+    /// ⁰A_i for i = 0 … n.
+    poses: Vec<Columns<S>>,
+    /// `u[i][j]` = U_ij for j ≤ i.
+    u: Vec<Vec<Columns<S>>>,
+    /// `uj[i][j]` = U_ij J_i for j ≤ i.
+    uj: Vec<Vec<Columns<S>>>,
+}
+
+impl<'a, S: Scalar> LagrangeEuler<'a, S> {
+    /// The poses ⁰A_i, their derivatives U_ij and the products U_ij J_i.
+    pub fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>]) -> Self {
+        let n = arm.links.len();
+        let mut poses = Vec::with_capacity(n + 1);
+        poses.push(Columns::identity());
+        let mut u: Vec<Vec<Columns<S>>> = Vec::with_capacity(n);
+        for (i, link) in arm.links.iter().enumerate() {
+            let append = |before: &Columns<S>| link.append(arm.convention, &at[i], before);
+            let pose = append(&poses[i]);
+            let mut row: Vec<_> = match i {
+                0 => Vec::new(),
+                _ => u[i - 1].iter().map(append).collect(),
+            };
+            row.push(match arm.convention {
+                Convention::Standard => append(&poses[i].derive(link.kind)),
+                Convention::Modified => pose.derive(link.kind),
+            });
+            poses.push(pose);
+            u.push(row);
+        }
+        let uj = arm.links.iter().zip(&u).map(|(link, row)| {
+            let j = PseudoInertia::of(link);
+            row.iter().map(|u| j.after(u)).collect()
+        });
+        let uj = uj.collect();
+        LagrangeEuler {
+            arm,
+            at,
+            poses,
+            u,
+            uj,
+        }
+    }
+
+    /// D_ik = Σ_{j ≥ max(i,k)} Tr(U_jk J_j U_jiᵀ), n×n, armature on the diagonal.
+    pub fn inertia(&self) -> Vec<Vec<S>> {
+        let n = self.arm.links.len();
+        let mut d: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
+        for i in 0..n {
+            for k in 0..=i {
+                let traces = (i..n).map(|j| self.u[j][k].trace_with(&self.uj[j][i]));
+                let entry = traces.fold(S::zero(), |total, trace| plus(&total, &trace));
+                d[k][i] = entry.clone();
+                d[i][k] = entry;
+            }
+            d[i][i] = plus(&d[i][i], &self.arm.links[i].armature);
+        }
+        d
+    }
+
+    /// `h[i][k][m]` = h_ikm = Σ_{j ≥ max(i,k,m)} Tr(U_jkm J_j U_jiᵀ), n×n×n,
+    /// each k ≤ m from its traces, m < k by symmetry.
+    pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
+        let n = self.arm.links.len();
+        let second = self.second_derivatives();
+        let mut h: Vec<Vec<Vec<S>>> = (0..n).map(|_| (0..n).map(|_| zeros(n)).collect()).collect();
+        for (i, h) in h.iter_mut().enumerate() {
+            for m in 0..n {
+                for k in 0..=m {
+                    let traces = (i.max(m)..n).map(|j| second[j][m][k].trace_with(&self.uj[j][i]));
+                    let entry = traces.fold(S::zero(), |total, trace| plus(&total, &trace));
+                    h[m][k] = entry.clone();
+                    h[k][m] = entry;
+                }
+            }
+        }
+        h
+    }
+
+    /// c_i = Σ_{j ≥ i} −m_j g U_ji s̃_j: what holds the arm against gravity.
+    pub fn gravity(&self) -> Vec<S> {
+        let n = self.arm.links.len();
+        (0..n)
+            .map(|i| {
+                // The column of U_ji J_j that belongs to m_j s̃_j is U_ji m_j s̃_j.
+                let moments = (i..n).map(|j| &self.uj[j][i].origin);
+                let total = moments.fold(zero_vector(), |total, moment| sum(&total, moment));
+                negative(&dot(&self.arm.gravity, &total))
+            })
+            .collect()
+    }
+
+    /// `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
+    fn second_derivatives(&self) -> Vec<Vec<Vec<Columns<S>>>> {
+        let mut all: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());
+        for (i, link) in self.arm.links.iter().enumerate() {
+            let append =
+                |before: &Columns<S>| link.append(self.arm.convention, &self.at[i], before);
+            let mut of_link: Vec<Vec<Columns<S>>> = match i {
+                0 => Vec::new(),
+                _ => all[i - 1]
+                    .iter()
+                    .map(|row| row.iter().map(append).collect())
+                    .collect(),
+            };
+            // k = i: Q_i enters at the joint itself.
+            of_link.push(match self.arm.convention {
+                Convention::Standard => {
+                    let own = self.poses[i].derive(link.kind);
+                    let earlier = if i == 0 { &[][..] } else { &self.u[i - 1][..] };
+                    let at_joint = earlier.iter().chain(core::iter::once(&own));
+                    at_joint.map(|u| append(&u.derive(link.kind))).collect()
+                }
+                Convention::Modified => self.u[i].iter().map(|u| u.derive(link.kind)).collect(),
+            });
+            all.push(of_link);
+        }
+        all
+    }
+}
+
+/// J_i = ∫ r̃ r̃ᵀ dm about the origin of frame i, r̃ = (x, y, z, 1)ᵀ.
+///
+/// In blocks [[S, m s̄], [m s̄ᵀ, m]] with S = ½tr(I_O)·1 − I_O and
+/// I_O = I + m(s̄·s̄ 1 − s̄ s̄ᵀ), hence S = ½tr(I)·1 − I + m s̄ s̄ᵀ.
+struct PseudoInertia<S> {
+    /// Columns of S.
+    second: [Vector<S>; 3],
+    /// m s̄
+    first: Vector<S>,
+    /// m
+    mass: S,
+}
+
+impl<S: Scalar> PseudoInertia<S> {
+    fn of(link: &Link<S>) -> Self {
+        let i = &link.inertia;
+        let first = scaled(&link.mass, &link.com);
+        let half_trace = halved(&plus(&plus(&i.xx, &i.yy), &i.zz));
+        let entry = |tensor: &S, r: usize, c: usize| {
+            let own = if r == c {
+                minus(&half_trace, tensor)
+            } else {
+                negative(tensor)
+            };
+            plus(&own, &times(&first[r], &link.com[c]))
+        };
+        let [xy, yz, xz] = [entry(&i.xy, 0, 1), entry(&i.yz, 1, 2), entry(&i.xz, 0, 2)];
+        let second = [
+            [entry(&i.xx, 0, 0), xy.clone(), xz.clone()],
+            [xy, entry(&i.yy, 1, 1), yz.clone()],
+            [xz, yz, entry(&i.zz, 2, 2)],
+        ];
+        PseudoInertia {
+            second,
+            first,
+            mass: link.mass.clone(),
+        }
+    }
+
+    /// U J
+    fn after(&self, u: &Columns<S>) -> Columns<S> {
+        let [x, y, z] = &self.second;
+        let column = |column: &Vector<S>, last: &S| u.apply(column, last);
+        Columns {
+            axes: [
+                column(x, &self.first[0]),
+                column(y, &self.first[1]),
+                column(z, &self.first[2]),
+            ],
+            origin: column(&self.first, &self.mass),
+        }
+    }
+}
+
+/// D, n×n: see [`LagrangeEuler::inertia`].
+pub fn inertia<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+    LagrangeEuler::new(arm, at).inertia()
+}
+
+/// h_ikm, n×n×n: see [`LagrangeEuler::christoffel`].
+pub fn christoffel<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<Vec<S>>> {
+    LagrangeEuler::new(arm, at).christoffel()
+}
+
+/// c: see [`LagrangeEuler::gravity`].
+pub fn gravity<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<S> {
+    LagrangeEuler::new(arm, at).gravity()
+}
+
+/// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, the full double sum: a pair k < m counts twice.
+pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
+    let n = qd.len();
+    let doubled: Vec<S> = qd.iter().map(twice).collect();
+    let mut rates = Vec::with_capacity(n * (n + 1) / 2);
+    for k in 0..n {
+        for m in k..n {
+            let second = if m == k { &qd[m] } else { &doubled[m] };
+            rates.push((k, m, times(&qd[k], second)));
+        }
+    }
+    h.iter()
+        .map(|h| {
+            rates.iter().fold(S::zero(), |total, (k, m, rate)| {
+                plus(&total, &times(&h[*k][*m], rate))
+            })
+        })
+        .collect()
+}
+
+/// τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 2.3).
+pub fn inverse_dynamics<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+) -> Vec<S> {
+    let terms = LagrangeEuler::new(arm, at);
+    let h = velocity_terms(&terms.christoffel(), qd);
+    assemble(arm, &terms.inertia(), &h, &terms.gravity(), qd, qdd)
+}
+
+/// D q̈ + h + c + b∘q̇ from its parts.
+pub(super) fn assemble<S: Scalar>(
+    arm: &Arm<S>,
+    d: &[Vec<S>],
+    h: &[S],
+    c: &[S],
+    qd: &[S],
+    qdd: &[S],
+) -> Vec<S> {
+    (0..arm.links.len())
+        .map(|i| {
+            let inertial = d[i]
+                .iter()
+                .zip(qdd)
+                .fold(S::zero(), |total, (d, qdd)| plus(&total, &times(d, qdd)));
+            let passive = plus(&h[i], &c[i]);
+            let damping = times(&arm.links[i].viscous, &qd[i]);
+            plus(&plus(&inertial, &passive), &damping)
+        })
+        .collect()
+}

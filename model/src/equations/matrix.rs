@@ -1,0 +1,262 @@
+//! Products of 3-vectors and of the matrices of a chain, aware of structural
+//! zeros.
+//!
+//! A product with a factor that is zero or one *by structure* is not made
+//! ([`Scalar::is_zero`], [`Scalar::is_one`]), and shapes known beforehand are
+//! never spelled out as numbers: the last row of a homogeneous matrix, the
+//! permutation Q_i, a rotation about one axis. A general matrix product would
+//! pay for all of them and falsify every operation count.
+
+use alloc::vec::Vec;
+
+use super::Rotor;
+use crate::robot::{Inertia, JointKind};
+use crate::scalar::Scalar;
+
+/// A vector of three components.
+pub type Vector<S> = [S; 3];
+
+/// `a · b`, not made when a factor is zero or one by structure.
+pub fn times<S: Scalar>(a: &S, b: &S) -> S {
+    if a.is_zero() || b.is_zero() {
+        S::zero()
+    } else if a.is_one() {
+        b.clone()
+    } else if b.is_one() {
+        a.clone()
+    } else {
+        a.mul(b)
+    }
+}
+
+/// `a + b`, not made when a term is zero by structure.
+pub fn plus<S: Scalar>(a: &S, b: &S) -> S {
+    if a.is_zero() {
+        b.clone()
+    } else if b.is_zero() {
+        a.clone()
+    } else {
+        a.add(b)
+    }
+}
+
+/// `a − b`, not made when a term is zero by structure.
+pub fn minus<S: Scalar>(a: &S, b: &S) -> S {
+    if b.is_zero() {
+        a.clone()
+    } else if a.is_zero() {
+        b.neg()
+    } else {
+        a.sub(b)
+    }
+}
+
+/// `−a`; a structural zero stays one.
+pub fn negative<S: Scalar>(a: &S) -> S {
+    if a.is_zero() { S::zero() } else { a.neg() }
+}
+
+/// `2 a`; a structural zero stays one.
+pub fn twice<S: Scalar>(a: &S) -> S {
+    if a.is_zero() { S::zero() } else { a.double() }
+}
+
+/// `a / 2`; a structural zero stays one.
+pub fn halved<S: Scalar>(a: &S) -> S {
+    if a.is_zero() { S::zero() } else { a.half() }
+}
+
+/// The zero vector.
+pub fn zero_vector<S: Scalar>() -> Vector<S> {
+    [S::zero(), S::zero(), S::zero()]
+}
+
+/// `n` zeros.
+pub fn zeros<S: Scalar>(n: usize) -> Vec<S> {
+    (0..n).map(|_| S::zero()).collect()
+}
+
+/// a + b
+pub fn sum<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
+    core::array::from_fn(|i| plus(&a[i], &b[i]))
+}
+
+/// a − b
+pub fn difference<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
+    core::array::from_fn(|i| minus(&a[i], &b[i]))
+}
+
+/// −a
+pub fn opposite<S: Scalar>(a: &Vector<S>) -> Vector<S> {
+    core::array::from_fn(|i| negative(&a[i]))
+}
+
+/// s a
+pub fn scaled<S: Scalar>(s: &S, a: &Vector<S>) -> Vector<S> {
+    core::array::from_fn(|i| times(s, &a[i]))
+}
+
+/// a · b
+pub fn dot<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> S {
+    let xy = plus(&times(&a[0], &b[0]), &times(&a[1], &b[1]));
+    plus(&xy, &times(&a[2], &b[2]))
+}
+
+/// a × b
+pub fn cross<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
+    let component = |i: usize, j: usize| minus(&times(&a[i], &b[j]), &times(&a[j], &b[i]));
+    [component(1, 2), component(2, 0), component(0, 1)]
+}
+
+/// a × (s z_0), z_0 = (0, 0, 1)ᵀ.
+pub fn cross_z<S: Scalar>(a: &Vector<S>, s: &S) -> Vector<S> {
+    [times(&a[1], s), negative(&times(&a[0], s)), S::zero()]
+}
+
+/// ω × (ω × a), the centripetal acceleration of the point a.
+pub fn centripetal<S: Scalar>(omega: &Vector<S>, a: &Vector<S>) -> Vector<S> {
+    cross(omega, &cross(omega, a))
+}
+
+/// I a for a symmetric tensor.
+pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> {
+    [
+        dot(
+            &[tensor.xx.clone(), tensor.xy.clone(), tensor.xz.clone()],
+            a,
+        ),
+        dot(
+            &[tensor.xy.clone(), tensor.yy.clone(), tensor.yz.clone()],
+            a,
+        ),
+        dot(
+            &[tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
+            a,
+        ),
+    ]
+}
+
+impl<S: Scalar> Rotor<S> {
+    /// The plane rotation by this angle: (c x − s y, s x + c y).
+    pub fn turn(&self, x: &S, y: &S) -> [S; 2] {
+        [
+            minus(&times(&self.cos, x), &times(&self.sin, y)),
+            plus(&times(&self.sin, x), &times(&self.cos, y)),
+        ]
+    }
+
+    /// The inverse of [`Rotor::turn`]: (c x + s y, c y − s x).
+    pub fn turn_back(&self, x: &S, y: &S) -> [S; 2] {
+        [
+            plus(&times(&self.cos, x), &times(&self.sin, y)),
+            minus(&times(&self.cos, y), &times(&self.sin, x)),
+        ]
+    }
+}
+
+/// The first three rows of a 4×4 matrix of the chain, as four columns.
+///
+/// The last row is constant: (0 0 0 1) for a pose ⁰A_i, zero for a derivative
+/// U_ij or U_ijk. Everything below multiplies **from the right**, by a
+/// homogeneous matrix or by Q_i, where both obey the same formulas, so that
+/// the last row need not be kept.
+#[derive(Clone, Debug)]
+pub struct Columns<S> {
+    /// Columns 1 to 3, the rotation of a pose.
+    pub axes: [Vector<S>; 3],
+    /// Column 4, the origin of a pose.
+    pub origin: Vector<S>,
+}
+
+impl<S: Scalar> Columns<S> {
+    /// The pose 1.
+    pub fn identity() -> Self {
+        let axis = |i| core::array::from_fn(|k| if k == i { S::one() } else { S::zero() });
+        Columns {
+            axes: [axis(0), axis(1), axis(2)],
+            origin: zero_vector(),
+        }
+    }
+
+    /// · Rz(θ)
+    pub fn turn_z(self, theta: &Rotor<S>) -> Self {
+        let [x, y, z] = self.axes;
+        let [x, y] = turn_columns(theta, &x, &y);
+        Columns {
+            axes: [x, y, z],
+            origin: self.origin,
+        }
+    }
+
+    /// · Rx(α)
+    pub fn turn_x(self, alpha: &Rotor<S>) -> Self {
+        let [x, y, z] = self.axes;
+        let [y, z] = turn_columns(alpha, &y, &z);
+        Columns {
+            axes: [x, y, z],
+            origin: self.origin,
+        }
+    }
+
+    /// · Tz(d)
+    pub fn shift_z(self, d: &S) -> Self {
+        let origin = sum(&self.origin, &scaled(d, &self.axes[2]));
+        Columns { origin, ..self }
+    }
+
+    /// · Tx(a)
+    pub fn shift_x(self, a: &S) -> Self {
+        let origin = sum(&self.origin, &scaled(a, &self.axes[0]));
+        Columns { origin, ..self }
+    }
+
+    /// · Q_i: the derivative with respect to the joint that acts here.
+    ///
+    /// Rotary: the columns become (y, −x, 0, 0). Prismatic: (0, 0, 0, z).
+    pub fn derive(&self, kind: JointKind) -> Self {
+        let [x, y, z] = &self.axes;
+        match kind {
+            JointKind::Revolute => Columns {
+                axes: [y.clone(), opposite(x), zero_vector()],
+                origin: zero_vector(),
+            },
+            JointKind::Prismatic => Columns {
+                axes: [zero_vector(), zero_vector(), zero_vector()],
+                origin: z.clone(),
+            },
+        }
+    }
+
+    /// The rotation's columns applied to a vector of the last frame.
+    pub fn rotate(&self, a: &Vector<S>) -> Vector<S> {
+        let [x, y, z] = &self.axes;
+        let xy = sum(&scaled(&a[0], x), &scaled(&a[1], y));
+        sum(&xy, &scaled(&a[2], z))
+    }
+
+    /// The rotation's inverse applied: components along the three columns.
+    pub fn rotate_back(&self, a: &Vector<S>) -> Vector<S> {
+        core::array::from_fn(|i| dot(&self.axes[i], a))
+    }
+
+    /// The matrix times (a, s)ᵀ: s = 1 takes a point of the last frame along.
+    pub fn apply(&self, a: &Vector<S>, s: &S) -> Vector<S> {
+        sum(&self.rotate(a), &scaled(s, &self.origin))
+    }
+
+    /// Tr(M Nᵀ), the sum of the products of equal entries.
+    pub fn trace_with(&self, other: &Self) -> S {
+        let axes = self.axes.iter().zip(&other.axes);
+        axes.fold(dot(&self.origin, &other.origin), |trace, (a, b)| {
+            plus(&trace, &dot(a, b))
+        })
+    }
+}
+
+/// Two columns times a plane rotation from the right:
+/// (c x + s y, c y − s x).
+fn turn_columns<S: Scalar>(angle: &Rotor<S>, x: &Vector<S>, y: &Vector<S>) -> [Vector<S>; 2] {
+    let [a, b, c] = [0, 1, 2].map(|row| angle.turn_back(&x[row], &y[row]));
+    let [[x0, y0], [x1, y1], [x2, y2]] = [a, b, c];
+    [[x0, x1, x2], [y0, y1, y2]]
+}

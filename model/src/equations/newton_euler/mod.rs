@@ -1,0 +1,42 @@
+//! The recursive Newton–Euler forms: motion outward from the base, forces
+//! inward from the hand.
+//!
+//! - [`table1`]: every vector in base axes (Table 1)
+//! - [`table2`]: every vector in the axes of its own link (Table 2)
+//!
+//! Gravity enters as the upward acceleration of the base, v̇_0 = −g.
+
+pub mod table1;
+pub mod table2;
+
+use super::Link;
+use super::matrix::{Vector, cross, plus, scaled, sum, tensor_times, times};
+use crate::scalar::Scalar;
+
+/// What the hand exerts on its environment, about the origin of frame n:
+/// base axes in Table 1, axes of frame n in Table 2.
+#[derive(Clone, Debug)]
+pub struct Wrench<S> {
+    /// f_{n+1}, N
+    pub force: Vector<S>,
+    /// n_{n+1}, N·m
+    pub moment: Vector<S>,
+}
+
+/// F_i = m_i a_i and N_i = I ω̇_i + ω_i × (I ω_i) of one link, in any axes.
+fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
+    scaled(&link.mass, acceleration)
+}
+
+/// N = I ω̇ + ω × (I ω), in the axes of the link.
+fn euler<S: Scalar>(link: &Link<S>, omega: &Vector<S>, omega_dot: &Vector<S>) -> Vector<S> {
+    let spin = cross(omega, &tensor_times(&link.inertia, omega));
+    sum(&tensor_times(&link.inertia, omega_dot), &spin)
+}
+
+/// What the drive adds to the torque of the chain: b_i q̇_i and the armature's
+/// inertia.
+fn with_drive<S: Scalar>(link: &Link<S>, torque: &S, qd: &S, qdd: &S) -> S {
+    let damped = plus(torque, &times(&link.viscous, qd));
+    plus(&damped, &times(&link.armature, qdd))
+}

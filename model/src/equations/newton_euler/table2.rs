@@ -1,0 +1,255 @@
+//! Table 2: each vector in the axes of its own link, where I_i and s̄_i are
+//! constant.
+
+use alloc::vec::Vec;
+
+use super::{Wrench, euler, newton, with_drive};
+use crate::equations::matrix::{
+    Vector, centripetal, cross, cross_z, dot, negative, opposite, plus, scaled, sum, times, twice,
+    zero_vector,
+};
+use crate::equations::{Arm, DhVariables, Link};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// How the moment of the next link's force is taken about frame i
+/// (standard DH; modified DH has only the second form).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Moment {
+    /// ⁱR_{i+1}[n_{i+1} + (ⁱ⁺¹R_i p_i*) × f_{i+1}]: the lever is turned into
+    /// frame i+1.
+    AsPrinted,
+    /// ⁱR_{i+1} n_{i+1} + p_i* × (ⁱR_{i+1} f_{i+1}): uses the force that is
+    /// turned anyway. Fewer operations, and never less accurate.
+    RotateFirst,
+}
+
+/// Motion of one link.
+struct Motion<S> {
+    omega: Vector<S>,
+    omega_dot: Vector<S>,
+    /// v̇ of the origin of frame i.
+    acceleration: Vector<S>,
+}
+
+/// τ by the recursion of Table 2.
+///
+/// `tip` is in the axes of frame n.
+pub fn inverse_dynamics<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+    moment: Moment,
+    tip: Option<&Wrench<S>>,
+) -> Vec<S> {
+    let motions = motions(arm, at, qd, qdd);
+    let n = arm.links.len();
+    let mut torques = Vec::with_capacity(n);
+    // f_{i+1} and n_{i+1}, in the axes of frame i+1.
+    let [mut force, mut torque] = match tip {
+        Some(tip) => [tip.force.clone(), tip.moment.clone()],
+        None => [zero_vector(), zero_vector()],
+    };
+    for i in (0..n).rev() {
+        let (link, motion) = (&arm.links[i], &motions[i]);
+        // The step to the next link; ⁿR_{n+1} = 1.
+        let next = (i + 1 < n).then(|| Step::new(arm, at, i + 1));
+        let force_here = match &next {
+            Some(next) => next.into_previous(&force),
+            None => force.clone(),
+        };
+        let centre = sum(
+            &motion.acceleration,
+            &sum(
+                &cross(&motion.omega_dot, &link.com),
+                &centripetal(&motion.omega, &link.com),
+            ),
+        );
+        let inertial_force = newton(link, &centre);
+        let inertial_moment = euler(link, &motion.omega, &motion.omega_dot);
+
+        let (carried, arm_of_centre) = match arm.convention {
+            Convention::Standard => {
+                let lever = link.lever_here(&at[i].d);
+                let carried = match (&next, moment) {
+                    (Some(next), Moment::AsPrinted) => {
+                        let moment = cross(&next.into_link(&lever), &force);
+                        next.into_previous(&sum(&torque, &moment))
+                    }
+                    (Some(next), Moment::RotateFirst) => {
+                        sum(&next.into_previous(&torque), &cross(&lever, &force_here))
+                    }
+                    (None, _) => sum(&torque, &cross(&lever, &force_here)),
+                };
+                (carried, sum(&lever, &link.com))
+            }
+            Convention::Modified => {
+                let carried = match &next {
+                    Some(next) => sum(
+                        &next.into_previous(&torque),
+                        &cross(&next.lever_before(), &force_here),
+                    ),
+                    None => torque.clone(),
+                };
+                (carried, link.com.clone())
+            }
+        };
+        torque = sum(
+            &sum(&carried, &cross(&arm_of_centre, &inertial_force)),
+            &inertial_moment,
+        );
+        force = sum(&force_here, &inertial_force);
+
+        let load = match link.kind {
+            JointKind::Revolute => &torque,
+            JointKind::Prismatic => &force,
+        };
+        let along = match arm.convention {
+            Convention::Standard => dot(load, &link.axis_here()),
+            Convention::Modified => load[2].clone(),
+        };
+        torques.push(with_drive(link, &along, &qd[i], &qdd[i]));
+    }
+    torques.reverse();
+    torques
+}
+
+/// ω_i, ω̇_i, v̇_i from the base to the hand.
+fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
+    let mut motions: Vec<Motion<S>> = Vec::with_capacity(arm.links.len());
+    let base = Motion {
+        omega: zero_vector(),
+        omega_dot: zero_vector(),
+        acceleration: opposite(&arm.gravity),
+    };
+    for i in 0..arm.links.len() {
+        let before = if i == 0 { &base } else { &motions[i - 1] };
+        let step = Step::new(arm, at, i);
+        let motion = match arm.convention {
+            Convention::Standard => standard(&step, before, &qd[i], &qdd[i]),
+            Convention::Modified => modified(&step, before, &qd[i], &qdd[i]),
+        };
+        motions.push(motion);
+    }
+    motions
+}
+
+/// Table 2 as it stands: the joint moves along z_{i−1}, before the rotation X.
+fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+    let lever = step.link.lever_here(&step.at.d);
+    let of_lever = |omega: &Vector<S>, omega_dot: &Vector<S>| {
+        sum(&cross(omega_dot, &lever), &centripetal(omega, &lever))
+    };
+    match step.link.kind {
+        JointKind::Revolute => {
+            let omega = step.into_link(&plus_z(&before.omega, qd));
+            let turning = plus_z(&cross_z(&before.omega, qd), qdd);
+            let omega_dot = step.into_link(&sum(&before.omega_dot, &turning));
+            let acceleration = step.into_link(&before.acceleration);
+            let acceleration = sum(&acceleration, &of_lever(&omega, &omega_dot));
+            Motion {
+                omega,
+                omega_dot,
+                acceleration,
+            }
+        }
+        JointKind::Prismatic => {
+            let omega = step.into_link(&before.omega);
+            let omega_dot = step.into_link(&before.omega_dot);
+            let sliding = step.into_link(&plus_z(&before.acceleration, qdd));
+            let along = scaled(&twice(qd), &step.link.axis_here());
+            let coriolis = cross(&omega, &along);
+            let acceleration = sum(&sliding, &of_lever(&omega, &omega_dot));
+            let acceleration = sum(&acceleration, &coriolis);
+            Motion {
+                omega,
+                omega_dot,
+                acceleration,
+            }
+        }
+    }
+}
+
+/// The same for modified DH: the joint moves along z_i, after the rotation X,
+/// and the lever P_i belongs to the previous link.
+fn modified<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+    let lever = step.lever_before();
+    let of_lever = sum(
+        &cross(&before.omega_dot, &lever),
+        &centripetal(&before.omega, &lever),
+    );
+    let carried = step.into_link(&sum(&before.acceleration, &of_lever));
+    let omega = step.into_link(&before.omega);
+    let omega_dot = step.into_link(&before.omega_dot);
+    match step.link.kind {
+        JointKind::Revolute => Motion {
+            omega_dot: sum(&omega_dot, &plus_z(&cross_z(&omega, qd), qdd)),
+            omega: plus_z(&omega, qd),
+            acceleration: carried,
+        },
+        JointKind::Prismatic => {
+            let sliding = plus_z(&cross_z(&omega, &twice(qd)), qdd);
+            Motion {
+                acceleration: sum(&carried, &sliding),
+                omega,
+                omega_dot,
+            }
+        }
+    }
+}
+
+/// v + s z_0
+fn plus_z<S: Scalar>(v: &Vector<S>, s: &S) -> Vector<S> {
+    [v[0].clone(), v[1].clone(), plus(&v[2], s)]
+}
+
+/// The step from frame i−1 to frame i.
+struct Step<'a, S> {
+    convention: Convention,
+    link: &'a Link<S>,
+    at: &'a DhVariables<S>,
+}
+
+impl<'a, S: Scalar> Step<'a, S> {
+    fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>], i: usize) -> Self {
+        Step {
+            convention: arm.convention,
+            link: &arm.links[i],
+            at: &at[i],
+        }
+    }
+
+    /// X v = ⁱR_{i−1} v
+    fn into_link(&self, v: &Vector<S>) -> Vector<S> {
+        self.link.into_link(self.convention, self.at, v)
+    }
+
+    /// ⁱ⁻¹R_i v
+    fn into_previous(&self, v: &Vector<S>) -> Vector<S> {
+        self.link.into_previous(self.convention, self.at, v)
+    }
+
+    /// P_i = (a_i, −d_i sin α_i, d_i cos α_i) in frame i−1 (modified DH).
+    fn lever_before(&self) -> Vector<S> {
+        let alpha = &self.link.alpha;
+        let sideways = negative(&times(&self.at.d, &alpha.sin));
+        [self.link.a.clone(), sideways, times(&self.at.d, &alpha.cos)]
+    }
+}
+
+impl<S: Scalar> Link<S> {
+    /// p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH).
+    fn lever_here(&self, d: &S) -> Vector<S> {
+        [
+            self.a.clone(),
+            times(d, &self.alpha.sin),
+            times(d, &self.alpha.cos),
+        ]
+    }
+
+    /// X z_0 = (0, sin α_i, cos α_i), the joint's axis in frame i (standard DH).
+    fn axis_here(&self) -> Vector<S> {
+        [S::zero(), self.alpha.sin.clone(), self.alpha.cos.clone()]
+    }
+}
