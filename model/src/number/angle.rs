@@ -1,8 +1,19 @@
 //! Angles, kept exact.
 
+use core::cmp::Ordering;
+use core::fmt;
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
 use super::Rational;
+use super::parse::{self, NumberError};
 
 /// An angle as the robot file gives it.
+///
+/// The derived order is that of the representation, for use as a map key; to
+/// compare sizes use [`Angle::cmp_value`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Angle {
     /// A rational multiple of π: `"pi/2"` is ½, `"90deg"` is ½ as well.
@@ -13,7 +24,239 @@ pub enum Angle {
 
 impl Default for Angle {
     fn default() -> Self {
-        use num_traits::Zero;
         Angle::PiTimes(Rational::zero())
     }
+}
+
+impl Angle {
+    /// `n`·π/2, exactly.
+    pub fn right_angles(n: i64) -> Self {
+        Angle::PiTimes(Rational::new(n.into(), 2.into()))
+    }
+
+    /// Whether it is zero, in either form.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Angle::PiTimes(value) | Angle::Radians(value) => value.is_zero(),
+        }
+    }
+
+    /// The same angle in the form that compares equal whenever the value
+    /// does: zero radians become zero times π. (No other rational number of
+    /// radians is a rational multiple of π.)
+    #[must_use]
+    pub fn canonical(self) -> Self {
+        if self.is_zero() {
+            Angle::default()
+        } else {
+            self
+        }
+    }
+
+    /// The opposite angle.
+    #[must_use]
+    pub fn negate(&self) -> Self {
+        match self {
+            Angle::PiTimes(value) => Angle::PiTimes(-value),
+            Angle::Radians(value) => Angle::Radians(-value),
+        }
+    }
+
+    /// n mod 4 if the angle is exactly n·π/2, so that its sine and cosine are
+    /// 0, 1 or −1.
+    pub fn quarter_turns(&self) -> Option<u8> {
+        match self {
+            Angle::PiTimes(value) => {
+                let quarters = value * Rational::from_integer(2.into());
+                if !quarters.is_integer() {
+                    return None;
+                }
+                quarters.to_integer().mod_floor(&4.into()).to_u8()
+            }
+            Angle::Radians(value) => value.is_zero().then_some(0),
+        }
+    }
+
+    /// Its value in radians to 120 digits; exact for [`Angle::Radians`].
+    pub fn radians(&self) -> Rational {
+        match self {
+            Angle::PiTimes(value) => value * pi(),
+            Angle::Radians(value) => value.clone(),
+        }
+    }
+
+    /// The nearest double.
+    pub fn to_f64(&self) -> f64 {
+        self.radians().to_f64().unwrap_or(f64::NAN)
+    }
+
+    /// Compares the two values, whatever their forms.
+    pub fn cmp_value(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            // The same π on both sides: exact.
+            (Angle::PiTimes(left), Angle::PiTimes(right)) => left.cmp(right),
+            _ => self.radians().cmp(&other.radians()),
+        }
+    }
+
+    /// Reads the text forms: `"[-][k*]pi[/m]"`, `"90deg"`, and a fraction of
+    /// radians, `"1/3"`.
+    ///
+    /// # Errors
+    /// [`NumberError`] if it is none of them.
+    pub fn parse(text: &str) -> Result<Self, NumberError> {
+        let text = text.trim();
+        if text.len() > 2 * parse::MAX_LITERAL {
+            return Err(NumberError::TooLong);
+        }
+        if let Some(degrees) = text.strip_suffix("deg") {
+            let degrees = parse::parse_decimal(degrees.trim_end())?;
+            return Ok(Angle::PiTimes(degrees / Rational::from_integer(180.into())));
+        }
+        if !text.contains("pi") {
+            return parse::parse_fraction(text).map(|value| Angle::Radians(value).canonical());
+        }
+        let (negative, rest) = match text.strip_prefix(['-', '+']) {
+            Some(rest) => (text.starts_with('-'), rest.trim_start()),
+            None => (false, text),
+        };
+        let (factor, rest) = match rest.split_once('*') {
+            Some((factor, rest)) => {
+                // A second sign, as in "--2*pi", is a slip of the pen.
+                if factor.starts_with(['-', '+']) {
+                    return Err(NumberError::Malformed);
+                }
+                (parse::parse_decimal(factor.trim_end())?, rest.trim_start())
+            }
+            None => (Rational::one(), rest),
+        };
+        let rest = rest.strip_prefix("pi").ok_or(NumberError::Malformed)?;
+        let divisor = match rest.trim_start().strip_prefix('/') {
+            Some(divisor) => parse::parse_integer(divisor.trim_start())?,
+            None if rest.is_empty() => BigInt::one(),
+            None => return Err(NumberError::Malformed),
+        };
+        if divisor.is_zero() {
+            return Err(NumberError::ZeroDenominator);
+        }
+        let value = factor / Rational::from_integer(divisor);
+        if !parse::in_range(&value) {
+            return Err(NumberError::OutOfRange);
+        }
+        Ok(Angle::PiTimes(if negative { -value } else { value }))
+    }
+}
+
+/// As the robot file writes it: `pi/2`, `-3*pi/4`, `0.3`, `1/3`.
+impl fmt::Display for Angle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            _ if self.is_zero() => f.write_str("0"),
+            Angle::PiTimes(value) => {
+                if value.is_negative() {
+                    f.write_str("-")?;
+                }
+                let factor = value.numer().abs();
+                if !factor.is_one() {
+                    write!(f, "{factor}*")?;
+                }
+                f.write_str("pi")?;
+                if !value.denom().is_one() {
+                    write!(f, "/{}", value.denom())?;
+                }
+                Ok(())
+            }
+            Angle::Radians(value) => match parse::write_decimal(value) {
+                Some(text) => f.write_str(&text),
+                None => write!(f, "{value}"),
+            },
+        }
+    }
+}
+
+/// When a number of radians counts as a multiple of π/2.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Snap {
+    /// Within 4 ulp of the multiple's double, at most 2e-15 from it, and not
+    /// beyond ±2π: `1.5707963267948966` is what other tools print for π/2,
+    /// and taken at its word no sine or cosine of it would be 0 or 1.
+    #[default]
+    RightAngles,
+    /// Never: every number of radians stays as written.
+    Never,
+}
+
+/// What became of a number of radians.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Snapped {
+    /// It stays as written, far from any right angle, or is exactly zero.
+    Kept(Angle),
+    /// It counts as this multiple of π/2.
+    Taken(Angle),
+    /// It stays as written though it is within 1e-3 of `multiple`.
+    Near {
+        /// The angle as written.
+        angle: Angle,
+        /// The multiple of π/2 next to it.
+        multiple: Angle,
+        /// How far apart they are, rad.
+        distance: f64,
+    },
+}
+
+impl Snap {
+    /// Reads a number of radians under this rule.
+    pub fn apply(self, radians: Rational) -> Snapped {
+        // Beyond 1e15 doubles are further apart than the warning's distance.
+        let Some(value) = radians.to_f64().filter(|v| v.abs() < 1e15) else {
+            return Snapped::Kept(Angle::Radians(radians));
+        };
+        if radians.is_zero() {
+            return Snapped::Kept(Angle::default());
+        }
+        if self == Snap::RightAngles {
+            // Nonzero multiples up to ±2π, against their doubles. The
+            // difference of two doubles this close is exact.
+            for n in [1i8, 2, 3, 4] {
+                let multiple = f64::from(n) * core::f64::consts::FRAC_PI_2;
+                let ulp = f64::from_bits(multiple.to_bits() + 1) - multiple;
+                let off = (value.abs() - multiple).abs();
+                if off <= 4.0 * ulp && off <= 2e-15 && value.abs() <= core::f64::consts::TAU {
+                    let n = if value < 0.0 { -n } else { n };
+                    return Snapped::Taken(Angle::right_angles(n.into()));
+                }
+            }
+        }
+        Self::near(Angle::Radians(radians))
+    }
+
+    /// Says whether an angle that stays as written is close to a right angle.
+    pub fn near(angle: Angle) -> Snapped {
+        let radians = angle.radians();
+        let quarter = pi() / Rational::from_integer(2.into());
+        let n = (&radians / &quarter).round();
+        let multiple = Angle::PiTimes(&n / Rational::from_integer(2.into()));
+        let distance = (radians - n * quarter).abs();
+        let close = distance < Rational::new(1.into(), 1000.into());
+        if angle.quarter_turns().is_some() || !close {
+            return Snapped::Kept(angle.canonical());
+        }
+        let distance = distance.to_f64().unwrap_or(0.0);
+        Snapped::Near {
+            angle,
+            multiple,
+            distance,
+        }
+    }
+}
+
+/// π to 120 digits: enough to round any angle of a robot file to a double and
+/// to order any two that are not absurdly close.
+fn pi() -> Rational {
+    const DIGITS: &[u8] = b"31415926535897932384626433832795028841971693993751058209749445923078164062862089986280348253421170679821480865132823066470";
+    let scale = BigInt::from(10).pow(DIGITS.len() as u32 - 1);
+    Rational::new(
+        BigInt::parse_bytes(DIGITS, 10).unwrap_or_else(BigInt::one),
+        scale,
+    )
 }

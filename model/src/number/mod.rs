@@ -1,15 +1,17 @@
 //! Exact numbers: rationals, angles and the constants made of them.
 //!
 //! - [`Angle`]: a rational multiple of π or a rational number of radians
+//! - [`parse`]: decimal literals, read and written exactly
 //! - [`Exact`]: polynomials over ℚ in the sin and cos of constant angles
 //! - `trig`, `round`: their correctly rounded floating-point values
 
 mod angle;
 mod exact;
+pub mod parse;
 mod round;
 mod trig;
 
-pub use angle::Angle;
+pub use angle::{Angle, Snap, Snapped};
 pub use exact::Exact;
 pub use round::Rounded;
 

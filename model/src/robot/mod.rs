@@ -2,11 +2,25 @@
 //!
 //! One [`Joint`] per row of the DH table; everything is SI, angles are exact
 //! ([`Angle`]), all other numbers are exact rationals.
+//!
+//! - `place`: names of the parts of a robot, for findings
+//! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
+//! - `body`: which inertia tensors a body can have
+//! - `write`: the robot file that says the same ([`write`](write())), and its hash
+
+mod body;
+mod place;
+mod validate;
+mod write;
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::number::{Angle, Rational};
+
+pub use place::{Field, Place};
+pub use validate::{Finding, Severity};
+pub use write::write;
 
 /// Which of the two DH conventions the table is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,6 +31,14 @@ pub enum Convention {
     Modified,
 }
 
+impl Convention {
+    /// Every convention with the word that robot files use for it.
+    pub const WORDS: [(&'static str, Self); 2] = [
+        ("standard", Convention::Standard),
+        ("modified", Convention::Modified),
+    ];
+}
+
 /// How a joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum JointKind {
@@ -24,6 +46,14 @@ pub enum JointKind {
     Revolute,
     /// Slides along its axis: d_i = q_i + constant.
     Prismatic,
+}
+
+impl JointKind {
+    /// Every kind with the word that robot files use for it.
+    pub const WORDS: [(&'static str, Self); 2] = [
+        ("revolute", JointKind::Revolute),
+        ("prismatic", JointKind::Prismatic),
+    ];
 }
 
 /// A serial arm.
@@ -42,6 +72,8 @@ pub struct Robot {
 impl Robot {
     /// The most joints a robot may have.
     pub const MAX_JOINTS: usize = 64;
+    /// The longest name of a robot or a joint, in characters.
+    pub const MAX_NAME: usize = 64;
 }
 
 /// One joint and the link that it moves.
@@ -90,6 +122,25 @@ pub struct Inertia<S> {
     pub yz: S,
     /// Row 1, column 3.
     pub xz: S,
+}
+
+impl<S: Clone> Inertia<S> {
+    /// The tensor as three rows of three.
+    pub fn rows(&self) -> [[S; 3]; 3] {
+        let Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        } = self.clone();
+        [
+            [xx, xy.clone(), xz.clone()],
+            [xy, yy, yz.clone()],
+            [xz, yz, zz],
+        ]
+    }
 }
 
 /// Limits of a joint, each optional.

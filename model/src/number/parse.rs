@@ -1,0 +1,273 @@
+//! Decimal literals, read exactly.
+//!
+//! `0.4318` is 4318/10000. A parser that goes through f64 would read
+//! 0.43180000000000001714…, and every constant of the generated code would
+//! carry a 53-bit numerator about.
+
+use core::fmt;
+
+use num_bigint::BigInt;
+use num_traits::{One, Signed, Zero};
+
+use super::Rational;
+
+/// The longest literal, in bytes. It has room for every double in range,
+/// written out to its last digit.
+pub const MAX_LITERAL: usize = 1200;
+/// The most digits of a literal, leading zeros aside; a double has up to 767.
+pub const MAX_DIGITS: usize = 800;
+/// Every number is zero or between 10^−`MAX_EXPONENT` and 10^`MAX_EXPONENT`
+/// in size, so that it and its reciprocal are ordinary doubles.
+pub const MAX_EXPONENT: i64 = 300;
+
+/// Why a text is no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NumberError {
+    /// Not of the form digits, point, digits, exponent.
+    Malformed,
+    /// `nan` or `inf`.
+    NotFinite,
+    /// A hexadecimal, octal or binary integer.
+    Radix,
+    /// More than [`MAX_LITERAL`] bytes or [`MAX_DIGITS`] digits.
+    TooLong,
+    /// Not zero and outside 1e-300 to 1e300.
+    OutOfRange,
+    /// A fraction whose denominator is zero.
+    ZeroDenominator,
+}
+
+impl NumberError {
+    /// What would be right instead.
+    pub fn help(self) -> &'static str {
+        match self {
+            NumberError::Malformed => "write a number like 0.5, -3 or 1.2e-4",
+            NumberError::NotFinite => "write a finite number, or leave the key out",
+            NumberError::Radix => "write it in decimal",
+            NumberError::TooLong => "17 digits tell any two doubles apart",
+            NumberError::OutOfRange => "zero, or a size from 1e-300 to 1e300",
+            NumberError::ZeroDenominator => "write a fraction like \"1/3\"",
+        }
+    }
+}
+
+impl fmt::Display for NumberError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NumberError::Malformed => f.write_str("not a decimal number"),
+            NumberError::NotFinite => f.write_str("not a finite number"),
+            NumberError::Radix => f.write_str("not a decimal number but one in another base"),
+            NumberError::TooLong => write!(f, "a number of more than {MAX_DIGITS} digits"),
+            NumberError::OutOfRange => f.write_str("a number too large or too small"),
+            NumberError::ZeroDenominator => f.write_str("a fraction with denominator zero"),
+        }
+    }
+}
+
+impl core::error::Error for NumberError {}
+
+/// Reads a decimal literal as TOML writes it: sign, digits with underscores
+/// between them, point, exponent.
+///
+/// # Errors
+/// [`NumberError`]; work and memory are bounded whatever the text.
+pub fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
+    if text.len() > MAX_LITERAL {
+        return Err(NumberError::TooLong);
+    }
+    let (negative, rest) = split_sign(text);
+    match rest {
+        "inf" | "nan" | "infinity" | "Infinity" | "NaN" | "Inf" => {
+            return Err(NumberError::NotFinite);
+        }
+        _ if ["0x", "0o", "0b"].iter().any(|p| rest.starts_with(p)) => {
+            return Err(NumberError::Radix);
+        }
+        _ => {}
+    }
+    let (mantissa, exponent) = match rest.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+        None => (rest, None),
+    };
+    let (whole, fraction) = match mantissa.split_once('.') {
+        Some((whole, fraction)) => (whole, Some(fraction)),
+        None => (mantissa, None),
+    };
+    let mut digits = Digits::default();
+    digits.push(whole)?;
+    if let Some(fraction) = fraction {
+        digits.push(fraction)?;
+    }
+    let point = fraction.map_or(0, |f| f.bytes().filter(u8::is_ascii_digit).count());
+    let scale = exponent.map_or(Ok(0), parse_exponent)? - point as i64;
+    let size = digits.finish()?;
+    let size = if negative { -size } else { size };
+    scaled(size, scale)
+}
+
+/// Reads a positive fraction `n/d` of two integers, with an optional sign.
+///
+/// # Errors
+/// As [`parse_decimal`], and for a denominator of zero.
+pub fn parse_fraction(text: &str) -> Result<Rational, NumberError> {
+    let (negative, rest) = split_sign(text.trim());
+    let (numer, denom) = rest.split_once('/').ok_or(NumberError::Malformed)?;
+    let (numer, denom) = (
+        parse_integer(numer.trim_end())?,
+        parse_integer(denom.trim_start())?,
+    );
+    if denom.is_zero() {
+        return Err(NumberError::ZeroDenominator);
+    }
+    let value = Rational::new(if negative { -numer } else { numer }, denom);
+    in_range(&value)
+        .then_some(value)
+        .ok_or(NumberError::OutOfRange)
+}
+
+/// Reads a run of digits without sign.
+pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
+    if text.len() > MAX_LITERAL {
+        return Err(NumberError::TooLong);
+    }
+    let mut digits = Digits::default();
+    digits.push(text)?;
+    digits.finish()
+}
+
+/// Whether a number is zero or of a size from 1e-300 to 1e300.
+pub fn in_range(value: &Rational) -> bool {
+    // Bits first: the exact comparison would build the huge power anyway, but
+    // should not multiply it with a numerator a thousand times as long.
+    let bits = |n: &BigInt| n.bits() as i64;
+    let size = bits(value.numer()) - bits(value.denom());
+    if value.is_zero() || size.abs() < 990 {
+        return true;
+    }
+    if size.abs() > 1010 {
+        return false;
+    }
+    let power = Rational::from_integer(BigInt::from(10).pow(MAX_EXPONENT as u32));
+    let size = value.abs();
+    size <= power && size.recip() <= power
+}
+
+/// `size`·10^`scale`, refused before it is built if it would be out of range.
+fn scaled(size: BigInt, scale: i64) -> Result<Rational, NumberError> {
+    if size.is_zero() {
+        return Ok(Rational::zero());
+    }
+    // |scale| is at most 10 000 + 800 here; size has up to 800 digits.
+    if scale.abs() > 2 * MAX_LITERAL as i64 {
+        return Err(NumberError::OutOfRange);
+    }
+    let power = BigInt::from(10).pow(scale.unsigned_abs() as u32);
+    let value = if scale < 0 {
+        Rational::new(size, power)
+    } else {
+        Rational::from_integer(size * power)
+    };
+    in_range(&value)
+        .then_some(value)
+        .ok_or(NumberError::OutOfRange)
+}
+
+fn split_sign(text: &str) -> (bool, &str) {
+    match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    }
+}
+
+/// The exponent's value; beyond ±10 000 it stays there, which is out of range
+/// for every literal that is not zero.
+fn parse_exponent(text: &str) -> Result<i64, NumberError> {
+    let (negative, rest) = split_sign(text);
+    check_run(rest)?;
+    let mut value = 0i64;
+    for digit in rest.bytes().filter(u8::is_ascii_digit) {
+        value = (value * 10 + i64::from(digit - b'0')).min(10_000);
+    }
+    Ok(if negative { -value } else { value })
+}
+
+/// A run of digits has underscores only between digits.
+fn check_run(run: &str) -> Result<(), NumberError> {
+    let good = !run.is_empty()
+        && run.split('_').all(|part| !part.is_empty())
+        && run.bytes().all(|b| b.is_ascii_digit() || b == b'_');
+    good.then_some(()).ok_or(NumberError::Malformed)
+}
+
+/// Collects digits; leading zeros do not count.
+#[derive(Default)]
+struct Digits(alloc::vec::Vec<u8>);
+
+impl Digits {
+    fn push(&mut self, run: &str) -> Result<(), NumberError> {
+        check_run(run)?;
+        for digit in run.bytes().filter(u8::is_ascii_digit) {
+            if digit != b'0' || !self.0.is_empty() {
+                self.0.push(digit);
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<BigInt, NumberError> {
+        if self.0.len() > MAX_DIGITS {
+            return Err(NumberError::TooLong);
+        }
+        if self.0.is_empty() {
+            return Ok(BigInt::zero());
+        }
+        BigInt::parse_bytes(&self.0, 10).ok_or(NumberError::Malformed)
+    }
+}
+
+/// Writes a number so that it reads back exactly: a decimal where there is
+/// one, else `None`.
+///
+/// Integers that a 64-bit reader would refuse, and numbers with many zeros,
+/// get an exponent.
+pub fn write_decimal(value: &Rational) -> Option<alloc::string::String> {
+    use alloc::format;
+    use alloc::string::ToString;
+    if value.is_zero() {
+        return Some("0".to_string());
+    }
+    // value = digits · 10^−places, with the fewest places.
+    let mut denom = value.denom().clone();
+    let (mut twos, mut fives) = (0u32, 0u32);
+    for (prime, count) in [(2u32, &mut twos), (5, &mut fives)] {
+        while (&denom % prime).is_zero() {
+            denom /= prime;
+            *count += 1;
+        }
+    }
+    if !denom.is_one() {
+        return None;
+    }
+    let places = twos.max(fives);
+    let digits = value.numer().abs()
+        * BigInt::from(2).pow(places - twos)
+        * BigInt::from(5).pow(places - fives);
+    let digits = digits.to_string();
+    let kept = digits.trim_end_matches('0');
+    let sign = if value.is_negative() { "-" } else { "" };
+    // The exponent of the leading digit.
+    let lead = digits.len() as i64 - 1 - i64::from(places);
+    let text = if lead < -5 || lead > 15 {
+        let (first, rest) = kept.split_at(1);
+        let point = if rest.is_empty() { "" } else { "." };
+        format!("{sign}{first}{point}{rest}e{lead}")
+    } else if places == 0 {
+        format!("{sign}{digits}")
+    } else if lead < 0 {
+        format!("{sign}0.{}{kept}", "0".repeat((-lead - 1) as usize))
+    } else {
+        let (whole, rest) = digits.split_at(lead as usize + 1);
+        format!("{sign}{whole}.{rest}")
+    };
+    Some(text)
+}

@@ -1,0 +1,104 @@
+//! Which inertia tensors a body can have, decided exactly.
+//!
+//! For a body of density ρ, ½ tr(I)·1 − I = ∫ρ x xᵀ, which is positive
+//! semidefinite; conversely every such matrix is that of some body. In
+//! principal axes this is the triangle inequality between the moments.
+
+use num_traits::{Signed, Zero};
+
+use super::Inertia;
+use crate::number::Rational;
+
+/// What is wrong with a tensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Defect {
+    /// A principal moment is negative.
+    NegativeMoment,
+    /// One principal moment exceeds the sum of the other two.
+    Triangle,
+    /// The mass is zero, the tensor is not.
+    Massless,
+}
+
+impl Inertia<Rational> {
+    /// The reason why no body of this mass can have this tensor, if there is
+    /// one.
+    pub(super) fn defect(&self, mass: &Rational) -> Option<Defect> {
+        let tensor = self.rows();
+        if !is_semidefinite(&tensor) {
+            return Some(Defect::NegativeMoment);
+        }
+        let half = (&self.xx + &self.yy + &self.zz) / Rational::from_integer(2.into());
+        let mut second = tensor.clone();
+        for (i, row) in second.iter_mut().enumerate() {
+            for (k, entry) in row.iter_mut().enumerate() {
+                *entry = if i == k { &half - &*entry } else { -&*entry };
+            }
+        }
+        if !is_semidefinite(&second) {
+            return Some(Defect::Triangle);
+        }
+        (mass.is_zero() && !half.is_zero()).then_some(Defect::Massless)
+    }
+}
+
+/// A symmetric matrix is positive semidefinite iff no principal minor (not
+/// only the leading ones) is negative.
+fn is_semidefinite(m: &[[Rational; 3]; 3]) -> bool {
+    let minor = |i: usize, k: usize| &m[i][i] * &m[k][k] - &m[i][k] * &m[k][i];
+    let det = &m[0][0] * minor(1, 2) - &m[0][1] * (&m[1][0] * &m[2][2] - &m[1][2] * &m[2][0])
+        + &m[0][2] * (&m[1][0] * &m[2][1] - &m[1][1] * &m[2][0]);
+    (0..3).all(|i| !m[i][i].is_negative())
+        && [(0, 1), (0, 2), (1, 2)]
+            .iter()
+            .all(|&(i, k)| !minor(i, k).is_negative())
+        && !det.is_negative()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn defect(entries: [i64; 6], mass: i64) -> Option<Defect> {
+        let [xx, yy, zz, xy, yz, xz] = entries.map(|e| Rational::from_integer(e.into()));
+        let tensor = Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        };
+        tensor.defect(&Rational::from_integer(mass.into()))
+    }
+
+    /// The border cases (flat bodies, thin rods, points) are bodies.
+    #[test]
+    fn bodies() {
+        for good in [
+            [0; 6],
+            [0, 1, 1, 0, 0, 0],
+            [1, 1, 2, 0, 0, 0],
+            // A thin rod along (1, 1, 0): the border off the axes.
+            [1, 1, 2, -1, 0, 0],
+        ] {
+            assert_eq!(defect(good, 1), None, "{good:?}");
+        }
+    }
+
+    #[test]
+    fn no_bodies() {
+        let cases = [
+            ([-1, 1, 1, 0, 0, 0], 1, Defect::NegativeMoment),
+            // Positive leading minors 1, 0, 0 but a moment of −1.
+            ([0, 1, 1, 1, 0, 0], 1, Defect::NegativeMoment),
+            ([1, 1, 3, 0, 0, 0], 1, Defect::Triangle),
+            // Moments 1 ± 1/2·…: the diagonal alone would pass.
+            ([10, 10, 10, 6, 0, 0], 1, Defect::Triangle),
+            ([1, 1, 1, 0, 0, 0], 0, Defect::Massless),
+        ];
+        for (entries, mass, expected) in cases {
+            assert_eq!(defect(entries, mass), Some(expected), "{entries:?}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Names of the parts of a robot, so that a finding can say where it is and
+//! a reader can say on which line that was.
+
+use core::fmt;
+
+/// A part of a [`Robot`](super::Robot).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Place {
+    /// The robot's name.
+    Name,
+    /// The gravity vector.
+    Gravity,
+    /// The list of joints as a whole.
+    Joints,
+    /// A field of the joint with this zero-based index.
+    Joint(usize, Field),
+}
+
+/// A field of a [`Joint`](super::Joint).
+///
+/// The constants follow the robot file: `Offset` is what is added to q, so it
+/// is the joint's `theta` if it is revolute and its `d` if it is prismatic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[allow(missing_docs)] // each is the key of the same name
+pub enum Field {
+    Name,
+    Kind,
+    Alpha,
+    A,
+    D,
+    Theta,
+    Offset,
+    Mass,
+    Com,
+    Inertia,
+    Viscous,
+    Armature,
+    Position,
+    Velocity,
+    Acceleration,
+    Torque,
+}
+
+impl Field {
+    /// The key of the robot file, e.g. `mass`; of `limits` for the last four.
+    pub fn key(self) -> &'static str {
+        match self {
+            Field::Name => "name",
+            Field::Kind => "kind",
+            Field::Alpha => "alpha",
+            Field::A => "a",
+            Field::D => "d",
+            Field::Theta => "theta",
+            Field::Offset => "offset",
+            Field::Mass => "mass",
+            Field::Com => "com",
+            Field::Inertia => "inertia",
+            Field::Viscous => "viscous",
+            Field::Armature => "armature",
+            Field::Position => "position",
+            Field::Velocity => "velocity",
+            Field::Acceleration => "acceleration",
+            Field::Torque => "torque",
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Name => f.write_str("name"),
+            Place::Gravity => f.write_str("gravity"),
+            Place::Joints => f.write_str("joints"),
+            // People count joints from one, as the equations do.
+            Place::Joint(index, field) => write!(f, "joint {}: {}", index + 1, field.key()),
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! What no robot may be, whoever made it.
+//!
+//! The robot file's reader, the macro and code that fills in a [`Robot`] by
+//! hand all come through here, so that the stages after may rely on it.
+
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::fmt;
+
+use num_traits::Signed;
+
+use super::body::Defect;
+use super::{Field, Joint, JointKind, Place, Position, Robot};
+use crate::number::parse::in_range;
+use crate::number::{Angle, Rational};
+
+/// How much a finding matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// Nothing can be generated.
+    Error,
+    /// Probably a slip; taken as it stands.
+    Warning,
+    /// Said so that nobody has to guess.
+    Note,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        })
+    }
+}
+
+/// Something wrong, or odd, about a robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Error or warning.
+    pub severity: Severity,
+    /// Which part of the robot.
+    pub place: Place,
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.severity, self.place, self.message)
+    }
+}
+
+impl Robot {
+    /// Everything that is wrong or odd about the robot; without an error among
+    /// it, every later stage accepts the robot.
+    pub fn validate(&self) -> Vec<Finding> {
+        let mut findings = Findings(Vec::new());
+        findings.robot_name(&self.name);
+        for value in &self.gravity {
+            findings.size(Place::Gravity, value);
+        }
+        if self.joints.is_empty() || self.joints.len() > Robot::MAX_JOINTS {
+            findings.error(
+                Place::Joints,
+                format!(
+                    "a robot has 1 to {} joints, not {}",
+                    Robot::MAX_JOINTS,
+                    self.joints.len()
+                ),
+                "each joint is a [[joint]] table",
+            );
+        }
+        let mut names = BTreeMap::new();
+        for (index, joint) in self.joints.iter().enumerate() {
+            findings.joint(index, joint);
+            let Some(name) = joint.name.as_deref() else {
+                continue;
+            };
+            let place = Place::Joint(index, Field::Name);
+            findings.joint_name(place, name);
+            if let Some(first) = names.get(name) {
+                findings.error(
+                    place,
+                    format!("joint {} is called {name:?} already", first + 1),
+                    "give every joint a name of its own, or none",
+                );
+            } else {
+                names.insert(name, index);
+            }
+        }
+        findings.0
+    }
+}
+
+struct Findings(Vec<Finding>);
+
+impl Findings {
+    fn push(&mut self, severity: Severity, place: Place, message: String, help: &str) {
+        self.0.push(Finding {
+            severity,
+            place,
+            message,
+            help: (!help.is_empty()).then(|| help.to_owned()),
+        });
+    }
+
+    fn error(&mut self, place: Place, message: String, help: &str) {
+        self.push(Severity::Error, place, message, help);
+    }
+
+    fn robot_name(&mut self, name: &str) {
+        let message = if name.is_empty() {
+            "the name is empty".to_string()
+        } else if name.chars().count() > Robot::MAX_NAME {
+            format!("the name has more than {} characters", Robot::MAX_NAME)
+        } else if KEYWORDS.contains(&name) {
+            format!("{name:?} is a word of the Rust language")
+        } else if !is_snake(name) {
+            format!("{name:?} cannot name a Rust module")
+        } else {
+            return;
+        };
+        let help = match suggested_name(name) {
+            Some(better) => format!("the generated module is called after the robot; write {better:?}"),
+            None => "the generated module is called after the robot: lower-case letters, digits and underscores, a letter first".to_owned(),
+        };
+        self.error(Place::Name, message, &help);
+    }
+
+    fn joint_name(&mut self, place: Place, name: &str) {
+        let length = name.chars().count();
+        if length == 0 || length > Robot::MAX_NAME || name.chars().any(char::is_control) {
+            self.error(
+                place,
+                format!(
+                    "a joint's name has 1 to {} characters, none of them a control character",
+                    Robot::MAX_NAME
+                ),
+                "leave the name out if the joint has none",
+            );
+        }
+    }
+
+    fn joint(&mut self, index: usize, joint: &Joint) {
+        let at = |field| Place::Joint(index, field);
+        // What the file calls offset is the constant part of the variable.
+        let (d, theta) = match joint.kind {
+            JointKind::Revolute => (Field::D, Field::Offset),
+            JointKind::Prismatic => (Field::Offset, Field::Theta),
+        };
+        self.angle(at(Field::Alpha), &joint.alpha);
+        self.angle(at(theta), &joint.theta);
+        self.size(at(Field::A), &joint.a);
+        self.size(at(d), &joint.d);
+        for value in &joint.com {
+            self.size(at(Field::Com), value);
+        }
+        for value in joint.inertia.rows().iter().flatten() {
+            self.size(at(Field::Inertia), value);
+        }
+        self.not_negative(at(Field::Mass), "mass", &joint.mass);
+        self.not_negative(at(Field::Viscous), "viscous", &joint.viscous);
+        self.not_negative(at(Field::Armature), "armature", &joint.armature);
+        let limits = &joint.limits;
+        for (field, limit) in [
+            (Field::Velocity, &limits.velocity),
+            (Field::Acceleration, &limits.acceleration),
+            (Field::Torque, &limits.torque),
+        ] {
+            if let Some(limit) = limit {
+                self.not_negative(at(field), field.key(), limit);
+            }
+        }
+        if let Some(range) = &limits.position {
+            self.range(at(Field::Position), joint.kind, range);
+        }
+        self.body(at(Field::Inertia), joint);
+    }
+
+    fn size(&mut self, place: Place, value: &Rational) {
+        if !in_range(value) {
+            self.error(
+                place,
+                "a number too large or too small".to_owned(),
+                "zero, or a size from 1e-300 to 1e300",
+            );
+        }
+    }
+
+    fn angle(&mut self, place: Place, value: &Angle) {
+        let (Angle::PiTimes(value) | Angle::Radians(value)) = value;
+        self.size(place, value);
+    }
+
+    fn not_negative(&mut self, place: Place, what: &str, value: &Rational) {
+        self.size(place, value);
+        if value.is_negative() {
+            let help = match what {
+                "mass" => "a mass is zero or more, in kg",
+                "viscous" => "damping takes energy out: zero or more",
+                "armature" => "a rotor's inertia is zero or more",
+                _ => "a limit bounds the size, in both directions: zero or more",
+            };
+            self.error(place, format!("{what} is negative"), help);
+        }
+    }
+
+    fn range(&mut self, place: Place, kind: JointKind, range: &[Position; 2]) {
+        for position in range {
+            match position {
+                Position::Angle(angle) => self.angle(place, angle),
+                Position::Length(length) => self.size(place, length),
+            }
+        }
+        let order = match (kind, range) {
+            (JointKind::Revolute, [Position::Angle(low), Position::Angle(high)]) => {
+                low.cmp_value(high)
+            }
+            (JointKind::Prismatic, [Position::Length(low), Position::Length(high)]) => {
+                low.cmp(high)
+            }
+            _ => {
+                self.error(
+                    place,
+                    "the limits are not of the joint's kind".to_owned(),
+                    "angles for a revolute joint, lengths for a prismatic one",
+                );
+                return;
+            }
+        };
+        if order != Ordering::Less {
+            self.error(
+                place,
+                "the lowest position is not below the highest".to_owned(),
+                "write [lowest, highest]",
+            );
+        }
+    }
+
+    fn body(&mut self, place: Place, joint: &Joint) {
+        let Some(defect) = joint.inertia.defect(&joint.mass) else {
+            return;
+        };
+        let (message, help) = match defect {
+            Defect::NegativeMoment => (
+                "no body has this inertia: a principal moment is negative",
+                "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass; taken as it stands",
+            ),
+            Defect::Triangle => (
+                "no body has this inertia: one principal moment exceeds the sum of the other two",
+                "expected for a link whose other moments were left out; taken as it stands",
+            ),
+            Defect::Massless => (
+                "no body has this inertia: the mass is zero",
+                "expected for a link whose mass was left out; taken as it stands",
+            ),
+        };
+        // A missing mass that leaves the tensor a possible one is usual in
+        // published tables, and so is a broken one: either way only a warning.
+        self.push(Severity::Warning, place, message.to_owned(), help);
+    }
+}
+
+/// Words that cannot name a module, of all editions, reserved ones included.
+const KEYWORDS: [&str; 54] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "union", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "core", "std",
+];
+
+fn is_snake(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name
+            .chars()
+            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+}
+
+/// The nearest good name: `"UR-10 e"` gives `ur_10_e`.
+fn suggested_name(name: &str) -> Option<String> {
+    let mut better = String::new();
+    for c in name.chars() {
+        if c.is_ascii_alphanumeric() {
+            better.push(c.to_ascii_lowercase());
+        } else if !better.is_empty() && !better.ends_with('_') {
+            better.push('_');
+        }
+        if better.len() == Robot::MAX_NAME {
+            break;
+        }
+    }
+    let better = better.trim_end_matches('_');
+    let better = match better.chars().next()? {
+        '0'..='9' => format!("robot_{better}"),
+        _ if KEYWORDS.contains(&better) => format!("{better}_robot"),
+        _ => better.to_owned(),
+    };
+    (better.len() <= Robot::MAX_NAME).then_some(better)
+}
