@@ -1,35 +1,41 @@
-//! Every formulation in f64 against torques, D, h and c of an independent
-//! library.
+//! Every formulation in f64 against τ, D, h and c of an independent library.
 
 mod equations_support;
 
-use dalembert_model::equations::lagrange_euler;
-use dalembert_model::equations::newton_euler::table2::{self, Moment};
+use dalembert_model::equations::Formulation;
 use equations_support::{golden, normwise, positions};
 
+/// The bound of the golden states, normwise.
+const BOUND: f64 = 1e-12;
+
 #[test]
-fn quick() {
+fn golden_states() {
     for name in golden::ROBOTS {
         let (arm, states) = golden::read(name);
-        let mut worst = [0.0f64; 5];
-        for s in &states {
-            let at = arm.at(&positions(&arm, &s.q));
-            let t = table2::inverse_dynamics(&arm, &at, &s.qd, &s.qdd, Moment::RotateFirst, None);
-            let t2 = table2::inverse_dynamics(&arm, &at, &s.qd, &s.qdd, Moment::AsPrinted, None);
-            let h = lagrange_euler::velocity_terms(&lagrange_euler::christoffel(&arm, &at), &s.qd);
-            let d = lagrange_euler::inertia(&arm, &at).concat();
-            let c = lagrange_euler::gravity(&arm, &at);
-            let e = [
-                normwise(&t, &s.tau),
-                normwise(&t2, &s.tau),
-                normwise(&h, &s.h),
-                normwise(&d, &s.d),
-                normwise(&c, &s.c),
-            ];
-            for (w, e) in worst.iter_mut().zip(e) {
-                *w = w.max(e);
+        for formulation in Formulation::ALL {
+            // Worst error of τ, D, h, c.
+            let mut worst = [0.0f64; 4];
+            for state in &states {
+                let at = arm.at(&positions(&arm, &state.q));
+                let tau = formulation.inverse_dynamics(&arm, &at, &state.qd, &state.qdd);
+                let d = formulation.inertia(&arm, &at).concat();
+                let h = formulation.velocity_terms(&arm, &at, &state.qd);
+                let c = formulation.gravity(&arm, &at);
+                let errors = [
+                    normwise(&tau, &state.tau),
+                    normwise(&d, &state.d),
+                    normwise(&h, &state.h),
+                    normwise(&c, &state.c),
+                ];
+                for (worst, error) in worst.iter_mut().zip(errors) {
+                    *worst = worst.max(error);
+                }
             }
+            println!("{name} {formulation:?}: {worst:?}");
+            assert!(
+                worst.iter().all(|e| *e <= BOUND),
+                "{name} {formulation:?}: {worst:?}"
+            );
         }
-        println!("{name}: {worst:?}");
     }
 }

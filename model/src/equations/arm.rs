@@ -128,12 +128,7 @@ impl<S: Scalar> Link<S> {
     }
 
     /// ⁱR_{i−1} v: components from frame i−1 into frame i.
-    pub fn into_link(
-        &self,
-        convention: Convention,
-        at: &DhVariables<S>,
-        v: &Vector<S>,
-    ) -> Vector<S> {
+    pub fn to_link(&self, convention: Convention, at: &DhVariables<S>, v: &Vector<S>) -> Vector<S> {
         match convention {
             Convention::Standard => turn_back_x(&self.alpha, turn_back_z(&at.theta, v.clone())),
             Convention::Modified => turn_back_z(&at.theta, turn_back_x(&self.alpha, v.clone())),
@@ -141,7 +136,7 @@ impl<S: Scalar> Link<S> {
     }
 
     /// ⁱ⁻¹R_i v: components from frame i into frame i−1.
-    pub fn into_previous(
+    pub fn to_previous(
         &self,
         convention: Convention,
         at: &DhVariables<S>,

@@ -11,8 +11,8 @@
 use alloc::vec::Vec;
 
 use super::matrix::{
-    Columns, Vector, dot, halved, minus, negative, plus, scaled, sum, times, twice, zero_vector,
-    zeros,
+    Columns, Vector, dot, halved, minus, negative, plus, scaled, sum, symmetric, times, total,
+    twice, zero_vector,
 };
 use super::{Arm, DhVariables, Link};
 use crate::robot::Convention;
@@ -69,16 +69,10 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     /// D_ik = Σ_{j ≥ max(i,k)} Tr(U_jk J_j U_jiᵀ), n×n, armature on the diagonal.
     pub fn inertia(&self) -> Vec<Vec<S>> {
         let n = self.arm.links.len();
-        let mut d: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
-        for i in 0..n {
-            for k in 0..=i {
-                let traces = (i..n).map(|j| self.u[j][k].trace_with(&self.uj[j][i]));
-                let entry = traces.fold(S::zero(), |total, trace| plus(&total, &trace));
-                d[k][i] = entry.clone();
-                d[i][k] = entry;
-            }
-            d[i][i] = plus(&d[i][i], &self.arm.links[i].armature);
-        }
+        let mut d = symmetric(n, |i, k| {
+            total((i..n).map(|j| self.u[j][k].trace_with(&self.uj[j][i])))
+        });
+        add_armature(self.arm, &mut d);
         d
     }
 
@@ -87,18 +81,12 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.arm.links.len();
         let second = self.second_derivatives();
-        let mut h: Vec<Vec<Vec<S>>> = (0..n).map(|_| (0..n).map(|_| zeros(n)).collect()).collect();
-        for (i, h) in h.iter_mut().enumerate() {
-            for m in 0..n {
-                for k in 0..=m {
-                    let traces = (i.max(m)..n).map(|j| second[j][m][k].trace_with(&self.uj[j][i]));
-                    let entry = traces.fold(S::zero(), |total, trace| plus(&total, &trace));
-                    h[m][k] = entry.clone();
-                    h[k][m] = entry;
-                }
-            }
-        }
-        h
+        let entry = |i: usize, m: usize, k: usize| {
+            total((i.max(m)..n).map(|j| second[j][m][k].trace_with(&self.uj[j][i])))
+        };
+        (0..n)
+            .map(|i| symmetric(n, |m, k| entry(i, m, k)))
+            .collect()
     }
 
     /// c_i = Σ_{j ≥ i} −m_j g U_ji s̃_j: what holds the arm against gravity.
@@ -108,7 +96,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             .map(|i| {
                 // The column of U_ji J_j that belongs to m_j s̃_j is U_ji m_j s̃_j.
                 let moments = (i..n).map(|j| &self.uj[j][i].origin);
-                let total = moments.fold(zero_vector(), |total, moment| sum(&total, moment));
+                let total = moments.fold(zero_vector(), |total, term| sum(&total, term));
                 negative(&dot(&self.arm.gravity, &total))
             })
             .collect()
@@ -223,13 +211,9 @@ pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
             rates.push((k, m, times(&qd[k], second)));
         }
     }
-    h.iter()
-        .map(|h| {
-            rates.iter().fold(S::zero(), |total, (k, m, rate)| {
-                plus(&total, &times(&h[*k][*m], rate))
-            })
-        })
-        .collect()
+    let of_joint =
+        |h: &Vec<Vec<S>>| total(rates.iter().map(|(k, m, rate)| times(&h[*k][*m], rate)));
+    h.iter().map(of_joint).collect()
 }
 
 /// τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 2.3).
@@ -255,13 +239,17 @@ pub(super) fn assemble<S: Scalar>(
 ) -> Vec<S> {
     (0..arm.links.len())
         .map(|i| {
-            let inertial = d[i]
-                .iter()
-                .zip(qdd)
-                .fold(S::zero(), |total, (d, qdd)| plus(&total, &times(d, qdd)));
+            let inertial = total(d[i].iter().zip(qdd).map(|(d, qdd)| times(d, qdd)));
             let passive = plus(&h[i], &c[i]);
             let damping = times(&arm.links[i].viscous, &qd[i]);
             plus(&plus(&inertial, &passive), &damping)
         })
         .collect()
+}
+
+/// Adds the rotor inertias to the diagonal of D.
+pub(super) fn add_armature<S: Scalar>(arm: &Arm<S>, d: &mut [Vec<S>]) {
+    for (i, (row, link)) in d.iter_mut().zip(&arm.links).enumerate() {
+        row[i] = plus(&row[i], &link.armature);
+    }
 }

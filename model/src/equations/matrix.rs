@@ -76,6 +76,20 @@ pub fn zeros<S: Scalar>(n: usize) -> Vec<S> {
     (0..n).map(|_| S::zero()).collect()
 }
 
+/// The sum of terms, the first two first.
+pub fn total<S: Scalar>(terms: impl Iterator<Item = S>) -> S {
+    terms.fold(S::zero(), |total, term| plus(&total, &term))
+}
+
+/// A full n×n matrix from its lower half: each entry (i, k), k ≤ i, is made
+/// once and cloned to (k, i).
+pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+    let row = |i: usize| (0..=i).map(|k| entry(i, k)).collect();
+    let lower: Vec<Vec<S>> = (0..n).map(row).collect();
+    let row = |i: usize| (0..n).map(|k| lower[i.max(k)][i.min(k)].clone()).collect();
+    (0..n).map(row).collect()
+}
+
 /// a + b
 pub fn sum<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|i| plus(&a[i], &b[i]))

@@ -5,6 +5,9 @@
 //! | [`arm`](Arm) | the DH matrices ⁱ⁻¹A_i, eq. 2.1, both conventions |
 //! | [`lagrange_euler`] | U_ij, U_ijk, J_i, D_ik, h_ikm, c_i, eqs. 2.2–2.15 |
 //! | [`newton_euler`] | the recursions, Table 1 (base axes) and Table 2 (link axes) |
+//! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
+//! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
+//! | [`Formulation`] | every output from every formulation, by name |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i in every form: armature is part of
@@ -17,8 +20,13 @@
 //! [`Scalar`]: crate::scalar::Scalar
 
 mod arm;
+pub mod dalembert;
+mod formulation;
+mod from_robot;
+pub mod from_torques;
 pub mod lagrange_euler;
 pub mod matrix;
 pub mod newton_euler;
 
 pub use arm::{Arm, DhVariables, JointPosition, Link, Rotor};
+pub use formulation::Formulation;

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod golden;
+pub mod random;
 
 use dalembert_model::equations::{Arm, JointPosition, Rotor};
 use dalembert_model::robot::JointKind;

@@ -10,7 +10,7 @@ pub mod table1;
 pub mod table2;
 
 use super::Link;
-use super::matrix::{Vector, cross, plus, scaled, sum, tensor_times, times};
+use super::matrix::{Vector, plus, scaled, times};
 use crate::scalar::Scalar;
 
 /// What the hand exerts on its environment, about the origin of frame n:
@@ -23,15 +23,9 @@ pub struct Wrench<S> {
     pub moment: Vector<S>,
 }
 
-/// F_i = m_i a_i and N_i = I ω̇_i + ω_i × (I ω_i) of one link, in any axes.
+/// F_i = m_i a_i, in any axes.
 fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
     scaled(&link.mass, acceleration)
-}
-
-/// N = I ω̇ + ω × (I ω), in the axes of the link.
-fn euler<S: Scalar>(link: &Link<S>, omega: &Vector<S>, omega_dot: &Vector<S>) -> Vector<S> {
-    let spin = cross(omega, &tensor_times(&link.inertia, omega));
-    sum(&tensor_times(&link.inertia, omega_dot), &spin)
 }
 
 /// What the drive adds to the torque of the chain: b_i q̇_i and the armature's

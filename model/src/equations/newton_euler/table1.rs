@@ -1,1 +1,166 @@
 //! Table 1: every vector in base axes.
+
+use alloc::vec::Vec;
+
+use super::{Wrench, newton, with_drive};
+use crate::equations::matrix::{
+    Columns, Vector, centripetal, cross, dot, opposite, scaled, sum, tensor_times, twice,
+    zero_vector,
+};
+use crate::equations::{Arm, DhVariables, Link};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// One link in base axes.
+struct Body<S> {
+    /// ⁰R_i
+    rotation: [Vector<S>; 3],
+    /// The joint's axis: z_{i−1}, or z_i in modified DH.
+    axis: Vector<S>,
+    /// p_i* = p_i − p_{i−1}
+    lever: Vector<S>,
+    /// s̄_i
+    com: Vector<S>,
+    omega: Vector<S>,
+    omega_dot: Vector<S>,
+    /// v̇ of the origin of frame i.
+    acceleration: Vector<S>,
+}
+
+/// τ by the recursion of Table 1.
+///
+/// `tip` is in base axes.
+pub fn inverse_dynamics<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+    tip: Option<&Wrench<S>>,
+) -> Vec<S> {
+    let bodies = bodies(arm, at, qd, qdd);
+    let n = bodies.len();
+    let mut torques = Vec::with_capacity(n);
+    let [mut force, mut torque] = match tip {
+        Some(tip) => [tip.force.clone(), tip.moment.clone()],
+        None => [zero_vector(), zero_vector()],
+    };
+    for (i, (body, link)) in bodies.iter().zip(&arm.links).enumerate().rev() {
+        let of_com = sum(
+            &cross(&body.omega_dot, &body.com),
+            &centripetal(&body.omega, &body.com),
+        );
+        let inertial_force = newton(link, &sum(&body.acceleration, &of_com));
+        let inertial_moment = body.euler(link);
+
+        // The lever of f_{i+1}, and that of F_i, from the point the moment is
+        // taken about.
+        let [lever, centre] = match arm.convention {
+            Convention::Standard => [body.lever.clone(), sum(&body.lever, &body.com)],
+            Convention::Modified => {
+                let next = bodies.get(i + 1).map(|next| next.lever.clone());
+                [next.unwrap_or_else(zero_vector), body.com.clone()]
+            }
+        };
+        let carried = sum(&torque, &cross(&lever, &force));
+        torque = sum(
+            &sum(&carried, &cross(&centre, &inertial_force)),
+            &inertial_moment,
+        );
+        force = sum(&inertial_force, &force);
+
+        let load = match link.kind {
+            JointKind::Revolute => &torque,
+            JointKind::Prismatic => &force,
+        };
+        let along = dot(load, &body.axis);
+        torques.push(with_drive(link, &along, &qd[i], &qdd[i]));
+    }
+    torques.reverse();
+    torques
+}
+
+/// Every link in base axes, from the base to the hand.
+fn bodies<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Body<S>> {
+    let mut bodies: Vec<Body<S>> = Vec::with_capacity(arm.links.len());
+    let base = Body {
+        rotation: Columns::identity().axes,
+        axis: zero_vector(),
+        lever: zero_vector(),
+        com: zero_vector(),
+        omega: zero_vector(),
+        omega_dot: zero_vector(),
+        acceleration: opposite(&arm.gravity),
+    };
+    for (i, link) in arm.links.iter().enumerate() {
+        let before = bodies.last().unwrap_or(&base);
+        // Without the origin of frame i−1 the step's own origin is p_i*: no
+        // difference of two large positions.
+        let from_before = Columns {
+            axes: before.rotation.clone(),
+            origin: zero_vector(),
+        };
+        let frame = link.append(arm.convention, &at[i], &from_before);
+        let axis = match arm.convention {
+            Convention::Standard => before.rotation[2].clone(),
+            Convention::Modified => frame.axes[2].clone(),
+        };
+        let body = Body {
+            com: frame.rotate(&link.com),
+            rotation: frame.axes,
+            lever: frame.origin,
+            axis,
+            omega: before.omega.clone(),
+            omega_dot: before.omega_dot.clone(),
+            acceleration: zero_vector(),
+        };
+        bodies.push(body.moved(arm.convention, link.kind, before, &qd[i], &qdd[i]));
+    }
+    bodies
+}
+
+impl<S: Scalar> Body<S> {
+    /// ω_i, ω̇_i and v̇_i from those of the link before.
+    fn moved(
+        mut self,
+        convention: Convention,
+        kind: JointKind,
+        before: &Self,
+        qd: &S,
+        qdd: &S,
+    ) -> Self {
+        let rate = scaled(qd, &self.axis);
+        if kind == JointKind::Revolute {
+            self.omega = sum(&before.omega, &rate);
+            let turning = sum(&scaled(qdd, &self.axis), &cross(&before.omega, &rate));
+            self.omega_dot = sum(&before.omega_dot, &turning);
+        }
+        // The lever p_i* belongs to link i, or to link i−1 in modified DH.
+        let (omega, omega_dot) = match convention {
+            Convention::Standard => (&self.omega, &self.omega_dot),
+            Convention::Modified => (&before.omega, &before.omega_dot),
+        };
+        let of_lever = sum(
+            &cross(omega_dot, &self.lever),
+            &centripetal(omega, &self.lever),
+        );
+        self.acceleration = sum(&before.acceleration, &of_lever);
+        if kind == JointKind::Prismatic {
+            let coriolis = cross(&self.omega, &scaled(&twice(qd), &self.axis));
+            let sliding = sum(&scaled(qdd, &self.axis), &coriolis);
+            self.acceleration = sum(&self.acceleration, &sliding);
+        }
+        self
+    }
+
+    /// N_i = I ω̇_i + ω_i × (I ω_i) with I = ⁰R_i I_i ⁱR_0.
+    fn euler(&self, link: &Link<S>) -> Vector<S> {
+        let frame = Columns {
+            axes: self.rotation.clone(),
+            origin: zero_vector(),
+        };
+        let tensor =
+            |v: &Vector<S>| frame.rotate(&tensor_times(&link.inertia, &frame.rotate_back(v)));
+        let spin = cross(&self.omega, &tensor(&self.omega));
+        sum(&tensor(&self.omega_dot), &spin)
+    }
+}

@@ -3,10 +3,10 @@
 
 use alloc::vec::Vec;
 
-use super::{Wrench, euler, newton, with_drive};
+use super::{Wrench, newton, with_drive};
 use crate::equations::matrix::{
-    Vector, centripetal, cross, cross_z, dot, negative, opposite, plus, scaled, sum, times, twice,
-    zero_vector,
+    Vector, centripetal, cross, cross_z, dot, negative, opposite, plus, scaled, sum, tensor_times,
+    times, twice, zero_vector,
 };
 use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::{Convention, JointKind};
@@ -30,6 +30,14 @@ struct Motion<S> {
     omega_dot: Vector<S>,
     /// v̇ of the origin of frame i.
     acceleration: Vector<S>,
+}
+
+impl<S: Scalar> Motion<S> {
+    /// N_i = I_i ω̇_i + ω_i × (I_i ω_i)
+    fn euler(&self, link: &Link<S>) -> Vector<S> {
+        let spin = cross(&self.omega, &tensor_times(&link.inertia, &self.omega));
+        sum(&tensor_times(&link.inertia, &self.omega_dot), &spin)
+    }
 }
 
 /// τ by the recursion of Table 2.
@@ -56,7 +64,7 @@ pub fn inverse_dynamics<S: Scalar>(
         // The step to the next link; ⁿR_{n+1} = 1.
         let next = (i + 1 < n).then(|| Step::new(arm, at, i + 1));
         let force_here = match &next {
-            Some(next) => next.into_previous(&force),
+            Some(next) => next.to_previous(&force),
             None => force.clone(),
         };
         let centre = sum(
@@ -67,18 +75,18 @@ pub fn inverse_dynamics<S: Scalar>(
             ),
         );
         let inertial_force = newton(link, &centre);
-        let inertial_moment = euler(link, &motion.omega, &motion.omega_dot);
+        let inertial_moment = motion.euler(link);
 
         let (carried, arm_of_centre) = match arm.convention {
             Convention::Standard => {
                 let lever = link.lever_here(&at[i].d);
                 let carried = match (&next, moment) {
                     (Some(next), Moment::AsPrinted) => {
-                        let moment = cross(&next.into_link(&lever), &force);
-                        next.into_previous(&sum(&torque, &moment))
+                        let moment = cross(&next.to_link(&lever), &force);
+                        next.to_previous(&sum(&torque, &moment))
                     }
                     (Some(next), Moment::RotateFirst) => {
-                        sum(&next.into_previous(&torque), &cross(&lever, &force_here))
+                        sum(&next.to_previous(&torque), &cross(&lever, &force_here))
                     }
                     (None, _) => sum(&torque, &cross(&lever, &force_here)),
                 };
@@ -87,7 +95,7 @@ pub fn inverse_dynamics<S: Scalar>(
             Convention::Modified => {
                 let carried = match &next {
                     Some(next) => sum(
-                        &next.into_previous(&torque),
+                        &next.to_previous(&torque),
                         &cross(&next.lever_before(), &force_here),
                     ),
                     None => torque.clone(),
@@ -143,10 +151,10 @@ fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> M
     };
     match step.link.kind {
         JointKind::Revolute => {
-            let omega = step.into_link(&plus_z(&before.omega, qd));
+            let omega = step.to_link(&plus_z(&before.omega, qd));
             let turning = plus_z(&cross_z(&before.omega, qd), qdd);
-            let omega_dot = step.into_link(&sum(&before.omega_dot, &turning));
-            let acceleration = step.into_link(&before.acceleration);
+            let omega_dot = step.to_link(&sum(&before.omega_dot, &turning));
+            let acceleration = step.to_link(&before.acceleration);
             let acceleration = sum(&acceleration, &of_lever(&omega, &omega_dot));
             Motion {
                 omega,
@@ -155,9 +163,9 @@ fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> M
             }
         }
         JointKind::Prismatic => {
-            let omega = step.into_link(&before.omega);
-            let omega_dot = step.into_link(&before.omega_dot);
-            let sliding = step.into_link(&plus_z(&before.acceleration, qdd));
+            let omega = step.to_link(&before.omega);
+            let omega_dot = step.to_link(&before.omega_dot);
+            let sliding = step.to_link(&plus_z(&before.acceleration, qdd));
             let along = scaled(&twice(qd), &step.link.axis_here());
             let coriolis = cross(&omega, &along);
             let acceleration = sum(&sliding, &of_lever(&omega, &omega_dot));
@@ -179,9 +187,9 @@ fn modified<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> M
         &cross(&before.omega_dot, &lever),
         &centripetal(&before.omega, &lever),
     );
-    let carried = step.into_link(&sum(&before.acceleration, &of_lever));
-    let omega = step.into_link(&before.omega);
-    let omega_dot = step.into_link(&before.omega_dot);
+    let carried = step.to_link(&sum(&before.acceleration, &of_lever));
+    let omega = step.to_link(&before.omega);
+    let omega_dot = step.to_link(&before.omega_dot);
     match step.link.kind {
         JointKind::Revolute => Motion {
             omega_dot: sum(&omega_dot, &plus_z(&cross_z(&omega, qd), qdd)),
@@ -221,13 +229,13 @@ impl<'a, S: Scalar> Step<'a, S> {
     }
 
     /// X v = ⁱR_{i−1} v
-    fn into_link(&self, v: &Vector<S>) -> Vector<S> {
-        self.link.into_link(self.convention, self.at, v)
+    fn to_link(&self, v: &Vector<S>) -> Vector<S> {
+        self.link.to_link(self.convention, self.at, v)
     }
 
     /// ⁱ⁻¹R_i v
-    fn into_previous(&self, v: &Vector<S>) -> Vector<S> {
-        self.link.into_previous(self.convention, self.at, v)
+    fn to_previous(&self, v: &Vector<S>) -> Vector<S> {
+        self.link.to_previous(self.convention, self.at, v)
     }
 
     /// P_i = (a_i, −d_i sin α_i, d_i cos α_i) in frame i−1 (modified DH).

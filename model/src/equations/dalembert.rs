@@ -1,0 +1,270 @@
+//! Generalized D'Alembert, eqs. 4.1–4.5: closed forms with the rotation and
+//! the translation of every link apart.
+//!
+//! The paper treats rotary joints; the prismatic terms follow in the same way.
+//! All vectors are in base axes but those that meet an inertia tensor, which
+//! are in the axes of its link.
+
+use alloc::vec::Vec;
+
+use super::lagrange_euler::{add_armature, assemble};
+use super::matrix::{
+    Columns, Vector, centripetal, cross, difference, dot, negative, plus, scaled, sum, symmetric,
+    tensor_times, times, total, twice, zero_vector,
+};
+use super::newton_euler::Wrench;
+use super::{Arm, DhVariables};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// A quantity as the sum of what the links' rotation and translation give.
+#[derive(Clone, Debug)]
+pub struct Split<T> {
+    /// Through I_s and the links' angular velocities.
+    pub rotation: T,
+    /// Through m_s and the velocities of the centres of mass.
+    pub translation: T,
+}
+
+/// Axes, levers and Jacobians at one position, which all terms share.
+#[derive(Clone, Debug)]
+pub struct Dalembert<'a, S> {
+    arm: &'a Arm<S>,
+    /// ⁰A_s for s = 0 … n.
+    poses: Vec<Columns<S>>,
+    /// The axis of joint i in base axes: z_{i−1}, or z_i in modified DH.
+    axes: Vec<Vector<S>>,
+    /// A point of that axis: p_{i−1}, or p_i in modified DH.
+    points: Vec<Vector<S>>,
+    /// p_s* = p_s − p_{s−1}
+    levers: Vec<Vector<S>>,
+    /// s̄_s in base axes.
+    coms: Vec<Vector<S>>,
+    /// `local[s][i]` = ˢR_0 Jω_{s,i}, i ≤ s: the axis of a rotary joint i in
+    /// frame s, zero for a prismatic one.
+    local: Vec<Vec<Vector<S>>>,
+    /// `momentum[s][i]` = m_s Jv_{s,i}, i ≤ s.
+    momentum: Vec<Vec<Vector<S>>>,
+    /// `jv[s][i]` = Jv_{s,i}, i ≤ s.
+    jv: Vec<Vec<Vector<S>>>,
+}
+
+impl<'a, S: Scalar> Dalembert<'a, S> {
+    /// The shared quantities at a position.
+    pub fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>]) -> Self {
+        let n = arm.links.len();
+        let mut this = Dalembert {
+            arm,
+            poses: Vec::with_capacity(n + 1),
+            axes: Vec::with_capacity(n),
+            points: Vec::with_capacity(n),
+            levers: Vec::with_capacity(n),
+            coms: Vec::with_capacity(n),
+            local: Vec::with_capacity(n),
+            momentum: Vec::with_capacity(n),
+            jv: Vec::with_capacity(n),
+        };
+        this.poses.push(Columns::identity());
+        for (s, at) in at.iter().enumerate() {
+            this.append(s, at);
+        }
+        this
+    }
+
+    fn append(&mut self, s: usize, at: &DhVariables<S>) {
+        let (link, convention) = (&self.arm.links[s], self.arm.convention);
+        let before = &self.poses[s];
+        let from_before = Columns {
+            axes: before.axes.clone(),
+            origin: zero_vector(),
+        };
+        let step = link.append(convention, at, &from_before);
+        let pose = Columns {
+            origin: sum(&before.origin, &step.origin),
+            axes: step.axes,
+        };
+        let joint = match convention {
+            Convention::Standard => before,
+            Convention::Modified => &pose,
+        };
+        self.axes.push(joint.axes[2].clone());
+        self.points.push(joint.origin.clone());
+        self.levers.push(step.origin);
+        let com = pose.rotate(&link.com);
+
+        let z0 = [S::zero(), S::zero(), S::one()];
+        let mut local: Vec<_> = match s {
+            0 => Vec::new(),
+            _ => self.local[s - 1]
+                .iter()
+                .map(|z| link.to_link(convention, at, z))
+                .collect(),
+        };
+        local.push(match (link.kind, convention) {
+            (JointKind::Prismatic, _) => zero_vector(),
+            (JointKind::Revolute, Convention::Standard) => link.to_link(convention, at, &z0),
+            (JointKind::Revolute, Convention::Modified) => z0,
+        });
+        // r_s, then Jv_{s,i} = z × (r_s − p), or z for a prismatic joint.
+        let centre = sum(&pose.origin, &com);
+        let jv: Vec<_> = (0..=s)
+            .map(|i| match self.arm.links[i].kind {
+                JointKind::Revolute => cross(&self.axes[i], &difference(&centre, &self.points[i])),
+                JointKind::Prismatic => self.axes[i].clone(),
+            })
+            .collect();
+        self.momentum
+            .push(jv.iter().map(|v| scaled(&link.mass, v)).collect());
+        self.jv.push(jv);
+        self.local.push(local);
+        self.coms.push(com);
+        self.poses.push(pose);
+    }
+
+    /// D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and
+    /// D^tran_ij = Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j), n×n (eq. 4.2),
+    /// without the armature.
+    pub fn inertia_parts(&self) -> Split<Vec<Vec<S>>> {
+        let spins: Vec<Vec<_>> = self
+            .local
+            .iter()
+            .zip(&self.arm.links)
+            .map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect())
+            .collect();
+        Split {
+            rotation: pair_sums(&self.local, &spins),
+            translation: pair_sums(&self.jv, &self.momentum),
+        }
+    }
+
+    /// D = D^rot + D^tran, n×n, armature on the diagonal.
+    pub fn inertia(&self) -> Vec<Vec<S>> {
+        let parts = self.inertia_parts();
+        let rows = parts.rotation.iter().zip(&parts.translation);
+        let mut d: Vec<Vec<S>> = rows.map(|(a, b)| sums(a, b)).collect();
+        add_armature(self.arm, &mut d);
+        d
+    }
+
+    /// h^rot and h^tran (eqs. 4.3, 4.4), each of length n.
+    pub fn velocity_parts(&self, qd: &[S]) -> Split<Vec<S>> {
+        let n = self.axes.len();
+        // What link s adds to every joint before it: the moment
+        // I_s ˢR_0 α_s + ˢR_0 ω_s × (I_s ˢR_0 ω_s), where α_s is the printed
+        // sum of q̇_j q̇_k z_{j−1} × z_{k−1} and (z × ω)·Iω = z·(ω × Iω); and a_s.
+        let mut moments = Vec::with_capacity(n);
+        let mut accelerations = Vec::with_capacity(n);
+        let [mut omega, mut alpha] = [zero_vector(), zero_vector()];
+        // The part of a_s up to the origin of frame s−1.
+        let mut carried = zero_vector();
+        for (s, link) in self.arm.links.iter().enumerate() {
+            let [omega_before, alpha_before] = [omega.clone(), alpha.clone()];
+            let rate = scaled(&qd[s], &self.axes[s]);
+            if link.kind == JointKind::Revolute {
+                alpha = sum(&alpha, &cross(&omega, &rate));
+                omega = sum(&omega, &rate);
+            } else {
+                let sliding = scaled(&twice(&qd[s]), &self.axes[s]);
+                carried = sum(&carried, &cross(&omega, &sliding));
+            }
+            let of = |omega: &Vector<S>, alpha: &Vector<S>, v: &Vector<S>| {
+                sum(&centripetal(omega, v), &cross(alpha, v))
+            };
+            let lever = &self.levers[s];
+            let acceleration = match self.arm.convention {
+                Convention::Standard => {
+                    // c̄_s = r_s − p_{s−1}
+                    let centre = sum(lever, &self.coms[s]);
+                    let acceleration = sum(&carried, &of(&omega, &alpha, &centre));
+                    if s + 1 < n {
+                        carried = sum(&carried, &of(&omega, &alpha, lever));
+                    }
+                    acceleration
+                }
+                Convention::Modified => {
+                    carried = sum(&carried, &of(&omega_before, &alpha_before, lever));
+                    sum(&carried, &of(&omega, &alpha, &self.coms[s]))
+                }
+            };
+            accelerations.push(acceleration);
+
+            let pose = &self.poses[s + 1];
+            let [omega_here, alpha_here] = [pose.rotate_back(&omega), pose.rotate_back(&alpha)];
+            let spin = cross(&omega_here, &tensor_times(&link.inertia, &omega_here));
+            moments.push(sum(&tensor_times(&link.inertia, &alpha_here), &spin));
+        }
+        Split {
+            rotation: joint_sums(&self.local, &moments),
+            translation: joint_sums(&self.momentum, &accelerations),
+        }
+    }
+
+    /// h = h^rot + h^tran.
+    pub fn velocity_terms(&self, qd: &[S]) -> Vec<S> {
+        let parts = self.velocity_parts(qd);
+        sums(&parts.rotation, &parts.translation)
+    }
+
+    /// c_i = −g·[z_{i−1} × Σ_{j≥i} m_j (r_j − p_{i−1})] for a rotary joint,
+    /// −(g·z_{i−1}) Σ_{j≥i} m_j for a prismatic one (eq. 4.5).
+    pub fn gravity(&self) -> Vec<S> {
+        let n = self.axes.len();
+        let of = |i: usize| match self.arm.links[i].kind {
+            JointKind::Revolute => {
+                let moments = (i..n).map(|j| &self.momentum[j][i]);
+                let moment = moments.fold(zero_vector(), |total, term| sum(&total, term));
+                negative(&dot(&self.arm.gravity, &moment))
+            }
+            JointKind::Prismatic => {
+                let mass = total(self.arm.links[i..].iter().map(|link| link.mass.clone()));
+                negative(&times(&dot(&self.arm.gravity, &self.axes[i]), &mass))
+            }
+        };
+        (0..n).map(of).collect()
+    }
+
+    /// J_nᵀ (f, n): the torques that hold a wrench at the origin of frame n,
+    /// in base axes.
+    pub fn tip_torques(&self, tip: &Wrench<S>) -> Vec<S> {
+        let hand = &self.poses[self.axes.len()].origin;
+        let joints = self
+            .arm
+            .links
+            .iter()
+            .zip(self.axes.iter().zip(&self.points));
+        joints
+            .map(|(link, (axis, point))| match link.kind {
+                JointKind::Revolute => {
+                    let moment = cross(&difference(hand, point), &tip.force);
+                    dot(axis, &sum(&tip.moment, &moment))
+                }
+                JointKind::Prismatic => dot(axis, &tip.force),
+            })
+            .collect()
+    }
+
+    /// τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 4.1).
+    pub fn inverse_dynamics(&self, qd: &[S], qdd: &[S]) -> Vec<S> {
+        let [h, c] = [self.velocity_terms(qd), self.gravity()];
+        assemble(self.arm, &self.inertia(), &h, &c, qd, qdd)
+    }
+}
+
+/// [i][j] = Σ_{s ≥ max(i,j)} a[s][i] · b[s][j], symmetric by its meaning: the
+/// lower half is summed, the upper cloned.
+fn pair_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vec<Vector<S>>]) -> Vec<Vec<S>> {
+    let n = a.len();
+    symmetric(n, |i, j| total((i..n).map(|s| dot(&a[s][i], &b[s][j]))))
+}
+
+/// [i] = Σ_{s ≥ i} a[s][i] · b[s]
+fn joint_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vector<S>]) -> Vec<S> {
+    let n = b.len();
+    let of_joint = |i: usize| total((i..n).map(|s| dot(&a[s][i], &b[s])));
+    (0..n).map(of_joint).collect()
+}
+
+/// a + b, entry by entry.
+fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
+    a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
+}

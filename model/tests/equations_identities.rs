@@ -1,0 +1,167 @@
+//! Identities that hold for every arm, checked exactly in the prime field.
+//!
+//! Equality at a random point means equality of the rational functions but for
+//! a chance of about 1e-16 each.
+
+mod equations_support;
+
+use dalembert_model::equations::Formulation;
+use dalembert_model::equations::dalembert::Dalembert;
+use dalembert_model::equations::lagrange_euler::velocity_terms;
+use dalembert_model::equations::newton_euler::{Wrench, table1, table2};
+use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::{Field, Points};
+use equations_support::random::{Case, case, kinds, triple};
+
+const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
+
+/// Every kind pattern up to four joints, then random patterns up to eight.
+fn cases() -> Vec<Case> {
+    let mut points = Points::new(20);
+    let mut cases = Vec::new();
+    for convention in CONVENTIONS {
+        for n in 1..=4 {
+            for bits in 0..1 << n {
+                cases.push(case(convention, &kinds(n, bits), &mut points));
+            }
+        }
+        for n in 5..=8 {
+            for _ in 0..3 {
+                let bits = points.bits() as u32 & points.bits() as u32;
+                cases.push(case(convention, &kinds(n, bits), &mut points));
+            }
+            cases.push(case(convention, &kinds(n, 0), &mut points));
+        }
+    }
+    cases
+}
+
+#[test]
+fn formulations_agree() {
+    for case in cases() {
+        let Case { arm, at, qd, qdd } = &case;
+        let truth = Formulation::LagrangeEuler;
+        let tau = truth.inverse_dynamics(arm, at, qd, qdd);
+        let d = truth.inertia(arm, at);
+        let c = truth.gravity(arm, at);
+        let coefficients = truth.christoffel(arm, at);
+        let h = velocity_terms(&coefficients, qd);
+        for formulation in Formulation::ALL {
+            let at_case = || format!("{formulation:?} {:?} {}", arm.convention, arm.links.len());
+            assert_eq!(
+                formulation.inverse_dynamics(arm, at, qd, qdd),
+                tau,
+                "{}",
+                at_case()
+            );
+            assert_eq!(formulation.inertia(arm, at), d, "{}", at_case());
+            assert_eq!(formulation.gravity(arm, at), c, "{}", at_case());
+            assert_eq!(formulation.velocity_terms(arm, at, qd), h, "{}", at_case());
+            assert_eq!(
+                formulation.christoffel(arm, at),
+                coefficients,
+                "{}",
+                at_case()
+            );
+        }
+    }
+}
+
+#[test]
+fn tip_wrenches_agree() {
+    let mut points = Points::new(21);
+    for case in cases() {
+        let Case { arm, at, qd, qdd } = &case;
+        let base = Wrench {
+            force: triple(&mut points),
+            moment: triple(&mut points),
+        };
+        // Its components in frame n.
+        let into_hand = |v: &[Field; 3]| {
+            let links = arm.links.iter().zip(at);
+            links.fold(*v, |v, (link, at)| link.to_link(arm.convention, at, &v))
+        };
+        let hand = Wrench {
+            force: into_hand(&base.force),
+            moment: into_hand(&base.moment),
+        };
+        let terms = Dalembert::new(arm, at);
+        let free = terms.inverse_dynamics(qd, qdd);
+        let held = terms.tip_torques(&base);
+        let tau: Vec<_> = free.iter().zip(&held).map(|(a, b)| a.add(b)).collect();
+        assert_eq!(table1::inverse_dynamics(arm, at, qd, qdd, Some(&base)), tau);
+        for moment in [table2::Moment::AsPrinted, table2::Moment::RotateFirst] {
+            assert_eq!(
+                table2::inverse_dynamics(arm, at, qd, qdd, moment, Some(&hand)),
+                tau
+            );
+        }
+    }
+}
+
+#[test]
+fn christoffel_symbols_obey_their_relations() {
+    for case in cases() {
+        let h = Formulation::LagrangeEuler.christoffel(&case.arm, &case.at);
+        let n = h.len();
+        let prismatic = |i: usize| case.arm.links[i].kind == JointKind::Prismatic;
+        for i in 0..n {
+            assert_eq!(h[i][i][i], Field::ZERO);
+            for k in 0..n {
+                for m in 0..n {
+                    assert_eq!(h[i][k][m], h[i][m][k]);
+                    if m <= i.min(k) {
+                        assert_eq!(h[i][k][m], h[k][i][m].neg());
+                    }
+                    if prismatic(k.min(m)) {
+                        assert_eq!(h[i][k][m], Field::ZERO);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn all_rotary_chains_have_as_many_symbols_as_counted() {
+    // n(n² − 1)/3 independent ones: that many are left up to sign.
+    let mut points = Points::new(22);
+    for convention in CONVENTIONS {
+        for n in 2..=6 {
+            let case = case(convention, &kinds(n, 0), &mut points);
+            let h = Formulation::LagrangeEuler.christoffel(&case.arm, &case.at);
+            let sizes = h
+                .concat()
+                .concat()
+                .into_iter()
+                .filter(|h| *h != Field::ZERO);
+            let mut sizes: Vec<_> = sizes.map(|h| h.min(h.neg())).collect();
+            sizes.sort();
+            sizes.dedup();
+            assert_eq!(sizes.len(), n * (n * n - 1) / 3);
+        }
+    }
+}
+
+#[test]
+fn inertia_is_free_of_the_first_joint() {
+    let mut points = Points::new(23);
+    for convention in CONVENTIONS {
+        for bits in 0..8 {
+            let mut case = case(convention, &kinds(3, bits), &mut points);
+            let d = Formulation::Dalembert.inertia(&case.arm, &case.at);
+            case.at[0] = match case.arm.links[0].kind {
+                JointKind::Revolute => dalembert_model::equations::DhVariables {
+                    theta: equations_support::random::pair(&mut points),
+                    ..case.at[0].clone()
+                },
+                JointKind::Prismatic => dalembert_model::equations::DhVariables {
+                    d: points.field(),
+                    ..case.at[0].clone()
+                },
+            };
+            assert_eq!(Formulation::Dalembert.inertia(&case.arm, &case.at), d);
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Random general arms in the prime field: every parameter its own residue, so
+//! that no slip can hide behind a zero or a right angle.
+
+use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, Rotor};
+use dalembert_model::robot::{Convention, Inertia, JointKind};
+use dalembert_model::scalar::field::{Field, Points};
+
+/// An arm and one state of it.
+pub struct Case {
+    pub arm: Arm<Field>,
+    pub at: Vec<DhVariables<Field>>,
+    pub qd: Vec<Field>,
+    pub qdd: Vec<Field>,
+}
+
+/// The joint kinds of bit pattern `bits`, 1 for prismatic.
+pub fn kinds(n: usize, bits: u32) -> Vec<JointKind> {
+    let kind = |i| match bits >> i & 1 {
+        0 => JointKind::Revolute,
+        _ => JointKind::Prismatic,
+    };
+    (0..n).map(kind).collect()
+}
+
+/// A general arm of the kinds given, at a general state.
+pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) -> Case {
+    let arm = Arm {
+        convention,
+        gravity: triple(points),
+        links: kinds.iter().map(|kind| link(*kind, points)).collect(),
+    };
+    let position = |kind: &JointKind| match kind {
+        JointKind::Revolute => JointPosition::Revolute(pair(points)),
+        JointKind::Prismatic => JointPosition::Prismatic(points.field()),
+    };
+    let position: Vec<_> = kinds.iter().map(position).collect();
+    Case {
+        at: arm.at(&position),
+        arm,
+        qd: kinds.iter().map(|_| points.field()).collect(),
+        qdd: kinds.iter().map(|_| points.field()).collect(),
+    }
+}
+
+fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
+    Link {
+        kind,
+        alpha: pair(points),
+        theta: pair(points),
+        a: points.field(),
+        d: points.field(),
+        mass: points.field(),
+        com: triple(points),
+        inertia: Inertia {
+            xx: points.field(),
+            yy: points.field(),
+            zz: points.field(),
+            xy: points.field(),
+            yz: points.field(),
+            xz: points.field(),
+        },
+        viscous: points.field(),
+        armature: points.field(),
+    }
+}
+
+pub fn pair(points: &mut Points) -> Rotor<Field> {
+    let (sin, cos) = points.circle();
+    Rotor { sin, cos }
+}
+
+pub fn triple(points: &mut Points) -> [Field; 3] {
+    [points.field(), points.field(), points.field()]
+}
