@@ -1,1 +1,66 @@
-//! Robot files.
+//! Robot files: TOML in, a validated [`Robot`] out, or every error at once.
+//!
+//! The text passes through, in this order:
+//! - `guard`: size, depth and count limits, before anything recursive runs
+//! - `toml-span`, for the structure and the spans; its numbers are not used
+//! - `file` and `joint`: the keys of the file, through `table` and `value`
+//! - [`Robot::validate`]: what is wrong whoever made the robot
+//!
+//! `report` collects and prints what was found; `suggest` finds the word that
+//! was meant.
+
+mod file;
+mod guard;
+mod joint;
+mod report;
+mod suggest;
+mod syntax;
+mod table;
+mod value;
+
+use alloc::vec::Vec;
+
+use crate::number::Snap;
+use crate::robot::Robot;
+
+pub use crate::robot::Severity;
+pub use guard::MAX_BYTES;
+pub use report::{Diagnostic, Diagnostics};
+
+/// How to read.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// When a number of radians counts as a multiple of π/2.
+    pub snap: Snap,
+}
+
+/// A robot file that was read.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// The robot; [`Robot::validate`] finds no error in it.
+    pub robot: Robot,
+    /// Warnings and notes, in the order of the file.
+    pub notes: Vec<Diagnostic>,
+}
+
+/// Reads a robot file.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once and in its order; only an
+/// error of the TOML syntax hides those after it.
+pub fn parse(source: &str, options: &Options) -> Result<Reading, Diagnostics> {
+    let mut sink = report::Sink::new(source);
+    let robot = file::read(source, options, &mut sink);
+    sink.finish(robot)
+}
+
+/// Reads a robot file from bytes.
+///
+/// # Errors
+/// As [`parse`], and if the bytes are not UTF-8.
+pub fn parse_bytes(bytes: &[u8], options: &Options) -> Result<Reading, Diagnostics> {
+    match core::str::from_utf8(bytes) {
+        Ok(source) => parse(source, options),
+        Err(error) => Err(report::not_utf8(bytes, error.valid_up_to())),
+    }
+}

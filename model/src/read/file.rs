@@ -1,0 +1,175 @@
+//! The file as a whole: the robot's own keys, and the list of joints.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
+use alloc::string::ToString;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use num_traits::Zero;
+use toml_span::Value;
+
+use super::report::Sink;
+use super::table::Keys;
+use super::value::{Context, first_line};
+use super::{Options, Severity, guard, joint, syntax};
+use crate::number::Rational;
+use crate::robot::{Convention, Joint, Place, Robot};
+
+/// Where each part of the robot is in the file.
+#[derive(Default)]
+pub(super) struct Places {
+    spans: BTreeMap<Place, Range<usize>>,
+    /// Parts that could not be read: their values are made up, so nothing is
+    /// to be said about those.
+    unread: BTreeSet<Place>,
+}
+
+impl Places {
+    /// Notes where a part is and whether it was read, and fills in for it.
+    pub(super) fn keep<T>(
+        &mut self,
+        place: Place,
+        span: Range<usize>,
+        read: Option<T>,
+        or: impl FnOnce() -> T,
+    ) -> T {
+        self.spans.insert(place, span);
+        read.unwrap_or_else(|| {
+            self.unread.insert(place);
+            or()
+        })
+    }
+}
+
+/// Reads a robot, reporting to the sink; `None` only after an error.
+pub(super) fn read<'s>(source: &'s str, options: &Options, sink: &mut Sink<'s>) -> Option<Robot> {
+    if !guard::admits(source, sink) {
+        return None;
+    }
+    let root = match toml_span::parse(source) {
+        Ok(root) => root,
+        Err(error) => {
+            syntax::report(source, &error, sink);
+            return None;
+        }
+    };
+    let mut cx = Context {
+        source,
+        snap: options.snap,
+        sink,
+    };
+    let mut places = Places::default();
+    let robot = robot(&mut cx, &mut places, &root)?;
+    for finding in robot.validate() {
+        if places.unread.contains(&finding.place) {
+            continue;
+        }
+        let span = places.spans.get(&finding.place).cloned().unwrap_or(0..0);
+        let help = finding.help.unwrap_or_default();
+        cx.sink.push(finding.severity, span, finding.message, &help);
+    }
+    Some(robot)
+}
+
+fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
+    let keys = Keys {
+        table: cx.table(root, "")?,
+        span: 0..0,
+        what: "the robot".to_string(),
+    };
+    keys.reject_unknown(
+        &["name", "convention", "gravity", "joint", "scene"],
+        cx.sink,
+    );
+    let at = |value: Option<&Value>| value.map_or(0..0, Context::span);
+
+    let name = keys.require(
+        "name",
+        "name = \"puma560\"; the generated module is called after it",
+        cx.sink,
+    );
+    let text = name.and_then(|value| cx.string(value));
+    let name = places.keep(Place::Name, at(name), text, Default::default);
+
+    let convention = keys
+        .require(
+            "convention",
+            "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a",
+            cx.sink,
+        )
+        .and_then(|value| cx.word(value, &Convention::WORDS))
+        .unwrap_or(Convention::Standard);
+
+    const GRAVITY: &str = "gravity = [0, 0, -9.81]: the acceleration of gravity in base axes, m/s²";
+    let gravity = keys.require("gravity", GRAVITY, cx.sink);
+    let vector = gravity.and_then(|value| cx.array(value, GRAVITY, Context::number));
+    let gravity = places.keep(Place::Gravity, at(gravity), vector, || {
+        [(); 3].map(|()| Rational::zero())
+    });
+
+    if let Some(scenes) = keys.get("scene") {
+        scene(cx, scenes);
+    }
+    let list = keys.require(
+        "joint",
+        "each joint is a [[joint]] table, from the base to the hand",
+        cx.sink,
+    );
+    let span = list.map_or(0..0, |list| first_line(cx.source, Context::span(list)));
+    let read = list.and_then(|list| joints(cx, places, list));
+    let joints = places.keep(Place::Joints, span, read, Vec::new);
+    Some(Robot {
+        name,
+        convention,
+        gravity,
+        joints,
+    })
+}
+
+fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Joint>> {
+    let Some(items) = list.as_array() else {
+        cx.wanted(
+            list,
+            "[[joint]] tables",
+            "write [[joint]], with two brackets",
+        );
+        return None;
+    };
+    if items.len() > Robot::MAX_JOINTS {
+        let span = items.get(Robot::MAX_JOINTS).map_or(0..0, Context::span);
+        let span = first_line(cx.source, span);
+        let message = format!(
+            "a robot has 1 to {} joints, not {}",
+            Robot::MAX_JOINTS,
+            items.len()
+        );
+        cx.sink.error(span, message, "this is the first too many");
+    }
+    let joints = items.iter().take(Robot::MAX_JOINTS).enumerate();
+    Some(
+        joints
+            .filter_map(|(index, item)| {
+                let table = cx.table(item, "each joint is a [[joint]] table")?;
+                let keys = Keys {
+                    table,
+                    span: first_line(cx.source, Context::span(item)),
+                    what: format!("joint {}", index + 1),
+                };
+                Some(joint::read(cx, places, &keys, index))
+            })
+            .collect(),
+    )
+}
+
+/// Scenes may be there; so far nothing reads them.
+fn scene(cx: &mut Context, scenes: &Value) {
+    if cx
+        .table(scenes, "each scene is a [scene.NAME] table")
+        .is_some()
+    {
+        let span = first_line(cx.source, Context::span(scenes));
+        let message = "scenes are not yet used".to_string();
+        cx.sink.push(Severity::Note, span, message, "");
+    }
+}

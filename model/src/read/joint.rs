@@ -1,0 +1,222 @@
+//! One `[[joint]]` table.
+
+use alloc::format;
+use alloc::string::ToString;
+use core::ops::Range;
+
+use num_traits::Zero;
+use toml_span::Value;
+
+use super::file::Places;
+use super::table::Keys;
+use super::value::{Context, first_line};
+use crate::number::{Angle, Rational};
+use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Position};
+
+/// The keys of a joint, in the order that robot files have them.
+const KEYS: [&str; 13] = [
+    "name", "kind", "alpha", "a", "d", "theta", "offset", "mass", "com", "inertia", "viscous",
+    "armature", "limits",
+];
+/// The keys of its limits.
+const LIMITS: [&str; 4] = ["position", "velocity", "acceleration", "torque"];
+
+/// Reads the fields of one joint in turn.
+struct Fields<'r, 's, 'k, 'v, 'de> {
+    cx: &'r mut Context<'s, 'k>,
+    places: &'r mut Places,
+    keys: &'r Keys<'v, 'de>,
+    index: usize,
+}
+
+/// Reads joint `index`, counted from zero; what cannot be read is reported and
+/// made up.
+pub(super) fn read(cx: &mut Context, places: &mut Places, keys: &Keys, index: usize) -> Joint {
+    keys.reject_unknown(&KEYS, cx.sink);
+    let mut fields = Fields {
+        cx,
+        places,
+        keys,
+        index,
+    };
+    let name = keys.get("name").map(|value| {
+        let text = fields.cx.string(value);
+        fields.keep(Field::Name, value, text, Default::default)
+    });
+    let kind = fields.kind();
+    let alpha = fields.angle(Field::Alpha);
+    let a = fields.number(Field::A);
+    let (d, theta) = fields.variable(kind);
+    let (mass, com) = fields.mass_and_com();
+    let inertia = fields.inertia();
+    Joint {
+        name,
+        kind: kind.unwrap_or(JointKind::Revolute),
+        alpha,
+        a,
+        d,
+        theta,
+        mass,
+        com,
+        inertia,
+        viscous: fields.number(Field::Viscous),
+        armature: fields.number(Field::Armature),
+        limits: fields.limits(kind),
+    }
+}
+
+impl Fields<'_, '_, '_, '_, '_> {
+    fn keep<T>(
+        &mut self,
+        field: Field,
+        value: &Value,
+        read: Option<T>,
+        or: impl FnOnce() -> T,
+    ) -> T {
+        let span = first_line(self.cx.source, Context::span(value));
+        self.keep_at(field, span, read, or)
+    }
+
+    fn keep_at<T>(
+        &mut self,
+        field: Field,
+        span: Range<usize>,
+        read: Option<T>,
+        or: impl FnOnce() -> T,
+    ) -> T {
+        let place = Place::Joint(self.index, field);
+        self.places.keep(place, span, read, or)
+    }
+
+    fn kind(&mut self) -> Option<JointKind> {
+        let help = "kind = \"revolute\" or \"prismatic\"";
+        let value = self.keys.require("kind", help, self.cx.sink)?;
+        self.cx.word(value, &JointKind::WORDS)
+    }
+
+    /// A number that is zero unless given.
+    fn number(&mut self, field: Field) -> Rational {
+        let Some(value) = self.keys.get(field.key()) else {
+            return Rational::zero();
+        };
+        let read = self.cx.number(value);
+        self.keep(field, value, read, Rational::zero)
+    }
+
+    /// An angle that is zero unless given.
+    fn angle(&mut self, field: Field) -> Angle {
+        let Some(value) = self.keys.get(field.key()) else {
+            return Angle::default();
+        };
+        let read = self.cx.angle(value);
+        self.keep(field, value, read, Angle::default)
+    }
+
+    /// The constant parts of d and theta: one of them belongs to the joint's
+    /// variable, and is called `offset`.
+    fn variable(&mut self, kind: Option<JointKind>) -> (Rational, Angle) {
+        match kind {
+            Some(JointKind::Revolute) => {
+                let theta = self.angle(Field::Theta);
+                self.no_variable(Field::Theta, theta.is_zero(), "revolute");
+                (self.number(Field::D), self.angle(Field::Offset))
+            }
+            Some(JointKind::Prismatic) => {
+                let d = self.number(Field::D);
+                self.no_variable(Field::D, d.is_zero(), "prismatic");
+                (self.number(Field::Offset), self.angle(Field::Theta))
+            }
+            // Without a kind there is no saying what the offset is.
+            None => (self.number(Field::D), self.angle(Field::Theta)),
+        }
+    }
+
+    fn no_variable(&mut self, field: Field, zero: bool, kind: &str) {
+        let key = field.key();
+        if let (false, Some(value)) = (zero, self.keys.get(key)) {
+            let message = format!("`{key}` of a {kind} joint is its variable, so it must be 0");
+            let help = "a constant that is added to it is called `offset`";
+            self.cx.sink.error(Context::span(value), message, help);
+        }
+    }
+
+    fn mass_and_com(&mut self) -> (Rational, [Rational; 3]) {
+        let zeros = || [(); 3].map(|()| Rational::zero());
+        let help = "mass = 4.8, in kg; a link without mass has mass = 0";
+        let value = self.keys.require("mass", help, self.cx.sink);
+        let read = value.and_then(|value| self.cx.number(value));
+        let massless = read.as_ref().is_some_and(Zero::is_zero);
+        let span = value.map_or(self.keys.span.clone(), Context::span);
+        let mass = self.keep_at(Field::Mass, span, read, Rational::zero);
+
+        const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
+        let value = match self.keys.get("com") {
+            None if massless => return (mass, zeros()),
+            _ => self.keys.require("com", COM, self.cx.sink),
+        };
+        let read = value.and_then(|value| self.cx.array(value, COM, Context::number));
+        let com = match value {
+            Some(value) => self.keep(Field::Com, value, read, zeros),
+            None => zeros(),
+        };
+        (mass, com)
+    }
+
+    fn inertia(&mut self) -> Inertia<Rational> {
+        let help = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²";
+        let Some(value) = self.keys.require("inertia", help, self.cx.sink) else {
+            return Inertia::default();
+        };
+        let read = self.cx.inertia(value);
+        self.keep(Field::Inertia, value, read, Inertia::default)
+    }
+
+    fn limits(&mut self, kind: Option<JointKind>) -> Limits {
+        let Some(value) = self.keys.get("limits") else {
+            return Limits::default();
+        };
+        let help =
+            "limits = { position = [-2.8, 2.8], velocity = 8, acceleration = 20, torque = 97.6 }";
+        let Some(table) = self.cx.table(value, help) else {
+            return Limits::default();
+        };
+        let keys = Keys {
+            table,
+            span: first_line(self.cx.source, Context::span(value)),
+            what: "limits".to_string(),
+        };
+        keys.reject_unknown(&LIMITS, self.cx.sink);
+        let mut inner = Fields {
+            cx: self.cx,
+            places: self.places,
+            keys: &keys,
+            index: self.index,
+        };
+        Limits {
+            position: inner.position(kind),
+            velocity: inner.limit(Field::Velocity),
+            acceleration: inner.limit(Field::Acceleration),
+            torque: inner.limit(Field::Torque),
+        }
+    }
+
+    fn limit(&mut self, field: Field) -> Option<Rational> {
+        self.keys.get(field.key())?;
+        Some(self.number(field))
+    }
+
+    fn position(&mut self, kind: Option<JointKind>) -> Option<[Position; 2]> {
+        let value = self.keys.get("position")?;
+        let help = "position = [lowest, highest], or leave it out";
+        let read = match kind? {
+            JointKind::Revolute => self
+                .cx
+                .array(value, help, |cx, item| cx.angle(item).map(Position::Angle)),
+            JointKind::Prismatic => self.cx.array(value, help, |cx, item| {
+                cx.number(item).map(Position::Length)
+            }),
+        };
+        let read = read?;
+        Some(self.keep(Field::Position, value, Some(read.clone()), || read))
+    }
+}

@@ -1,0 +1,116 @@
+//! The word that was meant.
+
+/// What other tools and textbooks call the same thing.
+const OTHER_WORDS: [(&str, &str); 30] = [
+    ("m", "mass"),
+    ("weight", "mass"),
+    ("r", "com"),
+    ("cog", "com"),
+    ("center_of_mass", "com"),
+    ("centre_of_mass", "com"),
+    ("i", "inertia"),
+    ("b", "viscous"),
+    ("damping", "viscous"),
+    ("friction", "viscous"),
+    ("jm", "armature"),
+    ("rotor", "armature"),
+    ("rotor_inertia", "armature"),
+    ("type", "kind"),
+    ("sigma", "kind"),
+    ("twist", "alpha"),
+    ("length", "a"),
+    ("qlim", "limits"),
+    ("effort", "torque"),
+    ("force", "torque"),
+    ("g", "gravity"),
+    ("dh", "convention"),
+    ("links", "joint"),
+    ("craig", "modified"),
+    ("mdh", "modified"),
+    ("classic", "standard"),
+    ("rotary", "revolute"),
+    ("continuous", "revolute"),
+    ("linear", "prismatic"),
+    ("sliding", "prismatic"),
+];
+
+/// The candidate that `word` is most likely a slip of, if one is near.
+pub(super) fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
+    // Nothing is near a longer word, and the work stays bounded.
+    if word.len() > 32 {
+        return None;
+    }
+    let word = word.to_ascii_lowercase();
+    let other = OTHER_WORDS.iter().find(|(other, _)| *other == word);
+    let meant = other.map_or(word.as_str(), |(_, meant)| meant);
+    if let Some(same) = candidates.iter().find(|c| **c == meant) {
+        return Some(same);
+    }
+    let letters = word.chars().count();
+    candidates
+        .iter()
+        .map(|candidate| (distance(&word, candidate), *candidate))
+        // One slip in three letters at most: `a` is not a slip of `d`.
+        .filter(|(distance, candidate)| distance * 3 <= letters.max(candidate.len()))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Insertions, deletions, substitutions and swaps of neighbours that turn one
+/// word into the other.
+fn distance(left: &str, right: &str) -> usize {
+    const N: usize = 40;
+    let mut table = [[0usize; N]; N];
+    let (mut l, mut r) = (['\0'; N], ['\0'; N]);
+    let fill = |chars: &mut [char; N], word: &str| {
+        let mut count = 0;
+        for (slot, c) in chars.iter_mut().skip(1).zip(word.chars()) {
+            *slot = c;
+            count += 1;
+        }
+        count
+    };
+    let (rows, columns) = (fill(&mut l, left), fill(&mut r, right));
+    for i in 0..=rows {
+        for k in 0..=columns {
+            if i == 0 || k == 0 {
+                table[i][k] = i + k;
+                continue;
+            }
+            let change = table[i - 1][k - 1] + usize::from(l[i] != r[k]);
+            let mut best = change.min(table[i - 1][k] + 1).min(table[i][k - 1] + 1);
+            if i > 1 && k > 1 && l[i] == r[k - 1] && l[i - 1] == r[k] {
+                best = best.min(table[i - 2][k - 2] + 1);
+            }
+            table[i][k] = best;
+        }
+    }
+    table[rows][columns]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_likely_word() {
+        let keys = [
+            "name", "kind", "alpha", "a", "d", "mass", "com", "inertia", "limits",
+        ];
+        for (word, meant) in [
+            ("mas", Some("mass")),
+            ("Mass", Some("mass")),
+            ("amss", Some("mass")),
+            ("inertai", Some("inertia")),
+            ("I", Some("inertia")),
+            ("limit", Some("limits")),
+            ("type", Some("kind")),
+            ("b", None),
+            ("x", None),
+            ("colour", None),
+            ("", None),
+        ] {
+            assert_eq!(closest(word, &keys), meant, "{word}");
+        }
+    }
+}

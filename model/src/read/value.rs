@@ -1,0 +1,264 @@
+//! One value of the file: a number, an angle, a word, a vector, a tensor.
+//!
+//! Every reader returns `None` after reporting what is wrong, so that its
+//! caller goes on with the rest of the file.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use toml_span::Value;
+use toml_span::value::{Table, ValueInner};
+
+use super::report::{Sink, quote};
+use super::{Severity, suggest};
+use crate::number::parse::{parse_decimal, parse_fraction};
+use crate::number::{Angle, Rational, Snap, Snapped};
+use crate::robot::Inertia;
+
+/// What reading a value needs.
+pub(super) struct Context<'s, 'k> {
+    pub(super) source: &'s str,
+    pub(super) snap: Snap,
+    pub(super) sink: &'k mut Sink<'s>,
+}
+
+impl<'s> Context<'s, '_> {
+    /// The bytes of a value. The parser leaves the quotes of a string out,
+    /// and for an empty one points at the quote alone.
+    pub(super) fn span(value: &Value) -> Range<usize> {
+        value.span.start..value.span.end.max(value.span.start)
+    }
+
+    /// The literal of a number as it stands in the source.
+    fn literal(&self, value: &Value) -> &'s str {
+        self.source.get(Self::span(value)).unwrap_or_default()
+    }
+
+    /// Says that a value has the wrong type.
+    pub(super) fn wanted(&mut self, value: &Value, expected: &str, help: &str) {
+        let found = match value.as_ref() {
+            ValueInner::String(text) => format!("the string {}", quote(text)),
+            ValueInner::Integer(_) | ValueInner::Float(_) => {
+                format!("the number {}", quote(self.literal(value)))
+            }
+            ValueInner::Boolean(flag) => format!("`{flag}`"),
+            ValueInner::Array(items) => format!("an array of {}", items.len()),
+            ValueInner::Table(_) => "a table".to_string(),
+        };
+        let span = first_line(self.source, Self::span(value));
+        let message = format!("expected {expected}, found {found}");
+        self.sink.error(span, message, help);
+    }
+
+    /// A number, exact; `"1/3"` too.
+    pub(super) fn number(&mut self, value: &Value) -> Option<Rational> {
+        let parsed = match value.as_ref() {
+            ValueInner::Integer(_) | ValueInner::Float(_) => parse_decimal(self.literal(value)),
+            ValueInner::String(text) if text.contains('/') && !text.contains("pi") => {
+                parse_fraction(text)
+            }
+            ValueInner::String(text) if parse_decimal(text.trim()).is_ok() => {
+                self.wanted(value, "a number", "write it without quotes");
+                return None;
+            }
+            ValueInner::String(text) if Angle::parse(text).is_ok() => {
+                self.wanted(value, "a number", "this value is no angle");
+                return None;
+            }
+            _ => {
+                self.wanted(value, "a number", "");
+                return None;
+            }
+        };
+        parsed
+            .map_err(|error| {
+                let text = quote(self.literal(value));
+                let message = format!("{text} is {error}");
+                self.sink.error(Self::span(value), message, error.help());
+            })
+            .ok()
+    }
+
+    /// An angle: radians as a number, or one of the text forms.
+    pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
+        const FORMS: &str = "radians as a number, \"pi/2\", \"-3*pi/4\" or \"90deg\"";
+        let snapped = match value.as_ref() {
+            ValueInner::String(text) => match Angle::parse(text) {
+                Ok(angle) => Snap::near(angle),
+                Err(_) if parse_decimal(text.trim()).is_ok() => {
+                    self.wanted(
+                        value,
+                        "an angle",
+                        "write a number of radians without quotes",
+                    );
+                    return None;
+                }
+                Err(_) => {
+                    self.wanted(value, "an angle", &format!("write {FORMS}"));
+                    return None;
+                }
+            },
+            ValueInner::Integer(_) | ValueInner::Float(_) => self.snap.apply(self.number(value)?),
+            _ => {
+                self.wanted(value, "an angle", &format!("write {FORMS}"));
+                return None;
+            }
+        };
+        Some(self.snapped(value, snapped))
+    }
+
+    /// Says what became of an angle.
+    fn snapped(&mut self, value: &Value, snapped: Snapped) -> Angle {
+        let span = Self::span(value);
+        let text = self.literal(value);
+        let written = |multiple: &Angle| match multiple.is_zero() {
+            true => "0".to_string(),
+            false => format!("\"{multiple}\""),
+        };
+        match snapped {
+            Snapped::Kept(angle) => angle,
+            Snapped::Taken(angle) => {
+                let message = format!("{text} is read as {angle}");
+                let help = format!("write {} to say so", written(&angle));
+                self.sink.push(Severity::Note, span, message, &help);
+                angle
+            }
+            Snapped::Near {
+                angle,
+                multiple,
+                distance,
+            } => {
+                let message =
+                    format!("{text} is {distance:.1e} from {multiple}; it stays as written");
+                let help = format!("write {} if you mean it", written(&multiple));
+                self.sink.push(Severity::Warning, span, message, &help);
+                angle
+            }
+        }
+    }
+
+    /// A text.
+    pub(super) fn string(&mut self, value: &Value) -> Option<String> {
+        let text = value.as_str().map(ToString::to_string);
+        if text.is_none() {
+            self.wanted(value, "a string", "write it in quotes");
+        }
+        text
+    }
+
+    /// One of a few words.
+    pub(super) fn word<T: Copy>(&mut self, value: &Value, words: &[(&str, T)]) -> Option<T> {
+        let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
+        let listed: Vec<String> = names.iter().map(|n| format!("\"{n}\"")).collect();
+        let listed = listed.join(" or ");
+        let Some(text) = value.as_str() else {
+            self.wanted(value, &listed, "");
+            return None;
+        };
+        if let Some((_, meaning)) = words.iter().find(|(name, _)| *name == text) {
+            return Some(*meaning);
+        }
+        let help = match suggest::closest(text, &names) {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None if text == "fixed" => {
+                "a joint that does not move is part of the link before it".to_string()
+            }
+            None => String::new(),
+        };
+        self.wanted(value, &listed, &help);
+        None
+    }
+
+    /// A table.
+    pub(super) fn table<'v, 'de>(
+        &mut self,
+        value: &'v Value<'de>,
+        help: &str,
+    ) -> Option<&'v Table<'de>> {
+        let table = value.as_table();
+        if table.is_none() {
+            self.wanted(value, "a table", help);
+        }
+        table
+    }
+
+    /// `N` values in an array, each read by `item`; all of them are looked at
+    /// before it gives up.
+    pub(super) fn array<T, const N: usize>(
+        &mut self,
+        value: &Value,
+        help: &str,
+        mut item: impl FnMut(&mut Self, &Value) -> Option<T>,
+    ) -> Option<[T; N]> {
+        let items = value.as_array().filter(|items| items.len() == N);
+        let Some(items) = items else {
+            self.wanted(value, &format!("an array of {N}"), help);
+            return None;
+        };
+        let read: Vec<Option<T>> = items.iter().map(|v| item(self, v)).collect();
+        let read: Option<Vec<T>> = read.into_iter().collect();
+        read?.try_into().ok()
+    }
+
+    /// An inertia tensor: six entries or three rows.
+    pub(super) fn inertia(&mut self, value: &Value) -> Option<Inertia<Rational>> {
+        const HELP: &str =
+            "write [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] or three rows of three, about the centre of mass";
+        let items = value.as_array().map(Vec::as_slice).unwrap_or_default();
+        let rows = items.len() == 3 && items.iter().any(|item| item.as_array().is_some());
+        if rows {
+            let rows = self.array::<_, 3>(value, HELP, |cx, row| {
+                cx.array::<_, 3>(row, HELP, Self::number)
+            })?;
+            return self.symmetric(value, rows);
+        }
+        if items.len() != 6 {
+            self.wanted(value, "6 numbers or 3 rows of 3", HELP);
+            return None;
+        }
+        let [xx, yy, zz, xy, yz, xz] = self.array(value, HELP, Self::number)?;
+        Some(Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        })
+    }
+
+    fn symmetric(&mut self, value: &Value, rows: [[Rational; 3]; 3]) -> Option<Inertia<Rational>> {
+        for (i, k) in [(0, 1), (0, 2), (1, 2)] {
+            if rows[i][k] != rows[k][i] {
+                let message = format!(
+                    "the tensor is not symmetric: row {}, column {} is not row {}, column {}",
+                    i + 1,
+                    k + 1,
+                    k + 1,
+                    i + 1
+                );
+                let span = first_line(self.source, Self::span(value));
+                self.sink
+                    .error(span, message, "write the same number in both");
+                return None;
+            }
+        }
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = rows;
+        Some(Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        })
+    }
+}
+
+/// The part of a span on its first line: what a message points at.
+pub(super) fn first_line(source: &str, span: Range<usize>) -> Range<usize> {
+    let line = source.get(span.clone()).and_then(|s| s.lines().next());
+    span.start..span.start + line.map_or(1, |line| line.trim_end().len().max(1))
+}
