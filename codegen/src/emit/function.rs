@@ -1,0 +1,203 @@
+//! One program as one flat function.
+//!
+//! One operation a line, so that the printed text can be read back and
+//! compared with the program operation by operation.
+
+use std::fmt::Write;
+
+use super::{MathPath, ScalarType};
+use crate::function::{Argument, Function, Quantity};
+use crate::graph::Input;
+use crate::schedule::{Operand, Output, Program, Trig};
+
+/// Prints the function; `doc` stands above it, one line an item.
+pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[String]) -> String {
+    let mut text = String::new();
+    for line in doc {
+        let space = if line.is_empty() { "" } else { " " };
+        push(&mut text, format_args!("///{space}{line}"));
+    }
+    push(&mut text, format_args!("#[must_use]"));
+    push(&mut text, format_args!("{} {{", signature(program, scalar)));
+    for trig in &program.trig {
+        write_trig(&mut text, trig, scalar, math);
+    }
+    for (index, step) in program.steps.iter().enumerate() {
+        let (left, right) = (operand(&step.left, scalar), operand(&step.right, scalar));
+        let symbol = step.operation.symbol();
+        push(
+            &mut text,
+            format_args!("    let t{} = {left} {symbol} {right};", index + 1),
+        );
+    }
+    write_result(&mut text, program, scalar);
+    text.push_str("}\n");
+    text
+}
+
+/// The signature, without a brace.
+pub fn signature(program: &Program, scalar: ScalarType) -> String {
+    let (n, function) = (program.joints, program.function);
+    let arguments: Vec<String> = function
+        .arguments()
+        .iter()
+        .map(|&argument| {
+            // An argument that this robot's function does not depend on.
+            let mark = if reads(program, argument) { "" } else { "_" };
+            format!("{mark}{}: &[{scalar}; {n}]", argument.name())
+        })
+        .collect();
+    let result = match (function.structure(), function.quantities()) {
+        (Some(name), _) => name.to_owned(),
+        (None, quantities) => array_type(quantities[0], n, scalar),
+    };
+    format!(
+        "pub fn {}({}) -> {result}",
+        function.name(),
+        arguments.join(", ")
+    )
+}
+
+/// The array type of a quantity: `[[f64; 6]; 6]` for rank 2.
+pub fn array_type(quantity: Quantity, n: usize, scalar: ScalarType) -> String {
+    (0..quantity.rank()).fold(scalar.to_string(), |inner, _| format!("[{inner}; {n}]"))
+}
+
+/// The struct that a function returns, if it does.
+pub fn structure(function: Function, n: usize, scalar: ScalarType) -> Option<String> {
+    let name = function.structure()?;
+    let mut text = format!("/// What [`{function}`] returns.\n");
+    text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
+    push(&mut text, format_args!("pub struct {name} {{"));
+    for &quantity in function.quantities() {
+        let doc = match quantity {
+            Quantity::Torque => "Torques τ.",
+            Quantity::Inertia => "Inertia matrix D.",
+            Quantity::Coriolis => "Coriolis and centripetal load h.",
+            Quantity::Christoffel => "`h[i][k][m]` = h_ikm, zero-based, symmetric in k and m.",
+            Quantity::Gravity => "Gravity load c.",
+        };
+        push(&mut text, format_args!("    /// {doc}"));
+        let (field, array) = (quantity.field(), array_type(quantity, n, scalar));
+        push(&mut text, format_args!("    pub {field}: {array},"));
+    }
+    text.push_str("}\n");
+    Some(text)
+}
+
+fn reads(program: &Program, argument: Argument) -> bool {
+    let is = |operand: &Operand| match operand {
+        Operand::Input(Input::Position(_)) => argument == Argument::Position,
+        Operand::Input(Input::Velocity(_)) => argument == Argument::Velocity,
+        Operand::Input(Input::Acceleration(_)) => argument == Argument::Acceleration,
+        _ => false,
+    };
+    (argument == Argument::Position && !program.trig.is_empty())
+        || program.steps.iter().any(|s| is(&s.left) || is(&s.right))
+        || program.outputs.iter().any(|output| is(&output.value))
+}
+
+fn write_trig(text: &mut String, trig: &Trig, scalar: ScalarType, math: &MathPath) {
+    let angle = trig.angle;
+    let mut terms = angle.terms();
+    let argument = if angle.additions() == 0 {
+        terms.next().map(|(joint, _)| format!("q[{joint}]"))
+    } else {
+        let mut sum = String::new();
+        for (index, (joint, negative)) in terms.enumerate() {
+            let sign = match (index, negative) {
+                (0, false) => "",
+                (0, true) => "-",
+                (_, false) => " + ",
+                (_, true) => " - ",
+            };
+            let _ = write!(sum, "{sign}q[{joint}]");
+        }
+        push(text, format_args!("    let a{angle} = {sum};"));
+        Some(format!("a{angle}"))
+    }
+    .unwrap_or_default();
+    let (path, suffix) = (&math.0, scalar.math_suffix());
+    let call = |name| format!("{path}::{name}{suffix}({argument})");
+    let line = match (trig.sin, trig.cos) {
+        (true, false) => format!("let s{angle} = {};", call("sin")),
+        (false, true) => format!("let c{angle} = {};", call("cos")),
+        _ => format!("let (s{angle}, c{angle}) = {};", call("sincos")),
+    };
+    push(text, format_args!("    {line}"));
+}
+
+fn operand(operand: &Operand, scalar: ScalarType) -> String {
+    match operand {
+        Operand::Input(input) => input_name(*input),
+        Operand::Constant(value) => scalar.literal(value),
+        Operand::Step(index) => format!("t{}", index + 1),
+    }
+}
+
+/// How emitted code names an input.
+pub fn input_name(input: Input) -> String {
+    match input {
+        Input::Sin(angle) => format!("s{angle}"),
+        Input::Cos(angle) => format!("c{angle}"),
+        Input::Position(joint) => format!("q[{joint}]"),
+        Input::Velocity(joint) => format!("qd[{joint}]"),
+        Input::Acceleration(joint) => format!("qdd[{joint}]"),
+    }
+}
+
+fn result_item(output: &Output, scalar: ScalarType) -> String {
+    let sign = if output.negative { "-" } else { "" };
+    format!("{sign}{}", operand(&output.value, scalar))
+}
+
+fn write_result(text: &mut String, program: &Program, scalar: ScalarType) {
+    let n = program.joints;
+    let mut items = program.outputs.iter().map(|o| result_item(o, scalar));
+    let function = program.function;
+    match function.structure() {
+        None => {
+            let rank = function.quantities()[0].rank();
+            text.push_str("    ");
+            write_array(text, &mut items, rank, n, 1);
+            text.push('\n');
+        }
+        Some(name) => {
+            push(text, format_args!("    {name} {{"));
+            for quantity in function.quantities() {
+                let _ = write!(text, "        {}: ", quantity.field());
+                write_array(text, &mut items, quantity.rank(), n, 2);
+                text.push_str(",\n");
+            }
+            text.push_str("    }\n");
+        }
+    }
+}
+
+fn write_array(
+    text: &mut String,
+    items: &mut impl Iterator<Item = String>,
+    rank: u32,
+    n: usize,
+    depth: usize,
+) {
+    let indent = "    ".repeat(depth);
+    if rank == 1 {
+        let row: Vec<String> = items.take(n).collect();
+        let _ = write!(text, "[{}]", row.join(", "));
+        return;
+    }
+    push(text, format_args!("["));
+    for _ in 0..n {
+        let _ = write!(text, "{indent}    ");
+        write_array(text, items, rank - 1, n, depth + 1);
+        text.push_str(",\n");
+    }
+    let _ = write!(text, "{indent}]");
+}
+
+/// A line. Writing to a string cannot fail.
+fn push(text: &mut String, line: std::fmt::Arguments<'_>) {
+    let _ = text.write_fmt(line);
+    text.push('\n');
+}

@@ -1,0 +1,22 @@
+//! Flat Rust from straight-line programs.
+//!
+//! - [`literal`]: scalar types and their literals, each rounded once
+//! - [`function`]: one program as one function
+//! - [`module`]: the module of a robot with its header
+
+pub mod function;
+pub mod literal;
+pub mod module;
+
+pub use literal::ScalarType;
+
+/// Where emitted code finds `sincos`, `sin` and `cos` (and with an `f` for
+/// f32), by path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MathPath(pub String);
+
+impl Default for MathPath {
+    fn default() -> Self {
+        MathPath("libm".into())
+    }
+}

@@ -1,0 +1,56 @@
+//! Operation counts of a graph.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use super::{Graph, Node};
+
+/// Operations of straight-line code. Negation and copies are free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Counts {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions, subtractions, doublings, sums of angles.
+    pub add: usize,
+    /// Divisions.
+    pub div: usize,
+    /// Sine and cosine evaluations: a pair for one angle, or one of the two.
+    pub sincos: usize,
+}
+
+impl Counts {
+    /// Multiplications, additions and divisions.
+    pub fn operations(&self) -> usize {
+        self.mul + self.add + self.div
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} mul, {} add", self.mul, self.add)?;
+        if self.div > 0 {
+            write!(f, ", {} div", self.div)?;
+        }
+        write!(f, ", {} sincos", self.sincos)
+    }
+}
+
+impl Graph {
+    /// What the outputs cost.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        let mut angles = BTreeSet::new();
+        for (node, live) in self.nodes.iter().zip(self.live()) {
+            match node {
+                _ if !live => {}
+                Node::Sum(..) | Node::Difference(..) => counts.add += 1,
+                Node::Product(..) => counts.mul += 1,
+                Node::Input(input) => angles.extend(input.angle()),
+                Node::Constant(_) => {}
+            }
+        }
+        counts.sincos = angles.len();
+        counts.add += angles.iter().map(|angle| angle.additions()).sum::<usize>();
+        counts
+    }
+}

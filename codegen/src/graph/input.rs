@@ -1,0 +1,88 @@
+//! What a program reads.
+
+use core::fmt;
+
+/// A sum of joint angles with signs, such as q₂ + q₃ or q₄ − q₅.
+///
+/// One bit a joint: a robot has at most 64.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct AngleSum {
+    plus: u64,
+    minus: u64,
+}
+
+impl AngleSum {
+    /// The angle of one joint (zero-based, below 64).
+    pub fn joint(joint: usize) -> Self {
+        debug_assert!(joint < 64);
+        AngleSum {
+            plus: 1u64.wrapping_shl(joint as u32),
+            minus: 0,
+        }
+    }
+
+    /// The sum with one more joint; `None` if the joint is in it already.
+    pub fn with(self, joint: usize, negative: bool) -> Option<Self> {
+        let bit = 1u64.checked_shl(joint as u32)?;
+        let mut sum = self;
+        let side = if negative {
+            &mut sum.minus
+        } else {
+            &mut sum.plus
+        };
+        *side |= bit;
+        ((self.plus | self.minus) & bit == 0).then_some(sum)
+    }
+
+    /// The joints (zero-based, ascending) and whether each is subtracted.
+    pub fn terms(self) -> impl Iterator<Item = (usize, bool)> {
+        (0..64)
+            .filter(move |joint| (self.plus | self.minus) >> joint & 1 == 1)
+            .map(move |joint| (joint, self.minus >> joint & 1 == 1))
+    }
+
+    /// The additions that forming the angle takes.
+    pub fn additions(self) -> usize {
+        (self.plus | self.minus).count_ones() as usize - 1
+    }
+}
+
+impl fmt::Display for AngleSum {
+    /// One-based joint numbers: `2p3` for q₂ + q₃, `4m5` for q₄ − q₅.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, (joint, negative)) in self.terms().enumerate() {
+            match (index, negative) {
+                (0, false) => {}
+                (_, false) => f.write_str("p")?,
+                (_, true) => f.write_str("m")?,
+            }
+            write!(f, "{}", joint + 1)?;
+        }
+        Ok(())
+    }
+}
+
+/// An input of a program. Joints are zero-based.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Input {
+    /// The sine of an angle.
+    Sin(AngleSum),
+    /// The cosine of an angle.
+    Cos(AngleSum),
+    /// The position of a prismatic joint.
+    Position(usize),
+    /// The velocity of a joint.
+    Velocity(usize),
+    /// The acceleration of a joint.
+    Acceleration(usize),
+}
+
+impl Input {
+    /// The angle, if it is the sine or cosine of one.
+    pub fn angle(self) -> Option<AngleSum> {
+        match self {
+            Input::Sin(angle) | Input::Cos(angle) => Some(angle),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Semantic fingerprints: a node's values at random points of a prime field.
+//!
+//! Every sin/cos pair is a rational point of the circle, so sin² + cos² = 1
+//! holds in the field; decimal constants are exact there. Two nodes are
+//! polynomials of degree d in the points' parameters (d is below a few
+//! hundred); if they differ, they agree at one point with probability at most
+//! d/p ≈ 2⁻⁵³ (Schwartz–Zippel), and at all [`POINTS`] of them with the power
+//! of that. The search's points 0 and 1 share the constant angles: a node with
+//! equal values there does not depend on the state.
+
+use dalembert_model::equations::Rotor;
+use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Field;
+
+use super::input::{AngleSum, Input};
+
+/// How many points a fingerprint has.
+pub const POINTS: usize = 3;
+
+/// The values of one node at every point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Print(pub [Field; POINTS]);
+
+impl Print {
+    /// The print of zero.
+    pub fn zero() -> Self {
+        Print([Field::zero(); POINTS])
+    }
+    fn zip(&self, other: &Print, f: impl Fn(&Field, &Field) -> Field) -> Print {
+        Print(core::array::from_fn(|i| f(&self.0[i], &other.0[i])))
+    }
+    /// Of a sum.
+    pub fn add(&self, other: &Print) -> Print {
+        self.zip(other, Field::add)
+    }
+    /// Of a difference.
+    pub fn sub(&self, other: &Print) -> Print {
+        self.zip(other, Field::sub)
+    }
+    /// Of a product.
+    pub fn mul(&self, other: &Print) -> Print {
+        self.zip(other, Field::mul)
+    }
+    /// Of the negated node.
+    pub fn neg(&self) -> Print {
+        Print(self.0.map(|x| x.neg()))
+    }
+    /// Of the node, negated if `negative`.
+    pub fn negate_if(&self, negative: bool) -> Print {
+        if negative { self.neg() } else { *self }
+    }
+    /// The print up to sign, and whether it had to be negated.
+    pub fn canonical(&self) -> (Print, bool) {
+        let negated = self.neg();
+        if negated < *self {
+            (negated, true)
+        } else {
+            (*self, false)
+        }
+    }
+    /// Whether the node is the same in every state.
+    pub fn is_constant(&self) -> bool {
+        self.0[0] == self.0[1]
+    }
+}
+
+/// Where fingerprints are taken: everything follows from the seed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Points {
+    seed: u64,
+    /// Whether points 0 and 1 share the constant angles.
+    shared: bool,
+}
+
+impl Points {
+    /// The points that the simplifier uses.
+    pub const SEARCH: Points = Points {
+        seed: 0x5eed,
+        shared: true,
+    };
+
+    /// Other points, for proofs that do not trust the search: independent in
+    /// the state and in the constant angles.
+    pub fn independent(seed: u64) -> Self {
+        Points {
+            seed,
+            shared: false,
+        }
+    }
+
+    /// The print of an input.
+    pub fn input(&self, input: Input) -> Print {
+        Print(core::array::from_fn(|point| self.input_at(input, point)))
+    }
+
+    fn input_at(&self, input: Input, point: usize) -> Field {
+        let draw = |kind: u64, joint: usize| {
+            Field::new(mix([self.seed, point as u64, kind, joint as u64]))
+        };
+        match input {
+            Input::Sin(angle) => self.angle_at(angle, point).sin,
+            Input::Cos(angle) => self.angle_at(angle, point).cos,
+            Input::Position(joint) => draw(2, joint),
+            Input::Velocity(joint) => draw(3, joint),
+            Input::Acceleration(joint) => draw(4, joint),
+        }
+    }
+
+    fn angle_at(&self, angle: AngleSum, point: usize) -> Rotor<Field> {
+        let mut sum = Rotor {
+            sin: Field::zero(),
+            cos: Field::one(),
+        };
+        for (joint, negative) in angle.terms() {
+            let mut pair = circle(mix([self.seed, point as u64, 1, joint as u64]));
+            if negative {
+                pair.sin = pair.sin.neg();
+            }
+            sum = sum.compose(&pair);
+        }
+        sum
+    }
+
+    /// The print of a constant; `None` if a denominator is divisible by the
+    /// prime (no decimal's is).
+    pub fn constant(&self, value: &Exact) -> Option<Print> {
+        if let Some(rational) = value.as_rational() {
+            return Field::from_rational(rational).map(|x| Print([x; POINTS]));
+        }
+        let mut print = [Field::zero(); POINTS];
+        for (point, x) in print.iter_mut().enumerate() {
+            let shared = if point == 1 && self.shared { 0 } else { point };
+            *x = value.map(&mut Field::from_rational, &mut |angle| {
+                circle(mix([self.seed, shared as u64, 5, hash_angle(angle)]))
+            })?;
+        }
+        Some(Print(print))
+    }
+}
+
+fn circle(parameter: u64) -> Rotor<Field> {
+    let (sin, cos) = Field::circle_point(Field::new(parameter));
+    Rotor { sin, cos }
+}
+
+/// One well-mixed word from several (SplitMix64 over the words).
+fn mix(words: [u64; 4]) -> u64 {
+    words
+        .into_iter()
+        .fold(0x9e37_79b9_7f4a_7c15, |state, word| {
+            let mut z = (state ^ word).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ (z >> 31)
+        })
+}
+
+/// The same on every machine: over the digits of the exact value.
+fn hash_angle(angle: &Angle) -> u64 {
+    let word = |kind: u64, value: &Rational| {
+        [value.numer(), value.denom()]
+            .into_iter()
+            .flat_map(|n| n.iter_u64_digits())
+            .fold(mix([kind, 0, 0, 0]), |hash, digit| mix([hash, digit, 0, 1]))
+    };
+    match angle {
+        Angle::PiTimes(value) => word(0, value),
+        Angle::Radians(value) => word(1, value),
+    }
+}

@@ -1,0 +1,13 @@
+//! Checks that trust neither the search nor the printer.
+//!
+//! - [`exact`]: the program equals Lagrange–Euler as written, in a prime field
+//! - [`degree`]: how likely that check is to miss a difference
+//! - [`text`]: the printed text is the program, every literal rounded once
+//! - [`interpret`]: the printed text run bit for bit
+//! - [`floating`]: what rounding costs: against the runtime and given states
+
+pub mod degree;
+pub mod exact;
+pub mod floating;
+pub mod interpret;
+pub mod text;
