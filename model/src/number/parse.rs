@@ -257,7 +257,7 @@ pub fn write_decimal(value: &Rational) -> Option<alloc::string::String> {
     let sign = if value.is_negative() { "-" } else { "" };
     // The exponent of the leading digit.
     let lead = digits.len() as i64 - 1 - i64::from(places);
-    let text = if lead < -5 || lead > 15 {
+    let text = if !(-5..=15).contains(&lead) {
         let (first, rest) = kept.split_at(1);
         let point = if rest.is_empty() { "" } else { "." };
         format!("{sign}{first}{point}{rest}e{lead}")

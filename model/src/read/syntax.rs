@@ -6,21 +6,31 @@ use alloc::string::ToString;
 use toml_span::{Error, ErrorKind};
 
 use super::report::{Sink, quote};
+use crate::number::Angle;
 
 /// Reports an error of the TOML parser.
 pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
     let start = error.span.start.min(source.len());
     let end = error.span.end.clamp(start, source.len());
-    let text = source.get(start..end).unwrap_or_default();
+    let word = word_at(source, start);
     let earlier = |byte: usize| format!("it is first defined on line {}", sink.position(byte).0);
     let (message, help) = match &error.kind {
+        // What is no number may be an angle without its quotes: -pi/2, 90deg.
+        ErrorKind::InvalidNumber | ErrorKind::UnquotedString if Angle::parse(word).is_ok() => (
+            format!("{} is not a number", quote(word)),
+            format!("write \"{word}\", in quotes"),
+        ),
+        ErrorKind::Unexpected(c @ ('*' | '/')) => (
+            format!("expected the end of the value, found `{c}`"),
+            "angles and fractions are written in quotes: \"3*pi/4\", \"1/3\"".to_string(),
+        ),
         ErrorKind::InvalidNumber => (
-            format!("{} is not a number that TOML can hold", quote(text)),
+            format!("{} is not a number that TOML can hold", quote(word)),
             "write 0.5 for .5, 5.0 for 5., and integers beyond 64 bits as 1e30".to_string(),
         ),
         ErrorKind::UnquotedString => (
-            format!("{} is neither a number nor a quoted string", quote(text)),
-            format!("write \"{}\"", text.trim_end_matches(',').trim()),
+            format!("{} is neither a number nor a quoted string", quote(word)),
+            "write text in quotes".to_string(),
         ),
         ErrorKind::DuplicateKey { key, first } => (
             format!("the key {} is defined twice", quote(key)),
@@ -67,4 +77,11 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
         _ => (error.to_string(), "".to_string()),
     };
     sink.error(start..end.max(start + 1), message, &help);
+}
+
+/// The value that starts at a byte, up to what ends a value in TOML.
+fn word_at(source: &str, start: usize) -> &str {
+    let rest = source.get(start..).unwrap_or_default();
+    let end = rest.find(|c: char| c.is_whitespace() || matches!(c, ',' | ']' | '}' | '#'));
+    &rest[..end.unwrap_or(rest.len())]
 }

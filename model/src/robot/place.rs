@@ -21,23 +21,38 @@ pub enum Place {
 /// The constants follow the robot file: `Offset` is what is added to q, so it
 /// is the joint's `theta` if it is revolute and its `d` if it is prismatic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)] // each is the key of the same name
 pub enum Field {
+    /// Its name.
     Name,
+    /// Revolute or prismatic.
     Kind,
+    /// Twist.
     Alpha,
+    /// Length of the common normal.
     A,
+    /// Constant d of a revolute joint.
     D,
+    /// Constant theta of a prismatic joint.
     Theta,
+    /// What is added to q.
     Offset,
+    /// Mass of the link.
     Mass,
+    /// Centre of mass.
     Com,
+    /// Inertia tensor.
     Inertia,
+    /// Viscous damping.
     Viscous,
+    /// Rotor inertia.
     Armature,
+    /// Range of positions, of the limits.
     Position,
+    /// Velocity limit.
     Velocity,
+    /// Acceleration limit.
     Acceleration,
+    /// Torque limit.
     Torque,
 }
 

@@ -1,0 +1,265 @@
+//! Angles: the forms they are written in, and when a number of radians
+//! counts as a right angle.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
+use dalembert_model::number::{Angle, Rational, Snap, Snapped};
+use dalembert_model::read::{Options, Severity, parse};
+use num_traits::ToPrimitive;
+
+fn ratio(numer: i64, denom: i64) -> Rational {
+    Rational::new(numer.into(), denom.into())
+}
+
+/// Every form means what it says, and prints as the shortest one.
+#[test]
+fn forms() {
+    let pi = |n, d| Angle::PiTimes(ratio(n, d));
+    for (text, angle, shown) in [
+        ("pi", pi(1, 1), "pi"),
+        ("-pi", pi(-1, 1), "-pi"),
+        ("+pi/2", pi(1, 2), "pi/2"),
+        ("3*pi/4", pi(3, 4), "3*pi/4"),
+        ("-0.5*pi", pi(-1, 2), "-pi/2"),
+        (" 2 * pi / 8 ", pi(1, 4), "pi/4"),
+        ("1.5e1*pi", pi(15, 1), "15*pi"),
+        ("0*pi", pi(0, 1), "0"),
+        ("90deg", pi(1, 2), "pi/2"),
+        ("-90 deg", pi(-1, 2), "-pi/2"),
+        ("22.5deg", pi(1, 8), "pi/8"),
+        ("1/3", Angle::Radians(ratio(1, 3)), "1/3"),
+    ] {
+        let read = Angle::parse(text);
+        assert_eq!(read.as_ref(), Ok(&angle), "{text}");
+        assert_eq!(angle.to_string(), shown);
+        assert_eq!(Angle::parse(shown).unwrap_or_default(), angle);
+    }
+    for text in [
+        "",
+        "p",
+        "pie",
+        "pi/",
+        "pi/0",
+        "pi/-2",
+        "pi/2.0",
+        "pi/0.5",
+        "2pi",
+        "*pi",
+        "--pi",
+        "-+2*pi",
+        "--2*pi",
+        "pi*2",
+        "pi pi",
+        "deg",
+        "ninety deg",
+        "0x5a deg",
+        "infdeg",
+        "nan*pi",
+        "1e999*pi",
+        "1e-301*pi",
+        "1/0",
+        "π",
+        "0.5",
+    ] {
+        assert!(Angle::parse(text).is_err(), "{text:?} was read");
+    }
+}
+
+#[test]
+fn values() {
+    assert_eq!(Angle::PiTimes(ratio(1, 1)).to_f64(), PI);
+    assert_eq!(Angle::PiTimes(ratio(1, 2)).to_f64(), FRAC_PI_2);
+    assert_eq!(Angle::PiTimes(ratio(3, 2)).to_f64(), 3.0 * FRAC_PI_2);
+    assert_eq!(Angle::PiTimes(ratio(2, 1)).to_f64(), TAU);
+    for n in -9..9 {
+        let angle = Angle::right_angles(n);
+        assert_eq!(angle.quarter_turns(), Some(n.rem_euclid(4) as u8));
+        assert_eq!(
+            angle.negate().quarter_turns(),
+            Some((-n).rem_euclid(4) as u8)
+        );
+    }
+    assert_eq!(Angle::PiTimes(ratio(1, 3)).quarter_turns(), None);
+    assert_eq!(Angle::Radians(ratio(0, 1)).quarter_turns(), Some(0));
+    assert_eq!(Angle::Radians(ratio(0, 1)).canonical(), Angle::default());
+}
+
+/// The double that is `steps` away from `value`.
+fn ulps(value: f64, steps: i64) -> f64 {
+    f64::from_bits((value.to_bits() as i64 + steps) as u64)
+}
+
+fn apply(value: f64) -> Snapped {
+    // Through the shortest text, as a file has it.
+    Snap::RightAngles.apply(parse_decimal(&format!("{value:?}")).expect("a number"))
+}
+
+/// Four ulp and no more, 2e-15 and no more, 2π and no more, both signs.
+#[test]
+fn snapping_at_its_borders() {
+    // (multiple's index, most steps down, most steps up)
+    for (n, down, up) in [(1, 4, 4), (2, 4, 4), (3, 2, 2), (4, 2, 0)] {
+        let double = n as f64 * FRAC_PI_2;
+        for sign in [1, -1] {
+            let snapped = Snapped::Taken(Angle::right_angles(sign * n));
+            for steps in -down..=up {
+                let value = sign as f64 * ulps(double, steps);
+                assert_eq!(apply(value), snapped, "{n}: {steps} ulp");
+            }
+            for steps in [-down - 1, up + 1] {
+                let value = sign as f64 * ulps(double, steps);
+                assert!(
+                    matches!(apply(value), Snapped::Near { .. }),
+                    "{n}: {steps} ulp"
+                );
+            }
+        }
+    }
+    // Beyond a full turn nothing snaps.
+    assert!(matches!(apply(5.0 * FRAC_PI_2), Snapped::Near { .. }));
+}
+
+/// Within 1e-3 of a right angle: kept, with a warning; zero is no exception.
+#[test]
+fn near_misses() {
+    let near = |text: &str| match Snap::RightAngles.apply(parse_decimal(text).expect("a number")) {
+        Snapped::Near { multiple, .. } => Some(multiple),
+        _ => None,
+    };
+    assert_eq!(near("1.5708"), Some(Angle::right_angles(1)));
+    assert_eq!(near("-3.1416"), Some(Angle::right_angles(-2)));
+    assert_eq!(near("0.0009"), Some(Angle::right_angles(0)));
+    assert_eq!(near("1e-300"), Some(Angle::right_angles(0)));
+    assert_eq!(near("0.00100001"), None);
+    assert_eq!(near("1.5717"), Some(Angle::right_angles(1)));
+    assert_eq!(near("1.5718"), None);
+    assert_eq!(near("0"), None);
+    assert_eq!(near("0.3"), None);
+    assert_eq!(near("1e299"), None);
+}
+
+/// What the reader says about angles, and what it makes of them.
+#[test]
+fn in_a_file() {
+    let text = |alpha: &str| {
+        format!(
+            "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
+             kind = \"revolute\"\nalpha = {alpha}\nmass = 0\ninertia = [0, 0, 0, 0, 0, 0]\n"
+        )
+    };
+    let read = |alpha: &str, snap| {
+        let reading = parse(&text(alpha), &Options { snap }).expect("reads");
+        let notes = reading
+            .notes
+            .iter()
+            .map(|n| (n.severity, n.line, n.message.clone()));
+        (
+            reading.robot.joints[0].alpha.clone(),
+            notes.collect::<Vec<_>>(),
+        )
+    };
+    let (angle, notes) = read("1.5707963267948966", Snap::RightAngles);
+    assert_eq!(angle, Angle::right_angles(1));
+    assert_eq!(
+        notes,
+        [(
+            Severity::Note,
+            6,
+            "1.5707963267948966 is read as pi/2".to_string()
+        )]
+    );
+
+    let (angle, notes) = read("1.5707963267948966", Snap::Never);
+    assert_eq!(angle.to_f64(), FRAC_PI_2);
+    assert!(matches!(angle, Angle::Radians(_)));
+    assert_eq!(notes[0].0, Severity::Warning);
+
+    let (angle, notes) = read("1.5708", Snap::RightAngles);
+    assert_eq!(angle, Angle::Radians(ratio(15_708, 10_000)));
+    let expected = "1.5708 is 3.7e-6 from pi/2; it stays as written".to_string();
+    assert_eq!(notes, [(Severity::Warning, 6, expected)]);
+
+    assert_eq!(read("0", Snap::Never), (Angle::default(), vec![]));
+    assert_eq!(read("-0.0", Snap::RightAngles), (Angle::default(), vec![]));
+    assert_eq!(
+        read("\"45deg\"", Snap::Never),
+        (Angle::PiTimes(ratio(1, 4)), vec![])
+    );
+}
+
+/// Literals are read to the last digit, and refused before they cost much.
+#[test]
+fn decimals() {
+    let power = |n: u32| Rational::from_integer(num_bigint::BigInt::from(10).pow(n));
+    for (text, value) in [
+        ("0.4318", ratio(4318, 10_000)),
+        ("-1_000.5", ratio(-2001, 2)),
+        ("+1e-3", ratio(1, 1000)),
+        ("12E+2", ratio(1200, 1)),
+        ("0e999999999999999999999", ratio(0, 1)),
+        ("0.000", ratio(0, 1)),
+        ("1e300", power(300)),
+        ("1e-300", power(300).recip()),
+        ("0.1e301", power(300)),
+    ] {
+        assert_eq!(parse_decimal(text), Ok(value), "{text}");
+    }
+    let long = "1".repeat(801);
+    for (text, error) in [
+        ("", NumberError::Malformed),
+        ("-", NumberError::Malformed),
+        (".5", NumberError::Malformed),
+        ("5.", NumberError::Malformed),
+        ("1__0", NumberError::Malformed),
+        ("_1", NumberError::Malformed),
+        ("1e", NumberError::Malformed),
+        ("+-1", NumberError::Malformed),
+        ("1.2.3", NumberError::Malformed),
+        ("１", NumberError::Malformed),
+        ("inf", NumberError::NotFinite),
+        ("-nan", NumberError::NotFinite),
+        ("0xff", NumberError::Radix),
+        ("1.1e300", NumberError::OutOfRange),
+        ("-9e-301", NumberError::OutOfRange),
+        ("1e99999999999999999999999", NumberError::OutOfRange),
+        ("1e-99999999999999999999999", NumberError::OutOfRange),
+        (&long, NumberError::TooLong),
+    ] {
+        assert_eq!(parse_decimal(text), Err(error), "{text}");
+    }
+}
+
+/// Whatever is written is read back; doubles are the hard cases.
+#[test]
+fn decimals_round_trip() {
+    let mut state = 7u64;
+    for _ in 0..2000 {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let exponent = state % 1992;
+        let double = f64::from_bits((state >> 12) | ((exponent + 28) << 52));
+        let value = Rational::from_float(double).expect("finite");
+        let text = write_decimal(&value).expect("a decimal");
+        if (1e-299..1e299).contains(&double) {
+            assert_eq!(parse_decimal(&text), Ok(value.clone()), "{text}");
+            assert_eq!(value.to_f64(), Some(double));
+            assert_eq!(text.parse(), Ok(double));
+        }
+    }
+    for text in [
+        "1",
+        "-10",
+        "0.001",
+        "0.00001",
+        "9.5e-6",
+        "123456789.125",
+        "1e16",
+        "-1.5e20",
+    ] {
+        let value = parse_decimal(text).expect("a number");
+        assert_eq!(write_decimal(&value).as_deref(), Some(text));
+    }
+    assert_eq!(write_decimal(&ratio(1, 3)), None);
+}

@@ -1,0 +1,348 @@
+//! What is wrong with a file is said on the right line, in words that help,
+//! and all at once. One row a case.
+
+use dalembert_model::read::{Diagnostic, MAX_BYTES, Options, Severity, parse, parse_bytes};
+
+/// A good robot of one joint; the rows below put one thing wrong.
+const GOOD: &str = r#"name = "arm"
+convention = "standard"
+gravity = [0, 0, -9.81]
+[[joint]]
+name = "waist"
+kind = "revolute"
+alpha = "pi/2"
+a = 0.5
+d = 0.25
+theta = 0
+offset = 0.1
+mass = 2
+com = [0, 0.1, 0]
+inertia = [1, 1, 1, 0, 0, 0]
+viscous = 0.1
+armature = 0.1
+limits = { position = [-1, 1], velocity = 2, acceleration = 3, torque = 4 }
+"#;
+
+/// Line to replace, what by, and pieces of the one error expected there.
+type Row = (&'static str, &'static str, &'static str, &'static str);
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    // The robot.
+    ("name = \"arm\"", "", "the robot has no `name`", "name = \"puma560\""),
+    ("convention = \"standard\"", "", "the robot has no `convention`", "\"modified\""),
+    ("gravity = [0, 0, -9.81]", "", "the robot has no `gravity`", "m/s²"),
+    ("name = \"arm\"", "name = 3", "expected a string, found the number `3`", "quotes"),
+    ("name = \"arm\"", "name = \"\"", "the name is empty", "lower-case"),
+    ("name = \"arm\"", "name = \"PUMA 560\"", "cannot name a Rust module", "\"puma_560\""),
+    ("name = \"arm\"", "name = \"3r\"", "cannot name a Rust module", "\"robot_3r\""),
+    ("name = \"arm\"", "name = \"loop\"", "a word of the Rust language", "\"loop_robot\""),
+    ("name = \"arm\"", "name = \"bras_mécanique\"", "cannot name", "\"bras_m_canique\""),
+    ("name = \"arm\"", "nmae = \"arm\"", "the robot has no `name`", ""),
+    ("convention = \"standard\"", "convention = \"standrad\"", "expected \"standard\" or \"modified\"", "did you mean \"standard\""),
+    ("convention = \"standard\"", "convention = \"craig\"", "found the string `craig`", "did you mean \"modified\""),
+    ("convention = \"standard\"", "convention = true", "found `true`", ""),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, -9.81]", "expected an array of 3, found an array of 2", "gravity ="),
+    ("gravity = [0, 0, -9.81]", "gravity = -9.81", "expected an array of 3, found the number `-9.81`", "base axes"),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, 0, inf]", "`inf` is not a finite number", "finite"),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, 0, \"-9.81\"]", "expected a number, found the string", "without quotes"),
+    ("[[joint]]", "[joint]", "expected [[joint]] tables, found a table", "two brackets"),
+    ("[[joint]]", "[[joints]]", "the robot has no `joint`", ""),
+    // Keys of a joint.
+    ("kind = \"revolute\"", "", "joint 1 has no `kind`", "prismatic"),
+    ("mass = 2", "", "joint 1 has no `mass`", "mass = 0"),
+    ("com = [0, 0.1, 0]", "", "joint 1 has no `com`", "only a link with mass = 0"),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "", "joint 1 has no `inertia`", "Ixx, Iyy, Izz"),
+    ("a = 0.5", "length = 0.5", "unknown key `length`", "did you mean `a`"),
+    ("viscous = 0.1", "damping = 0.1", "unknown key `damping`", "did you mean `viscous`"),
+    ("armature = 0.1", "colour = \"red\"", "unknown key `colour`", "joint 1 has: name, kind"),
+    ("kind = \"revolute\"", "kind = \"revolut\"", "found the string `revolut`", "did you mean \"revolute\""),
+    ("kind = \"revolute\"", "kind = \"slider\"", "expected \"revolute\" or \"prismatic\"", ""),
+    ("kind = \"revolute\"", "kind = \"fixed\"", "found the string `fixed`", "part of the link before"),
+    ("kind = \"revolute\"", "kind = 0", "found the number `0`", ""),
+    ("kind = \"revolute\"", "kind = \"prismatic\"", "`d` of a prismatic joint is its variable", "called `offset`"),
+    ("theta = 0", "theta = 0.5", "`theta` of a revolute joint is its variable", "called `offset`"),
+    ("name = \"waist\"", "name = \"\"", "a joint's name has 1 to 64 characters", "leave the name out"),
+    ("name = \"waist\"", "name = \"a\\nb\"", "control character", ""),
+    // Numbers and angles.
+    ("mass = 2", "mass = nan", "`nan` is not a finite number", ""),
+    ("mass = 2", "mass = -inf", "`-inf` is not a finite number", ""),
+    ("mass = 2", "mass = -2", "mass is negative", "zero or more"),
+    ("mass = 2", "mass = 0x10", "in another base", "decimal"),
+    ("mass = 2", "mass = 1e-301", "too large or too small", "1e-300 to 1e300"),
+    ("mass = 2", "mass = 1e301", "too large or too small", "1e-300 to 1e300"),
+    ("mass = 2", "mass = 1e400", "is not a number that TOML can hold", ""),
+    ("mass = 2", "mass = .5", "expected a value, found a period", ""),
+    ("mass = 2", "mass = +-5", "not a decimal number", "0.5"),
+    ("mass = 2", "mass = 99999999999999999999", "is not a number that TOML can hold", "1e30"),
+    ("mass = 2", "mass = \"1/0\"", "denominator zero", ""),
+    ("mass = 2", "mass = \"pi\"", "expected a number", "no angle"),
+    ("mass = 2", "mass = 2 kg", "expected newline, found an identifier", ""),
+    ("a = 0.5", "a = half", "`half` is neither a number nor a quoted string", "in quotes"),
+    ("a = 0.5", "a = 1979-05-27", "is not a number", ""),
+    ("viscous = 0.1", "viscous = -0.1", "viscous is negative", "energy"),
+    ("armature = 0.1", "armature = -1", "armature is negative", "rotor"),
+    ("alpha = \"pi/2\"", "alpha = \"pi/0\"", "expected an angle, found the string `pi/0`", "90deg"),
+    ("alpha = \"pi/2\"", "alpha = \"1.5\"", "expected an angle", "without quotes"),
+    ("alpha = \"pi/2\"", "alpha = [1]", "expected an angle, found an array of 1", "radians"),
+    ("alpha = \"pi/2\"", "alpha = pi/2", "`pi/2` is not a number", "write \"pi/2\", in quotes"),
+    ("alpha = \"pi/2\"", "alpha = -pi/2", "`-pi/2` is not a number", "write \"-pi/2\", in quotes"),
+    ("alpha = \"pi/2\"", "alpha = 90deg", "`90deg` is not a number", "write \"90deg\", in quotes"),
+    ("alpha = \"pi/2\"", "alpha = 3*pi/4", "found `*`", "in quotes"),
+    ("offset = 0.1", "offset = \"ninety\"", "expected an angle", ""),
+    // Vectors and tensors.
+    ("com = [0, 0.1, 0]", "com = [0, 0.1]", "expected an array of 3", "com ="),
+    ("com = [0, 0.1, 0]", "com = { x = 1 }", "expected an array of 3, found a table", ""),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1, 1]", "expected 6 numbers or 3 rows of 3, found an array of 3", "Ixx"),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, [2], 3, 4, 5, 6]", "expected a number, found an array of 1", ""),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [[1,0,0],[0,1],[0,0,1]]", "expected an array of 3, found an array of 2", ""),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [[1,0,0.1],[0,1,0],[0.2,0,1]]", "row 1, column 3 is not row 3, column 1", "same number"),
+    // Limits.
+    ("limits = {", "limits = { speed = 2,", "unknown key `speed`", "limits has: position, velocity"),
+    ("position = [-1, 1]", "position = [1, -1]", "the lowest position is not below the highest", "[lowest, highest]"),
+    ("position = [-1, 1]", "position = [\"pi\", \"180deg\"]", "the lowest position is not below", ""),
+    ("position = [-1, 1]", "position = [1]", "expected an array of 2", "lowest"),
+    ("velocity = 2", "velocity = -2", "velocity is negative", "both directions"),
+    ("torque = 4", "torque = inf", "not a finite number", "leave the key out"),
+    // TOML itself.
+    ("a = 0.5", "a = 0.5\na = 0.6", "the key `a` is defined twice", "line 8"),
+    ("name = \"arm\"", "name = \"arm", "the string does not end on its line", "quotation mark"),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1", "", ""),
+    ("a = 0.5", "a =", "expected a value, found a newline", ""),
+    ("a = 0.5", "a 0.5", "expected an equals", ""),
+    ("a = 0.5", "a = \"\\q\"", "invalid escape", ""),
+];
+
+fn errors(source: &str) -> Vec<Diagnostic> {
+    match parse(source, &Options::default()) {
+        Ok(_) => Vec::new(),
+        Err(errors) => errors.0,
+    }
+}
+
+#[test]
+fn one_row_a_case() {
+    assert_eq!(errors(GOOD), []);
+    let mut bad = String::new();
+    for (what, by, message, help) in ROWS {
+        assert!(GOOD.contains(what), "{what}");
+        let source = GOOD.replacen(what, by, 1);
+        let found = errors(&source);
+        let good = found
+            .iter()
+            .any(|d| d.message.contains(message) && d.help.as_deref().unwrap_or("").contains(help));
+        if !good {
+            bad += &format!(
+                "{by:?} for {what:?}: expected {message:?} ({help:?}), found {found:#?}\n"
+            );
+        }
+    }
+    assert!(bad.is_empty(), "{bad}");
+}
+
+/// The line is that of the value that is wrong.
+#[test]
+fn lines_and_columns() {
+    for (what, by, line, column) in [
+        ("name = \"arm\"", "name = 3", 1, 8),
+        ("mass = 2", "mass = -2", 12, 8),
+        ("com = [0, 0.1, 0]", "com = [0, nan, 0]", 13, 11),
+        ("torque = 4", "tork = 4", 17, 64),
+        ("mass = 2", "", 4, 1),
+        ("a = 0.5", "a = 0.5 ü", 8, 9),
+    ] {
+        let found = errors(&GOOD.replacen(what, by, 1));
+        assert_eq!(
+            (found[0].line, found[0].column),
+            (line, column),
+            "{by}: {found:?}"
+        );
+        assert_eq!(found.len(), 1, "{found:?}");
+    }
+}
+
+/// Nothing hides anything else, and the order is that of the file.
+#[test]
+fn all_at_once() {
+    let source = GOOD
+        .replace("mass = 2", "mass = -2")
+        .replace("name = \"arm\"", "name = \"Arm\"")
+        .replace("torque = 4", "torque = -4")
+        .replace("a = 0.5", "aa = 0.5")
+        .replace("com = [0, 0.1, 0]", "com = [nan, true, 0]");
+    let lines: Vec<_> = errors(&source).iter().map(|d| d.line).collect();
+    assert_eq!(lines, [1, 8, 12, 13, 13, 17]);
+}
+
+/// The printed form, with carets under what is wrong.
+#[test]
+fn rendering() {
+    let source = GOOD.replace("viscous = 0.1", "\tviscuos = 0.1");
+    let errors = parse(&source, &Options::default()).expect_err("a slip");
+    assert_eq!(
+        errors.render("arm.toml", &source),
+        "error: unknown key `viscuos`\n --> arm.toml:15:2\n   |\n15 |  viscuos = 0.1\n   |  ^^^^^^^\n   = help: did you mean `viscous`?\n"
+    );
+    assert_eq!(
+        errors.to_string(),
+        "15:2: error: unknown key `viscuos` (did you mean `viscous`?)"
+    );
+}
+
+/// Robots beyond the limits on their size.
+#[test]
+fn joints() {
+    let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, 0]\n";
+    let joint = "[[joint]]\nkind = \"revolute\"\nmass = 0\ninertia = [0, 0, 0, 0, 0, 0]\n";
+    let many = |n| format!("{head}{}", joint.repeat(n));
+    assert_eq!(errors(&many(64)), []);
+    let found = errors(&many(65));
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].message, "a robot has 1 to 64 joints, not 65");
+    assert_eq!(found[0].line, 4 + 64 * 4);
+    assert!(errors(head)[0].message.contains("no `joint`"));
+    assert!(
+        errors(&format!("joint = []\n{head}"))[0]
+            .message
+            .contains("not 0")
+    );
+
+    let twice = many(2).replace("kind", "name = \"waist\"\nkind");
+    let found = errors(&twice);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].message, "joint 1 is called \"waist\" already");
+    assert_eq!(found[0].line, 10);
+}
+
+/// Odd but not wrong: read, with a warning or a note on the right line.
+#[test]
+fn warnings_and_notes() {
+    for (what, by, severity, line, message) in [
+        (
+            "inertia = [1, 1, 1,",
+            "inertia = [1, 1, 3,",
+            Severity::Warning,
+            14,
+            "exceeds the sum",
+        ),
+        (
+            "inertia = [1, 1, 1,",
+            "inertia = [1, 1, -1,",
+            Severity::Warning,
+            14,
+            "is negative",
+        ),
+        (
+            "mass = 2",
+            "mass = 0",
+            Severity::Warning,
+            14,
+            "the mass is zero",
+        ),
+        (
+            "alpha = \"pi/2\"",
+            "alpha = 3.1416",
+            Severity::Warning,
+            7,
+            "from pi",
+        ),
+        (
+            "alpha = \"pi/2\"",
+            "alpha = 4.71238898038469",
+            Severity::Note,
+            7,
+            "3*pi/2",
+        ),
+        (
+            "position = [-1, 1]",
+            "position = [-1, 1.5708]",
+            Severity::Warning,
+            17,
+            "from pi/2",
+        ),
+        (
+            "[[joint]]",
+            "[scene.lab]\nbox = 1\n[[joint]]",
+            Severity::Note,
+            4,
+            "scenes are not yet used",
+        ),
+    ] {
+        let source = GOOD.replacen(what, by, 1);
+        let notes = parse(&source, &Options::default()).expect("reads").notes;
+        assert_eq!(notes.len(), 1, "{by}: {notes:?}");
+        assert_eq!((notes[0].severity, notes[0].line), (severity, line));
+        assert!(notes[0].message.contains(message), "{:?}", notes[0]);
+    }
+}
+
+/// Three rows say what six numbers say; a massless link needs no com.
+#[test]
+fn other_ways_to_say_it() {
+    let robot = |source: &str| parse(source, &Options::default()).expect("reads").robot;
+    let six = GOOD.replace("[1, 1, 1, 0, 0, 0]", "[3, 4, 5, 0.1, 0.2, 0.3]");
+    let rows = "[[3, 0.1, 0.3],\n [0.10, 4, 2e-1],\n [0.3, 0.2, 5]] # a comment";
+    assert_eq!(
+        robot(&six),
+        robot(&GOOD.replace("[1, 1, 1, 0, 0, 0]", rows))
+    );
+    let massless = GOOD
+        .replace("mass = 2", "mass = 0.0")
+        .replace("com = [0, 0.1, 0]\n", "");
+    assert_eq!(errors(&massless), []);
+    // Line ends of another system, and a byte order mark.
+    assert_eq!(robot(&GOOD.replace('\n', "\r\n")), robot(GOOD));
+    assert_eq!(robot(&format!("\u{feff}{GOOD}")), robot(GOOD));
+    // A limits table of its own, and inline joints.
+    let table = GOOD
+        .replace("limits = {", "[joint.limits]\n")
+        .replace(" }", "")
+        .replace(", v", "\nv")
+        .replace(", a", "\na")
+        .replace(", t", "\nt");
+    assert_eq!(robot(&table), robot(GOOD));
+}
+
+/// Input that would cost too much is refused, quickly and with a reason.
+#[test]
+fn limits_on_the_input() {
+    for (source, message) in [
+        ("#".repeat(MAX_BYTES + 1), "at most 1048576"),
+        (format!("a = {}", "[".repeat(500_000)), "levels deep"),
+        (format!("a = {}", "{a=".repeat(300_000)), "levels deep"),
+        (format!("{}a = 1", "a.".repeat(500_000)), "levels deep"),
+        (format!("[{}a]", "a.".repeat(500_000)), "levels deep"),
+        ("a.b = 1\n".repeat(100_000), "keys and tables"),
+        ("[[a]]\n".repeat(100_000), "keys and tables"),
+        ("x".repeat(100_000), "a word of more than"),
+        (
+            format!("name = \"{}\"", "x".repeat(100_000)),
+            "a word of more than",
+        ),
+    ] {
+        let found = errors(&source);
+        assert_eq!(found.len(), 1);
+        assert!(found[0].message.contains(message), "{:?}", found[0]);
+        assert!(found[0].render("f", &source).len() < 1000);
+    }
+    // Long literals and name lists stay within bounds too.
+    let digits = "1".repeat(1000);
+    let found = errors(&GOOD.replace("mass = 2", &format!("mass = 0.{digits}")));
+    assert!(
+        found[0].message.contains("more than 800 digits"),
+        "{found:?}"
+    );
+    let found = errors(&(0..8000).map(|i| format!("k{i} = 1\n")).collect::<String>());
+    assert!(found.len() <= 200);
+    assert!(found[199].message.contains("more errors"));
+}
+
+#[test]
+fn not_utf8() {
+    let mut bytes = GOOD.as_bytes().to_vec();
+    let at = GOOD.find("waist").expect("there");
+    bytes[at] = 0xff;
+    let errors = parse_bytes(&bytes, &Options::default()).expect_err("not text");
+    assert_eq!((errors.0[0].line, errors.0[0].column), (5, 9));
+    assert!(errors.0[0].message.contains("not UTF-8"));
+}
