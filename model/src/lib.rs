@@ -5,6 +5,7 @@
 //! - [`read`]: robot files and what is wrong with them (feature `std`)
 //! - [`scalar`]: the arithmetic that every formula is generic over
 //! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
+//! - [`reference`]: the generic runtime in f64 and f32, nalgebra at its surface
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -16,5 +17,6 @@ pub mod equations;
 pub mod number;
 #[cfg(feature = "std")]
 pub mod read;
+pub mod reference;
 pub mod robot;
 pub mod scalar;

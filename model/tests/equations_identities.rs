@@ -5,14 +5,14 @@
 
 mod equations_support;
 
-use dalembert_model::equations::Formulation;
 use dalembert_model::equations::dalembert::Dalembert;
 use dalembert_model::equations::lagrange_euler::velocity_terms;
 use dalembert_model::equations::newton_euler::{Wrench, table1, table2};
+use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{Case, case, kinds, triple};
+use equations_support::random::{self, Case, case, kinds, triple};
 
 const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
 
@@ -152,16 +152,80 @@ fn inertia_is_free_of_the_first_joint() {
             let mut case = case(convention, &kinds(3, bits), &mut points);
             let d = Formulation::Dalembert.inertia(&case.arm, &case.at);
             case.at[0] = match case.arm.links[0].kind {
-                JointKind::Revolute => dalembert_model::equations::DhVariables {
-                    theta: equations_support::random::pair(&mut points),
+                JointKind::Revolute => DhVariables {
+                    theta: random::pair(&mut points),
                     ..case.at[0].clone()
                 },
-                JointKind::Prismatic => dalembert_model::equations::DhVariables {
+                JointKind::Prismatic => DhVariables {
                     d: points.field(),
                     ..case.at[0].clone()
                 },
             };
             assert_eq!(Formulation::Dalembert.inertia(&case.arm, &case.at), d);
+        }
+    }
+}
+
+/// fold_base changes no output, and leaves no length that has no effect.
+#[test]
+fn the_base_folds_without_a_trace() {
+    let mut points = Points::new(24);
+    for convention in CONVENTIONS {
+        for bits in 0..16 {
+            // Each axis in turn the first that is not parallel to the one before.
+            for parallel in 0..4 {
+                let mut case = case(convention, &kinds(4, bits), &mut points);
+                for link in &mut case.arm.links[..parallel] {
+                    link.alpha.sin = Field::ZERO;
+                    link.alpha.cos = Field::ONE;
+                }
+                let folded = case.arm.clone().fold_base();
+                assert!(
+                    case.arm
+                        .links
+                        .iter()
+                        .zip(&folded.links)
+                        .any(|(a, b)| a.d != b.d)
+                );
+                // Positions are applied after folding, as a runtime does.
+                let position: Vec<_> = folded
+                    .links
+                    .iter()
+                    .map(|link| match link.kind {
+                        JointKind::Revolute => JointPosition::Revolute(random::pair(&mut points)),
+                        JointKind::Prismatic => JointPosition::Prismatic(points.field()),
+                    })
+                    .collect();
+                let outputs = |arm: &Arm<Field>| {
+                    let at = arm.at(&position);
+                    let form = Formulation::NewtonEulerLink;
+                    let tau = form.inverse_dynamics(arm, &at, &case.qd, &case.qdd);
+                    (
+                        tau,
+                        form.inertia(arm, &at),
+                        form.christoffel(arm, &at),
+                        form.gravity(arm, &at),
+                    )
+                };
+                let truth = outputs(&case.arm);
+                assert_eq!(
+                    outputs(&folded),
+                    truth,
+                    "{convention:?} {bits:04b} {parallel}"
+                );
+                // What was kept has an effect.
+                for i in 0..4 {
+                    let mut changed = folded.clone();
+                    if folded.links[i].d != Field::ZERO {
+                        changed.links[i].d = points.field();
+                        assert_ne!(
+                            outputs(&changed),
+                            truth,
+                            "{convention:?} {bits:04b} {parallel} d{i}"
+                        );
+                    }
+                }
+            }
         }
     }
 }

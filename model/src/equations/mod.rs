@@ -20,6 +20,7 @@
 //! [`Scalar`]: crate::scalar::Scalar
 
 mod arm;
+mod base;
 pub mod dalembert;
 mod formulation;
 mod from_robot;

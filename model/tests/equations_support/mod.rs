@@ -1,6 +1,7 @@
 //! Arms for the tests of the equations: golden robots and random general ones.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod extremes;
 pub mod golden;
 pub mod random;
 
