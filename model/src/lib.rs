@@ -5,7 +5,7 @@
 //! - [`read`]: robot files and what is wrong with them (feature `std`)
 //! - [`scalar`]: the arithmetic that every formula is generic over
 //! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
-//! - [`reference`]: the generic runtime in f64 and f32, nalgebra at its surface
+//! - [`mod@reference`]: the generic runtime in f64 and f32, nalgebra at its surface
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -73,7 +73,7 @@ impl core::error::Error for WrongLength {}
 /// use dalembert_model::equations::{Arm, Link, Rotor};
 /// use dalembert_model::reference::Reference;
 /// use dalembert_model::robot::{Convention, Inertia, JointKind};
-/// use nalgebra::dvector;
+/// use nalgebra::DVector;
 ///
 /// // A pendulum of 1 kg at 0.5 m, swinging in the x-y plane.
 /// let straight = Rotor { sin: 0.0, cos: 1.0 };
@@ -94,8 +94,9 @@ impl core::error::Error for WrongLength {}
 ///     }],
 /// };
 /// let pendulum = Reference::new(arm);
-/// let tau = pendulum.inverse_dynamics(&dvector![0.0], &dvector![2.0], &dvector![4.0])?;
-/// assert!((tau[0] - (0.25 * 4.0 + 0.5 * 9.81 + 0.1 * 2.0)).abs() < 1e-15);
+/// let [q, qd, qdd] = [0.0, 2.0, 4.0].map(|x| DVector::from_element(1, x));
+/// let tau = pendulum.inverse_dynamics(&q, &qd, &qdd)?;
+/// assert_eq!(tau[0], 0.25 * 4.0 + 0.5 * 9.81 + 0.1 * 2.0);
 /// # Ok::<(), dalembert_model::reference::WrongLength>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -3,7 +3,9 @@
 mod equations_support;
 
 use dalembert_model::equations::Formulation;
+use dalembert_model::reference::Reference;
 use equations_support::{golden, normwise, positions};
+use nalgebra::DVector;
 
 /// The bound of the golden states, normwise.
 const BOUND: f64 = 1e-12;
@@ -36,6 +38,28 @@ fn golden_states() {
                 worst.iter().all(|e| *e <= BOUND),
                 "{name} {formulation:?}: {worst:?}"
             );
+        }
+    }
+}
+
+#[test]
+fn runtime_on_golden_states() {
+    let bound = 100.0 * f64::EPSILON / 2.0;
+    for name in golden::ROBOTS {
+        let (arm, states) = golden::read(name);
+        let reference = Reference::new(arm);
+        for state in &states {
+            let vector = |values: &[f64]| DVector::from_column_slice(values);
+            let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| vector(x));
+            let tau = reference.inverse_dynamics(&q, &qd, &qdd).unwrap();
+            let d = reference.inertia(&q).unwrap();
+            let h = reference.coriolis(&q, &qd).unwrap();
+            let c = reference.gravity(&q).unwrap();
+            assert!(normwise(tau.as_slice(), &state.tau) <= bound, "{name}");
+            // Symmetric: its columns are its rows.
+            assert!(normwise(d.as_slice(), &state.d) <= bound, "{name}");
+            assert!(normwise(h.as_slice(), &state.h) <= bound, "{name}");
+            assert!(normwise(c.as_slice(), &state.c) <= bound, "{name}");
         }
     }
 }

@@ -106,18 +106,14 @@ fn christoffel_symbols_obey_their_relations() {
         let h = Formulation::LagrangeEuler.christoffel(&case.arm, &case.at);
         let n = h.len();
         let prismatic = |i: usize| case.arm.links[i].kind == JointKind::Prismatic;
-        for i in 0..n {
-            assert_eq!(h[i][i][i], Field::ZERO);
-            for k in 0..n {
-                for m in 0..n {
-                    assert_eq!(h[i][k][m], h[i][m][k]);
-                    if m <= i.min(k) {
-                        assert_eq!(h[i][k][m], h[k][i][m].neg());
-                    }
-                    if prismatic(k.min(m)) {
-                        assert_eq!(h[i][k][m], Field::ZERO);
-                    }
-                }
+        let triples = (0..n * n * n).map(|t| (t / n / n, t / n % n, t % n));
+        for (i, k, m) in triples {
+            assert_eq!(h[i][k][m], h[i][m][k]);
+            if m <= i.min(k) {
+                assert_eq!(h[i][k][m], h[k][i][m].neg());
+            }
+            if i == k && k == m || prismatic(k.min(m)) {
+                assert_eq!(h[i][k][m], Field::ZERO);
             }
         }
     }

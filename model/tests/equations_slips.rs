@@ -5,8 +5,8 @@ mod equations_support;
 
 use std::cell::Cell;
 
-use dalembert_model::equations::{Arm, DhVariables, Formulation, Link, Rotor};
-use dalembert_model::robot::{Convention, Inertia};
+use dalembert_model::equations::{Arm, DhVariables, Formulation};
+use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 use equations_support::random::{Case, case, kinds};
@@ -79,41 +79,18 @@ fn slipping(
     Vec<Slipping>,
     Vec<Slipping>,
 ) {
-    let pair = |r: &Rotor<Field>| Rotor {
-        sin: Slipping(r.sin),
-        cos: Slipping(r.cos),
-    };
-    let link = |l: &Link<Field>| Link {
-        kind: l.kind,
-        alpha: pair(&l.alpha),
-        theta: pair(&l.theta),
-        a: Slipping(l.a),
-        d: Slipping(l.d),
-        mass: Slipping(l.mass),
-        com: l.com.map(Slipping),
-        inertia: Inertia {
-            xx: Slipping(l.inertia.xx),
-            yy: Slipping(l.inertia.yy),
-            zz: Slipping(l.inertia.zz),
-            xy: Slipping(l.inertia.xy),
-            yz: Slipping(l.inertia.yz),
-            xz: Slipping(l.inertia.xz),
-        },
-        viscous: Slipping(l.viscous),
-        armature: Slipping(l.armature),
-    };
-    let arm = Arm {
-        convention: case.arm.convention,
-        gravity: case.arm.gravity.map(Slipping),
-        links: case.arm.links.iter().map(link).collect(),
-    };
     let at = case.at.iter().map(|at| DhVariables {
-        theta: pair(&at.theta),
+        theta: at.theta.map(|x| Slipping(*x)),
         d: Slipping(at.d),
     });
     let at = at.collect();
     let wrap = |v: &[Field]| v.iter().map(|x| Slipping(*x)).collect();
-    (arm, at, wrap(&case.qd), wrap(&case.qdd))
+    (
+        case.arm.map(|x| Slipping(*x)),
+        at,
+        wrap(&case.qd),
+        wrap(&case.qdd),
+    )
 }
 
 #[test]

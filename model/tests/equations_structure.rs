@@ -5,8 +5,8 @@ mod equations_support;
 
 use std::collections::BTreeSet;
 
-use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, Rotor};
-use dalembert_model::robot::{Inertia, JointKind};
+use dalembert_model::equations::{Formulation, JointPosition};
+use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 use equations_support::{golden, random};
@@ -25,37 +25,6 @@ fn decimal(x: f64) -> Field {
     Field::from_rational(&(BigRational::from_integer(numer) * scale)).unwrap()
 }
 
-fn exact(arm: &Arm<f64>) -> Arm<Field> {
-    let pair = |r: &Rotor<f64>| Rotor {
-        sin: decimal(r.sin),
-        cos: decimal(r.cos),
-    };
-    let link = |l: &Link<f64>| Link {
-        kind: l.kind,
-        alpha: pair(&l.alpha),
-        theta: pair(&l.theta),
-        a: decimal(l.a),
-        d: decimal(l.d),
-        mass: decimal(l.mass),
-        com: l.com.map(decimal),
-        inertia: Inertia {
-            xx: decimal(l.inertia.xx),
-            yy: decimal(l.inertia.yy),
-            zz: decimal(l.inertia.zz),
-            xy: decimal(l.inertia.xy),
-            yz: decimal(l.inertia.yz),
-            xz: decimal(l.inertia.xz),
-        },
-        viscous: Field::ZERO,
-        armature: Field::ZERO,
-    };
-    Arm {
-        convention: arm.convention,
-        gravity: arm.gravity.map(decimal),
-        links: arm.links.iter().map(link).collect(),
-    }
-}
-
 /// Non-zero entries among all those given, and how many of them differ by more
 /// than a sign.
 fn nonzero_and_distinct(entries: &[Field]) -> (usize, usize) {
@@ -67,7 +36,7 @@ fn nonzero_and_distinct(entries: &[Field]) -> (usize, usize) {
 #[test]
 fn zeros_and_coincidences_are_those_known() {
     for (robot, expected) in [("puma560", (84, 35)), ("stanford", (62, 34))] {
-        let arm = exact(&golden::read(robot).0);
+        let arm = golden::read(robot).0.map(|x| decimal(*x));
         let mut points = Points::new(40);
         let position: Vec<_> = arm
             .links

@@ -102,6 +102,56 @@ impl<S: Scalar> Arm<S> {
     }
 }
 
+/// The same parameters in another scalar, each taken over by `f`.
+///
+/// Pairs are converted entry by entry: a conversion that rounds leaves them on
+/// the circle only to its own accuracy.
+impl<S> Arm<S> {
+    /// Every parameter of the arm through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Arm<T> {
+        Arm {
+            convention: self.convention,
+            gravity: self.gravity.each_ref().map(&mut f),
+            links: self.links.iter().map(|link| link.map(&mut f)).collect(),
+        }
+    }
+}
+
+impl<S> Link<S> {
+    /// Every parameter of the link through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Link<T> {
+        Link {
+            kind: self.kind,
+            alpha: self.alpha.map(&mut f),
+            theta: self.theta.map(&mut f),
+            a: f(&self.a),
+            d: f(&self.d),
+            mass: f(&self.mass),
+            com: self.com.each_ref().map(&mut f),
+            inertia: Inertia {
+                xx: f(&self.inertia.xx),
+                yy: f(&self.inertia.yy),
+                zz: f(&self.inertia.zz),
+                xy: f(&self.inertia.xy),
+                yz: f(&self.inertia.yz),
+                xz: f(&self.inertia.xz),
+            },
+            viscous: f(&self.viscous),
+            armature: f(&self.armature),
+        }
+    }
+}
+
+impl<S> Rotor<S> {
+    /// Both entries through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Rotor<T> {
+        Rotor {
+            sin: f(&self.sin),
+            cos: f(&self.cos),
+        }
+    }
+}
+
 /// The step from frame i−1 to frame i at a position: ⁱ⁻¹A_i, applied factor by
 /// factor, so that each is a plane rotation or a shift along one axis.
 impl<S: Scalar> Link<S> {
