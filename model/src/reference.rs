@@ -10,11 +10,12 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::equations::newton_euler::table2::{self, Moment};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor};
-use crate::robot::JointKind;
+use crate::number::{Exact, Rounded};
+use crate::robot::{JointKind, Robot};
 use crate::scalar::Scalar;
 
 /// The floats that a [`Reference`] computes in: f64 and f32.
-pub trait Float: Scalar + Copy + PartialEq + fmt::Debug + sealed::Sealed + 'static {
+pub trait Float: Scalar + Rounded + fmt::Debug + sealed::Sealed + 'static {
     /// sin and cos, within an ulp at every size.
     fn sin_cos(self) -> (Self, Self);
 }
@@ -68,6 +69,8 @@ impl core::error::Error for WrongLength {}
 ///
 /// All vectors are of length n, from the base to the hand: q in rad or m, q̇
 /// and q̈ in the same per second, torques in N·m, or N at a prismatic joint.
+/// A vector of another length is a [`WrongLength`] error; NaN and infinities
+/// spread to the outputs.
 ///
 /// ```
 /// use dalembert_model::equations::{Arm, Link, Rotor};
@@ -110,6 +113,15 @@ impl<T: Float> Reference<T> {
     pub fn new(arm: Arm<T>) -> Self {
         Reference {
             arm: arm.fold_base(),
+        }
+    }
+
+    /// The dynamics of a robot, each parameter rounded once.
+    pub fn from_robot(robot: &Robot) -> Self {
+        // Folded while exact: sin α of a parallel axis is zero here, not small.
+        let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
+        Reference {
+            arm: exact.fold_base().map(T::nearest),
         }
     }
 

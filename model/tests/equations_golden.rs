@@ -2,7 +2,8 @@
 
 mod equations_support;
 
-use dalembert_model::equations::Formulation;
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::read;
 use dalembert_model::reference::Reference;
 use equations_support::{golden, normwise, positions};
 use nalgebra::DVector;
@@ -42,19 +43,30 @@ fn golden_states() {
     }
 }
 
+/// The runtime of the arm in the golden file, and of the robot file.
+fn runtimes(name: &str, arm: Arm<f64>) -> [Reference<f64>; 2] {
+    let robots = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
+    let text = std::fs::read_to_string(format!("{robots}/{name}.toml")).unwrap();
+    let reading = read::parse(&text, &read::Options::default()).unwrap();
+    [Reference::new(arm), Reference::from_robot(&reading.robot)]
+}
+
 #[test]
 fn runtime_on_golden_states() {
     let bound = 100.0 * f64::EPSILON / 2.0;
     for name in golden::ROBOTS {
         let (arm, states) = golden::read(name);
-        let reference = Reference::new(arm);
-        for state in &states {
-            let vector = |values: &[f64]| DVector::from_column_slice(values);
+        let vector = |values: &[f64]| DVector::from_column_slice(values);
+        let runtimes = runtimes(name, arm);
+        for (runtime, state) in runtimes
+            .iter()
+            .flat_map(|r| states.iter().map(move |s| (r, s)))
+        {
             let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| vector(x));
-            let tau = reference.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            let d = reference.inertia(&q).unwrap();
-            let h = reference.coriolis(&q, &qd).unwrap();
-            let c = reference.gravity(&q).unwrap();
+            let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+            let d = runtime.inertia(&q).unwrap();
+            let h = runtime.coriolis(&q, &qd).unwrap();
+            let c = runtime.gravity(&q).unwrap();
             assert!(normwise(tau.as_slice(), &state.tau) <= bound, "{name}");
             // Symmetric: its columns are its rows.
             assert!(normwise(d.as_slice(), &state.d) <= bound, "{name}");

@@ -8,6 +8,7 @@
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
+//! | [`Arm::from_robot`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i in every form: armature is part of
