@@ -1,5 +1,6 @@
 //! From a robot to verified flat Rust: stages in the order of the pipeline.
 //!
+//! - [`generate`]: the one function that macro, build script and command call
 //! - [`function`]: the functions that can be generated
 //! - [`trace`]: the equations as a graph
 //! - [`graph`]: the graph with exact constants and fingerprints
@@ -11,6 +12,7 @@
 
 pub mod emit;
 pub mod function;
+pub mod generate;
 pub mod graph;
 pub mod schedule;
 pub mod simplify;

@@ -46,6 +46,14 @@ impl ScalarType {
         }
     }
 
+    /// The least number with a full significand.
+    pub fn least_normal(self) -> f64 {
+        match self {
+            ScalarType::F64 => f64::MIN_POSITIVE,
+            ScalarType::F32 => f64::from(f32::MIN_POSITIVE),
+        }
+    }
+
     /// The constant, rounded once from its exact value, as a double that
     /// holds the rounded value exactly.
     pub fn round(self, value: &Exact) -> f64 {

@@ -1,0 +1,321 @@
+//! The one function that macro, build script and command call.
+
+use std::fmt;
+
+use dalembert_model::equations::Formulation;
+use dalembert_model::number::Exact;
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+
+use crate::emit::module::{self, ModuleOptions};
+use crate::emit::{MathPath, ScalarType};
+use crate::function::Function;
+use crate::graph::Counts;
+use crate::schedule::{Operand, Program};
+use crate::simplify::{Effort, Stage, simplify};
+use crate::trace::trace;
+use crate::verify::exact::{Disproof, Proof, prove};
+use crate::verify::text::{TextError, TextProgram};
+
+/// Which formulation a function starts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Start {
+    /// The cheapest, with the others' values at hand.
+    #[default]
+    Auto,
+    /// One only.
+    Only(Formulation),
+}
+
+impl Start {
+    /// The choices of the command line and the macro.
+    pub const NAMES: [&'static str; 4] = ["auto", "lagrange_euler", "dalembert", "newton_euler"];
+
+    /// The choice of a name.
+    pub fn from_name(name: &str) -> Option<Start> {
+        Some(match name {
+            "auto" => Start::Auto,
+            "lagrange_euler" => Start::Only(Formulation::LagrangeEuler),
+            "dalembert" => Start::Only(Formulation::Dalembert),
+            "newton_euler" => Start::Only(Formulation::NewtonEulerLink),
+            _ => return None,
+        })
+    }
+
+    fn formulations(self) -> Vec<Formulation> {
+        match self {
+            Start::Only(formulation) => vec![formulation],
+            Start::Auto => vec![
+                Formulation::NewtonEulerLink,
+                Formulation::Dalembert,
+                Formulation::LagrangeEuler,
+            ],
+        }
+    }
+}
+
+/// The name of a formulation in reports and on the command line.
+pub fn formulation_name(formulation: Formulation) -> &'static str {
+    match formulation {
+        Formulation::LagrangeEuler => "lagrange_euler",
+        Formulation::Dalembert => "dalembert",
+        _ => "newton_euler",
+    }
+}
+
+/// What to generate.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The functions, in any order; duplicates count once.
+    pub functions: Vec<Function>,
+    /// The scalars; one module each.
+    pub scalars: Vec<ScalarType>,
+    /// The formulation to start from.
+    pub start: Start,
+    /// How much work the simplifier may do.
+    pub effort: Effort,
+    /// Where emitted code finds sine and cosine.
+    pub math: MathPath,
+    /// The module's name; the robot's if `None`. The f32 module of a pair
+    /// has `_f32` appended.
+    pub module: Option<String>,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Request {
+            functions: Function::ALL.to_vec(),
+            scalars: ScalarType::ALL.to_vec(),
+            start: Start::Auto,
+            effort: Effort::Quick,
+            math: MathPath::default(),
+            module: None,
+        }
+    }
+}
+
+/// A generated and proved function.
+#[derive(Clone, Debug)]
+pub struct GeneratedFunction {
+    /// Which function.
+    pub function: Function,
+    /// The formulation that the search started from.
+    pub formulation: Formulation,
+    /// The final program with exact constants.
+    pub program: Program,
+    /// Its counts.
+    pub counts: Counts,
+    /// Counts of the formula as executed, then after each step.
+    pub stages: Vec<Stage>,
+    /// That it is right.
+    pub proof: Proof,
+}
+
+/// Everything generated for a robot.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// In the order of [`Function::ALL`].
+    pub functions: Vec<GeneratedFunction>,
+    /// The Rust source: one module a scalar.
+    pub text: String,
+    /// What a user should know, such as constants that round to subnormals.
+    pub warnings: Vec<String>,
+}
+
+/// Why nothing was generated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum GenerateError {
+    /// The request names no function or no scalar.
+    Empty,
+    /// A constant is beyond the scalar's range, or rounds to zero.
+    Constant {
+        /// The function that needs it.
+        function: Function,
+        /// The scalar that cannot hold it.
+        scalar: ScalarType,
+        /// Its value, roughly.
+        value: String,
+    },
+    /// A function would be too large to compile.
+    TooLarge {
+        /// Which function.
+        function: Function,
+        /// How many numbers it returns.
+        outputs: usize,
+    },
+    /// The program is not the formula: a defect of this library, or a
+    /// parameter that cannot be proved with.
+    Disproved(Function, Disproof),
+    /// The printed text is not the program: a defect of this library.
+    Text(Function, ScalarType, String),
+}
+
+impl fmt::Display for GenerateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
+            GenerateError::Constant {
+                function,
+                scalar,
+                value,
+            } => write!(
+                f,
+                "`{function}` needs the constant {value}, which {scalar} cannot hold: \
+                 choose other units or a wider scalar"
+            ),
+            GenerateError::TooLarge { function, outputs } => write!(
+                f,
+                "`{function}` would return {outputs} numbers: ask for `inverse_dynamics`, \
+                 `inertia`, `coriolis` or `gravity` instead"
+            ),
+            GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
+            GenerateError::Text(function, scalar, why) => {
+                write!(f, "`{function}` in {scalar}: {why}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for GenerateError {}
+
+/// The most numbers a function may return: beyond, the code that returns
+/// them alone takes a compiler minutes.
+pub const MOST_OUTPUTS: usize = 20_000;
+
+/// Generates, proves, prints and reads back.
+pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
+    if request.functions.is_empty() || request.scalars.is_empty() {
+        return Err(GenerateError::Empty);
+    }
+    let mut functions = Vec::new();
+    for function in Function::ALL {
+        if request.functions.contains(&function) {
+            functions.push(one(robot, function, request)?);
+        }
+    }
+    let mut warnings = Vec::new();
+    for generated in &functions {
+        for &scalar in &request.scalars {
+            check_constants(&generated.program, scalar, &mut warnings)?;
+        }
+    }
+    let text = module::write(
+        robot,
+        &functions,
+        &ModuleOptions {
+            scalars: &request.scalars,
+            math: &request.math,
+            name: request.module.as_deref().unwrap_or(&robot.name),
+        },
+    );
+    for generated in &functions {
+        for &scalar in &request.scalars {
+            read_back(&text, generated, scalar, robot, request)?;
+        }
+    }
+    Ok(Generated {
+        functions,
+        text,
+        warnings,
+    })
+}
+
+fn one(
+    robot: &Robot,
+    function: Function,
+    request: &Request,
+) -> Result<GeneratedFunction, GenerateError> {
+    let n = robot.joints.len();
+    let outputs = function.outputs(n);
+    if outputs > MOST_OUTPUTS {
+        return Err(GenerateError::TooLarge { function, outputs });
+    }
+    let formulations = request.start.formulations();
+    let mut traced = Vec::new();
+    let mut graphs = Vec::new();
+    for &formulation in &formulations {
+        let trace = trace(robot, function, formulation);
+        traced.push(trace.traced);
+        graphs.push(trace.graph);
+    }
+    let Some(simplified) = simplify(&graphs, request.effort) else {
+        return Err(GenerateError::Empty);
+    };
+    let mut stages = vec![Stage {
+        name: "traced",
+        counts: traced[simplified.seed],
+    }];
+    stages.extend(simplified.stages);
+    let program = Program::new(function, n, &simplified.graph);
+    let proof = prove(robot, &program).map_err(|d| GenerateError::Disproved(function, d))?;
+    let counts = program.counts();
+    stages.push(Stage {
+        name: "final",
+        counts,
+    });
+    Ok(GeneratedFunction {
+        function,
+        formulation: formulations[simplified.seed],
+        counts,
+        program,
+        stages,
+        proof,
+    })
+}
+
+/// A constant that becomes infinite or zero is an error, a subnormal one a
+/// warning: its relative rounding error is no longer bounded by u.
+fn check_constants(
+    program: &Program,
+    scalar: ScalarType,
+    warnings: &mut Vec<String>,
+) -> Result<(), GenerateError> {
+    let operands = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
+    let outputs = program.outputs.iter().map(|output| &output.value);
+    for operand in operands.chain(outputs) {
+        let Operand::Constant(constant) = operand else {
+            continue;
+        };
+        let rounded = scalar.round(constant);
+        if !rounded.is_finite() || (rounded == 0.0 && !constant.is_zero()) {
+            return Err(GenerateError::Constant {
+                function: program.function,
+                scalar,
+                value: roughly(constant),
+            });
+        }
+        if rounded != 0.0 && rounded.abs() < scalar.least_normal() {
+            warnings.push(format!(
+                "`{}`: the constant {rounded:e} is subnormal in {scalar}",
+                program.function
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn roughly(constant: &Exact) -> String {
+    use dalembert_model::number::Rounded;
+    format!("{:e}", f64::nearest(constant))
+}
+
+fn read_back(
+    text: &str,
+    generated: &GeneratedFunction,
+    scalar: ScalarType,
+    robot: &Robot,
+    request: &Request,
+) -> Result<(), GenerateError> {
+    let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
+    let name = request.module.as_deref().unwrap_or(&robot.name);
+    let module = module::name(name, scalar, &request.scalars);
+    let section = module::section(text, &module)
+        .ok_or_else(|| fail(format!("there is no module `{module}`")))?;
+    let read = TextProgram::parse(section, generated.function, scalar)
+        .map_err(|error: TextError| fail(error.to_string()))?;
+    read.matches(&generated.program, scalar).map_err(fail)?;
+    if read.counts() != generated.counts {
+        return Err(fail("the counts of the text differ".into()));
+    }
+    Ok(())
+}

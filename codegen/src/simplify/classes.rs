@@ -1,0 +1,310 @@
+//! Classes of equal values and the ways to compute each.
+//!
+//! A class is a fingerprint up to sign. Everything that finds a way to
+//! compute a class adds it here: other formulations, the e-graph, the search.
+//! [`extract`](super::extract) then chooses one way for each class.
+
+use std::collections::HashMap;
+
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+
+use crate::graph::{Builder, Edge, Folding, Graph, Input, Node, Points, Print, Value};
+
+/// The index of a class.
+pub type ClassId = u32;
+
+/// One way to compute a class from two others; operands ascending.
+///
+/// The operands stand for their canonical prints, and the result for the
+/// class up to sign: signs are found again when a graph is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Way {
+    /// a + b
+    Sum(ClassId, ClassId),
+    /// a − b
+    Difference(ClassId, ClassId),
+    /// a · b
+    Product(ClassId, ClassId),
+}
+
+impl Way {
+    /// The operands.
+    pub fn operands(self) -> [ClassId; 2] {
+        match self {
+            Way::Sum(a, b) | Way::Difference(a, b) | Way::Product(a, b) => [a, b],
+        }
+    }
+
+    fn ordered(self) -> Way {
+        match self {
+            Way::Sum(a, b) if b < a => Way::Sum(b, a),
+            Way::Difference(a, b) if b < a => Way::Difference(b, a),
+            Way::Product(a, b) if b < a => Way::Product(b, a),
+            way => way,
+        }
+    }
+}
+
+/// A value that costs nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Leaf {
+    /// An exact constant.
+    Constant(Exact),
+    /// An input.
+    Input(Input),
+}
+
+/// A class up to sign.
+#[derive(Clone, Debug)]
+pub struct Class {
+    /// The canonical print.
+    pub print: Print,
+    /// The leaf that it is, if it is one: then there are no ways.
+    pub leaf: Option<Leaf>,
+    /// The ways to compute it, in the order they were found.
+    pub ways: Vec<Way>,
+}
+
+/// A class with a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Signed {
+    /// The class.
+    pub class: ClassId,
+    /// Whether the value is the negated canonical one.
+    pub negative: bool,
+}
+
+/// All classes of one function.
+#[derive(Clone, Debug, Default)]
+pub struct Classes {
+    classes: Vec<Class>,
+    by_print: HashMap<Print, ClassId>,
+    /// The function's results; `None` is zero.
+    pub outputs: Vec<Option<Signed>>,
+}
+
+impl Classes {
+    /// The classes of a graph, which also gives the outputs.
+    pub fn new(graph: &Graph) -> Classes {
+        let mut classes = Classes::default();
+        let values = classes.absorb(graph);
+        classes.outputs = graph
+            .outputs
+            .iter()
+            .map(|&edge| signed(&values, edge))
+            .collect();
+        classes
+    }
+
+    /// How many classes there are.
+    pub fn len(&self) -> usize {
+        self.classes.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.classes.is_empty()
+    }
+
+    /// A class.
+    pub fn get(&self, id: ClassId) -> &Class {
+        &self.classes[id as usize]
+    }
+
+    /// The class of a print, and whether the print is its negative.
+    pub fn find(&self, print: &Print) -> Option<Signed> {
+        let (canonical, negative) = print.canonical();
+        let &class = self.by_print.get(&canonical)?;
+        Some(Signed { class, negative })
+    }
+
+    /// The class of a print, made if it is new.
+    pub fn intern(&mut self, print: &Print) -> Signed {
+        let (canonical, negative) = print.canonical();
+        let classes = &mut self.classes;
+        let class = *self.by_print.entry(canonical).or_insert_with(|| {
+            classes.push(Class {
+                print: canonical,
+                leaf: None,
+                ways: Vec::new(),
+            });
+            (classes.len() - 1) as ClassId
+        });
+        Signed { class, negative }
+    }
+
+    /// Declares a class to be a leaf: it needs no operation any more.
+    pub fn set_leaf(&mut self, id: ClassId, leaf: Leaf) {
+        let class = &mut self.classes[id as usize];
+        class.ways.clear();
+        class.leaf.get_or_insert(leaf);
+    }
+
+    /// Adds a way to compute a class; whether it was new.
+    pub fn add_way(&mut self, id: ClassId, way: Way) -> bool {
+        let way = way.ordered();
+        if let Some(constant) = self.folded(way) {
+            // Up to sign it is the class, which stands for its canonical value.
+            let print = Points::SEARCH.constant(&constant);
+            let negative = print.is_some_and(|print| print.canonical().1);
+            let value = if negative { constant.neg() } else { constant };
+            self.set_leaf(id, Leaf::Constant(value));
+            return false;
+        }
+        let class = &mut self.classes[id as usize];
+        if class.leaf.is_some() || way.operands().contains(&id) || class.ways.contains(&way) {
+            return false;
+        }
+        class.ways.push(way);
+        true
+    }
+
+    /// The value of an operation on two constants.
+    fn folded(&self, way: Way) -> Option<Exact> {
+        let [a, b] = way.operands().map(|id| match &self.get(id).leaf {
+            Some(Leaf::Constant(constant)) => Some(constant),
+            _ => None,
+        });
+        let (a, b) = (a?, b?);
+        Some(match way {
+            Way::Sum(..) => a.add(b),
+            Way::Difference(..) => a.sub(b),
+            Way::Product(..) => a.mul(b),
+        })
+    }
+
+    /// The print of a way's result.
+    pub fn way_print(&self, way: Way) -> Print {
+        let [a, b] = way.operands().map(|id| self.get(id).print);
+        match way {
+            Way::Sum(..) => a.add(&b),
+            Way::Difference(..) => a.sub(&b),
+            Way::Product(..) => a.mul(&b),
+        }
+    }
+
+    /// Adds every node of a graph as a way to compute its class. Returns each
+    /// node's class; `None` is zero.
+    pub fn absorb(&mut self, graph: &Graph) -> Vec<Option<Signed>> {
+        let points = Points::SEARCH;
+        let mut prints: Vec<Print> = Vec::with_capacity(graph.nodes.len());
+        let mut values = Vec::with_capacity(graph.nodes.len());
+        for node in &graph.nodes {
+            let of = |id: crate::graph::NodeId| &prints[id.index()];
+            let print = match *node {
+                Node::Constant(c) => points
+                    .constant(&graph.constants[c as usize])
+                    .unwrap_or_else(Print::zero),
+                Node::Input(input) => points.input(input),
+                Node::Sum(a, b) => of(a).add(of(b)),
+                Node::Difference(a, b) => of(a).sub(of(b)),
+                Node::Product(a, b) => of(a).mul(of(b)),
+            };
+            prints.push(print);
+            values.push(self.value_of(graph, node, &print, &values));
+        }
+        values
+    }
+
+    fn value_of(
+        &mut self,
+        graph: &Graph,
+        node: &Node,
+        print: &Print,
+        values: &[Option<Signed>],
+    ) -> Option<Signed> {
+        if *print == Print::zero() {
+            return None;
+        }
+        let value = self.intern(print);
+        match *node {
+            Node::Constant(c) => {
+                let constant = graph.constants[c as usize].clone();
+                // The leaf is the canonical value, the edge may be its negative.
+                let leaf = if value.negative {
+                    constant.neg()
+                } else {
+                    constant
+                };
+                self.set_leaf(value.class, Leaf::Constant(leaf));
+            }
+            Node::Input(input) => self.set_leaf(value.class, Leaf::Input(input)),
+            Node::Sum(a, b) | Node::Difference(a, b) | Node::Product(a, b) => {
+                if let (Some(x), Some(y)) = (values[a.index()], values[b.index()]) {
+                    let same = x.negative == y.negative;
+                    let way = match node {
+                        Node::Product(..) => Way::Product(x.class, y.class),
+                        Node::Sum(..) if same => Way::Sum(x.class, y.class),
+                        Node::Difference(..) if !same => Way::Sum(x.class, y.class),
+                        _ => Way::Difference(x.class, y.class),
+                    };
+                    self.add_way(value.class, way);
+                }
+            }
+        }
+        Some(value)
+    }
+
+    /// The graph that computes the outputs by the chosen ways.
+    ///
+    /// The choice must be acyclic below the outputs and name a way for each
+    /// class that they need.
+    pub fn graph(&self, choice: &[Option<Way>]) -> Graph {
+        let mut builder = Builder::new(Folding::Semantic);
+        let mut values: Vec<Option<Value>> = vec![None; self.len()];
+        let mut pending: Vec<ClassId> = Vec::new();
+        for output in self.outputs.iter().flatten() {
+            pending.push(output.class);
+            while let Some(&id) = pending.last() {
+                if values[id as usize].is_some() {
+                    pending.pop();
+                    continue;
+                }
+                let class = self.get(id);
+                let value = match (&class.leaf, choice[id as usize]) {
+                    (Some(Leaf::Constant(c)), _) => Value::Constant(c.clone()),
+                    (Some(Leaf::Input(input)), _) => builder.input(*input),
+                    (None, Some(way)) => {
+                        let [a, b] = way.operands();
+                        let (x, y) = (&values[a as usize], &values[b as usize]);
+                        let (Some(x), Some(y)) = (x, y) else {
+                            pending
+                                .extend([a, b].iter().filter(|&&i| values[i as usize].is_none()));
+                            continue;
+                        };
+                        match way {
+                            Way::Sum(..) => builder.add(x, y),
+                            Way::Difference(..) => builder.sub(x, y),
+                            Way::Product(..) => builder.mul(x, y),
+                        }
+                    }
+                    (None, None) => Value::zero(),
+                };
+                // The value is the class up to sign; make it the canonical one.
+                let negative = builder.print(&value) != class.print;
+                values[id as usize] = Some(builder.negate_if(&value, negative));
+                pending.pop();
+            }
+        }
+        let outputs: Vec<Value> = self
+            .outputs
+            .iter()
+            .map(|output| match output {
+                None => Value::zero(),
+                Some(signed) => match &values[signed.class as usize] {
+                    Some(value) => builder.negate_if(value, signed.negative),
+                    None => Value::zero(),
+                },
+            })
+            .collect();
+        builder.finish(&outputs)
+    }
+}
+
+fn signed(values: &[Option<Signed>], edge: Edge) -> Option<Signed> {
+    values[edge.node().index()].map(|value| Signed {
+        class: value.class,
+        negative: value.negative != edge.is_negative(),
+    })
+}

@@ -1,0 +1,425 @@
+//! Extraction: one way for each needed class, at the least cost of the DAG.
+//!
+//! Shared work is paid once, so choosing the cheapest tree for each class
+//! makes a shared program worse. The search starts from the program that came
+//! in and keeps the best it has seen, so it is never worse than that. A move
+//! gives one class another way; reference counts give the change in cost, and
+//! a move that would close a cycle is refused.
+
+use std::collections::BTreeMap;
+
+use super::classes::{ClassId, Classes, Leaf, Way};
+use super::random::Random;
+use crate::graph::AngleSum;
+
+/// What operations cost, in hundredths of an operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CostModel {
+    /// A multiplication.
+    pub mul: u64,
+    /// An addition.
+    pub add: u64,
+    /// A sine/cosine pair of one angle.
+    pub sincos: u64,
+}
+
+impl CostModel {
+    /// Fewest operations; of equal sums the one with fewer multiplications;
+    /// an angle costs as much as twenty operations.
+    pub const OPERATIONS: CostModel = CostModel {
+        mul: 101,
+        add: 100,
+        sincos: 2000,
+    };
+
+    fn way(&self, way: Way) -> u64 {
+        match way {
+            Way::Product(..) => self.mul,
+            Way::Sum(..) | Way::Difference(..) => self.add,
+        }
+    }
+}
+
+/// How long to anneal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schedule {
+    /// Moves tried.
+    pub moves: usize,
+    /// First temperature, in operations.
+    pub hot: f64,
+    /// Last temperature, in operations.
+    pub cold: f64,
+}
+
+/// The state of the search.
+pub struct Extraction<'a> {
+    classes: &'a Classes,
+    model: CostModel,
+    /// The chosen way of each class: an index into its ways.
+    chosen: Vec<u32>,
+    /// How often each class is used by chosen ways of live classes.
+    uses: Vec<u32>,
+    /// Live classes with ways, in no order, and each one's place.
+    live: Vec<ClassId>,
+    place: Vec<u32>,
+    /// Users of each angle's sine and cosine.
+    angle_of: Vec<u32>,
+    angle_uses: Vec<u32>,
+    angle_cost: Vec<u64>,
+    cost: u64,
+    /// Marks of the depth-first search for cycles.
+    mark: Vec<u32>,
+    stamp: u32,
+    /// Choices changed by the current move, to take it back.
+    undo: Vec<(ClassId, u32)>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<'a> Extraction<'a> {
+    /// Starts from a choice that is acyclic and complete below the outputs;
+    /// every other class gets an acyclic way where it has one.
+    pub fn new(classes: &'a Classes, seed: &[Option<Way>], model: CostModel) -> Self {
+        let n = classes.len();
+        let mut angles: BTreeMap<AngleSum, u32> = BTreeMap::new();
+        let mut angle_of = vec![NONE; n];
+        let mut angle_cost = Vec::new();
+        for id in 0..n {
+            if let Some(Leaf::Input(input)) = &classes.get(id as ClassId).leaf
+                && let Some(angle) = input.angle()
+            {
+                let next = angles.len() as u32;
+                angle_of[id] = *angles.entry(angle).or_insert_with(|| {
+                    angle_cost.push(model.sincos + model.add * angle.additions() as u64);
+                    next
+                });
+            }
+        }
+        let mut search = Extraction {
+            classes,
+            model,
+            chosen: vec![NONE; n],
+            uses: vec![0; n],
+            live: Vec::new(),
+            place: vec![NONE; n],
+            angle_of,
+            angle_uses: vec![0; angle_cost.len()],
+            angle_cost,
+            cost: 0,
+            mark: vec![0; n],
+            stamp: 0,
+            undo: Vec::new(),
+        };
+        search.seed(seed);
+        for output in classes.outputs.iter().flatten() {
+            search.acquire(output.class, 0);
+        }
+        search.undo.clear();
+        search
+    }
+
+    /// The seed's ways, then, class by class until nothing changes, ways
+    /// whose operands are computable: acyclic, since each uses earlier ones.
+    fn seed(&mut self, seed: &[Option<Way>]) {
+        for (id, way) in seed.iter().enumerate() {
+            if let Some(way) = way {
+                let ways = &self.classes.get(id as ClassId).ways;
+                self.chosen[id] = ways
+                    .iter()
+                    .position(|w| w == way)
+                    .map_or(NONE, |i| i as u32);
+            }
+        }
+        let ready = |search: &Self, id: ClassId| {
+            search.chosen[id as usize] != NONE || search.classes.get(id).leaf.is_some()
+        };
+        loop {
+            let mut changed = false;
+            for id in 0..self.classes.len() as ClassId {
+                if ready(self, id) {
+                    continue;
+                }
+                let ways = &self.classes.get(id).ways;
+                let first = ways
+                    .iter()
+                    .position(|way| way.operands().iter().all(|&operand| ready(self, operand)));
+                if let Some(first) = first {
+                    self.chosen[id as usize] = first as u32;
+                    changed = true;
+                }
+            }
+            if !changed {
+                return;
+            }
+        }
+    }
+
+    /// The cost of the live program.
+    pub fn cost(&self) -> u64 {
+        self.cost
+    }
+
+    /// The chosen ways.
+    pub fn choice(&self) -> Vec<Option<Way>> {
+        (0..self.classes.len() as ClassId)
+            .map(|id| self.way(id))
+            .collect()
+    }
+
+    fn way(&self, id: ClassId) -> Option<Way> {
+        let chosen = self.chosen[id as usize];
+        self.classes.get(id).ways.get(chosen as usize).copied()
+    }
+
+    /// One more use; a class that comes to life takes the way that adds least.
+    fn acquire(&mut self, id: ClassId, depth: u32) {
+        self.uses[id as usize] += 1;
+        if self.uses[id as usize] > 1 {
+            return;
+        }
+        let angle = self.angle_of[id as usize];
+        if angle != NONE {
+            self.angle_uses[angle as usize] += 1;
+            if self.angle_uses[angle as usize] == 1 {
+                self.cost += self.angle_cost[angle as usize];
+            }
+        }
+        if depth > 0 {
+            self.choose_for_birth(id);
+        }
+        if let Some(way) = self.way(id) {
+            self.cost += self.model.way(way);
+            self.place[id as usize] = self.live.len() as u32;
+            self.live.push(id);
+            for operand in way.operands() {
+                self.acquire(operand, depth);
+            }
+        }
+    }
+
+    /// One use less; an unused class frees its operands.
+    fn release(&mut self, id: ClassId) {
+        self.uses[id as usize] -= 1;
+        if self.uses[id as usize] > 0 {
+            return;
+        }
+        let angle = self.angle_of[id as usize];
+        if angle != NONE {
+            self.angle_uses[angle as usize] -= 1;
+            if self.angle_uses[angle as usize] == 0 {
+                self.cost -= self.angle_cost[angle as usize];
+            }
+        }
+        if let Some(way) = self.way(id) {
+            self.cost -= self.model.way(way);
+            let place = self.place[id as usize] as usize;
+            self.live.swap_remove(place);
+            if let Some(&moved) = self.live.get(place) {
+                self.place[moved as usize] = place as u32;
+            }
+            for operand in way.operands() {
+                self.release(operand);
+            }
+        }
+    }
+
+    /// Gives a dead class the way with the least work that is not done yet.
+    fn choose_for_birth(&mut self, id: ClassId) {
+        let ways = &self.classes.get(id).ways;
+        if ways.len() < 2 {
+            return;
+        }
+        let mut best = (u64::MAX, self.chosen[id as usize]);
+        for (index, &way) in ways.iter().enumerate() {
+            let cost = self.marginal(way, 2);
+            if cost < best.0 && (index as u32 == self.chosen[id as usize] || !self.reaches(way, id))
+            {
+                best = (cost, index as u32);
+            }
+        }
+        if best.1 != self.chosen[id as usize] {
+            self.undo.push((id, self.chosen[id as usize]));
+            self.chosen[id as usize] = best.1;
+        }
+    }
+
+    /// What a way adds, looking `depth` levels into dead operands.
+    fn marginal(&self, way: Way, depth: u32) -> u64 {
+        let mut cost = self.model.way(way);
+        for operand in way.operands() {
+            if self.uses[operand as usize] > 0 {
+                continue;
+            }
+            let angle = self.angle_of[operand as usize];
+            if angle != NONE && self.angle_uses[angle as usize] == 0 {
+                cost += self.angle_cost[angle as usize];
+            }
+            let ways = &self.classes.get(operand).ways;
+            if self.classes.get(operand).leaf.is_some() {
+                continue;
+            }
+            cost += if depth == 0 {
+                2 * self.model.add
+            } else {
+                let costs = ways.iter().map(|&way| self.marginal(way, depth - 1));
+                costs.min().unwrap_or(u64::MAX / 4)
+            };
+        }
+        cost
+    }
+
+    /// Whether an operand of the way depends on the class.
+    fn reaches(&mut self, way: Way, target: ClassId) -> bool {
+        self.stamp += 1;
+        let mut stack = Vec::from(way.operands());
+        while let Some(id) = stack.pop() {
+            if id == target {
+                return true;
+            }
+            if self.mark[id as usize] == self.stamp {
+                continue;
+            }
+            self.mark[id as usize] = self.stamp;
+            if let Some(way) = self.way(id) {
+                stack.extend(way.operands());
+            }
+        }
+        false
+    }
+
+    /// Whether every operand has a way or is a leaf.
+    fn computable(&self, way: Way) -> bool {
+        way.operands()
+            .iter()
+            .all(|&id| self.classes.get(id).leaf.is_some() || self.chosen[id as usize] != NONE)
+    }
+
+    /// Gives a live class another way; `None` if that closes a cycle.
+    /// The caller may take it back with [`Self::revert`].
+    fn switch(&mut self, id: ClassId, index: u32) -> Option<()> {
+        let old = self.way(id)?;
+        let new = *self.classes.get(id).ways.get(index as usize)?;
+        if !self.computable(new) || self.reaches(new, id) {
+            return None;
+        }
+        self.undo.clear();
+        self.undo.push((id, self.chosen[id as usize]));
+        self.rewire(id, old, index, new, 1);
+        Some(())
+    }
+
+    fn rewire(&mut self, id: ClassId, old: Way, index: u32, new: Way, depth: u32) {
+        // The old operands go first, so that what only they kept alive counts
+        // as work for the new way.
+        self.cost -= self.model.way(old);
+        for operand in old.operands() {
+            self.release(operand);
+        }
+        self.chosen[id as usize] = index;
+        self.cost += self.model.way(new);
+        for operand in new.operands() {
+            self.acquire(operand, depth);
+        }
+    }
+
+    fn revert(&mut self) {
+        let Some(&(id, index)) = self.undo.first() else {
+            return;
+        };
+        let Some(now) = self.way(id) else {
+            return;
+        };
+        let Some(&before) = self.classes.get(id).ways.get(index as usize) else {
+            return;
+        };
+        // Kill what the move brought to life, restore the choices it made
+        // there, then revive the old operands with the choices they had.
+        self.cost -= self.model.way(now);
+        for operand in now.operands() {
+            self.release(operand);
+        }
+        while self.undo.len() > 1 {
+            if let Some((id, index)) = self.undo.pop() {
+                self.chosen[id as usize] = index;
+            }
+        }
+        self.undo.clear();
+        self.chosen[id as usize] = index;
+        self.cost += self.model.way(before);
+        for operand in before.operands() {
+            self.acquire(operand, 0);
+        }
+    }
+
+    /// Sweeps over the live classes, taking every change that does not raise
+    /// the cost, until a sweep saves nothing.
+    pub fn climb(&mut self) {
+        loop {
+            let before = self.cost;
+            let mut order = self.live.clone();
+            order.sort_unstable();
+            for id in order {
+                for index in 0..self.classes.get(id).ways.len() as u32 {
+                    if self.uses[id as usize] == 0 || index == self.chosen[id as usize] {
+                        continue;
+                    }
+                    let cost = self.cost;
+                    if self.switch(id, index).is_some() && self.cost >= cost {
+                        self.revert();
+                    }
+                }
+            }
+            if self.cost >= before {
+                return;
+            }
+        }
+    }
+
+    /// Annealing; ends with the best program seen.
+    pub fn anneal(&mut self, schedule: Schedule, random: &mut Random) {
+        let mut best = (self.cost, self.chosen.clone());
+        let ratio = schedule.cold / schedule.hot;
+        let mut temperature = schedule.hot;
+        for step in 0..schedule.moves {
+            if step % 256 == 0 {
+                let part = step as f64 / schedule.moves as f64;
+                temperature = 100.0 * schedule.hot * libm::pow(ratio, part);
+            }
+            if self.live.is_empty() {
+                return;
+            }
+            let id = self.live[random.below(self.live.len())];
+            let ways = self.classes.get(id).ways.len();
+            if ways < 2 {
+                continue;
+            }
+            let index = random.below(ways) as u32;
+            if index == self.chosen[id as usize] {
+                continue;
+            }
+            let before = self.cost;
+            if self.switch(id, index).is_none() {
+                continue;
+            }
+            let rise = self.cost as f64 - before as f64;
+            if rise > 0.0 && random.unit() >= libm::exp(-rise / temperature) {
+                self.revert();
+            } else if self.cost < best.0 {
+                best = (self.cost, self.chosen.clone());
+            }
+        }
+        self.restore(&best.1);
+    }
+
+    /// Takes a whole choice.
+    fn restore(&mut self, chosen: &[u32]) {
+        for output in self.classes.outputs.iter().flatten() {
+            self.release(output.class);
+        }
+        self.chosen.copy_from_slice(chosen);
+        for output in self.classes.outputs.iter().flatten() {
+            self.acquire(output.class, 0);
+        }
+        self.undo.clear();
+    }
+}
