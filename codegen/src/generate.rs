@@ -15,6 +15,7 @@ use crate::schedule::{Operand, Program};
 use crate::simplify::{Effort, Stage, simplify};
 use crate::trace::trace;
 use crate::verify::exact::{Disproof, Proof, prove};
+use crate::verify::floating::Emitted;
 use crate::verify::text::{TextError, TextProgram};
 
 /// Which formulation a function starts from.
@@ -118,6 +119,8 @@ pub struct Generated {
     pub functions: Vec<GeneratedFunction>,
     /// The Rust source: one module a scalar.
     pub text: String,
+    /// The functions as the source says them, scalar by scalar.
+    pub emitted: Vec<Emitted>,
     /// What a user should know, such as constants that round to subnormals.
     pub warnings: Vec<String>,
 }
@@ -208,14 +211,16 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             name: request.module.as_deref().unwrap_or(&robot.name),
         },
     );
-    for generated in &functions {
-        for &scalar in &request.scalars {
-            read_back(&text, generated, scalar, robot, request)?;
+    let mut emitted = Vec::new();
+    for &scalar in &request.scalars {
+        for generated in &functions {
+            emitted.push(read_back(&text, generated, scalar, robot, request)?);
         }
     }
     Ok(Generated {
         functions,
         text,
+        emitted,
         warnings,
     })
 }
@@ -305,7 +310,7 @@ fn read_back(
     scalar: ScalarType,
     robot: &Robot,
     request: &Request,
-) -> Result<(), GenerateError> {
+) -> Result<Emitted, GenerateError> {
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
     let name = request.module.as_deref().unwrap_or(&robot.name);
     let module = module::name(name, scalar, &request.scalars);
@@ -317,5 +322,9 @@ fn read_back(
     if read.counts() != generated.counts {
         return Err(fail("the counts of the text differ".into()));
     }
-    Ok(())
+    Ok(Emitted {
+        function: generated.function,
+        scalar,
+        text: read,
+    })
 }

@@ -1,1 +1,241 @@
-//! What rounding costs.
+//! What rounding costs: the emitted text, run bit for bit, against the generic
+//! runtime in f64 and against given states.
+//!
+//! The error of a quantity is normwise, max_i |error_i| / max_i |reference_i|,
+//! the worst over the states. f32 code is compared at the f32-rounded state,
+//! so that only the rounding of its own arithmetic and constants counts.
+
+use std::collections::BTreeMap;
+
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::robot::Robot;
+
+use super::interpret::{Machine, State};
+use super::states::JointState;
+use super::text::{TextOperand, TextProgram};
+use crate::emit::ScalarType;
+use crate::function::{Function, Quantity};
+use crate::graph::Input;
+use crate::trace::{Motion, evaluate};
+
+/// The bound on the normwise error against the runtime, in units of u.
+pub const BOUND: f64 = 100.0;
+
+/// The bound on the normwise error against given states, absolute.
+pub const GIVEN_BOUND: f64 = 1e-12;
+
+/// A seeded state counts relative to at least this part of the largest
+/// reference met. Next to balance, where every torque passes through zero,
+/// an error relative to the torque says nothing about the code.
+const LEAST_PART: f64 = 1.0 / 16.0;
+
+/// An emitted function, read back.
+#[derive(Clone, Debug)]
+pub struct Emitted {
+    /// Which function.
+    pub function: Function,
+    /// Its scalar.
+    pub scalar: ScalarType,
+    /// Its text.
+    pub text: TextProgram,
+}
+
+/// A state with what is known about it.
+#[derive(Clone, Debug)]
+pub struct GivenState {
+    /// The state.
+    pub state: JointState,
+    /// τ, D (row by row), h and c, as far as they are known.
+    pub known: BTreeMap<Quantity, Vec<f64>>,
+}
+
+/// The worst normwise error of one quantity of one function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measure {
+    /// Which function.
+    pub function: Function,
+    /// Its scalar.
+    pub scalar: ScalarType,
+    /// Which of its quantities.
+    pub quantity: Quantity,
+    /// The worst error; infinite if a result is not a number.
+    pub error: f64,
+}
+
+impl Measure {
+    /// The error in units of the scalar's u.
+    pub fn in_units(&self) -> f64 {
+        self.error / self.scalar.unit_roundoff()
+    }
+}
+
+/// The generic runtime: the link-frame recursion in f64, constants rounded
+/// once.
+#[derive(Clone, Debug)]
+pub struct Runtime {
+    arm: Arm<f64>,
+    robot: Robot,
+}
+
+impl Runtime {
+    /// Of a robot; lengths without effect are folded away while exact.
+    pub fn new(robot: &Robot) -> Runtime {
+        let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
+        Runtime {
+            arm: exact.fold_base().map(f64::nearest),
+            robot: robot.clone(),
+        }
+    }
+
+    /// The results of a function at a state, flat.
+    pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
+        let motion = Motion::of(&self.robot, |input| {
+            // A motion reads the angles of single joints only.
+            let angle = |sum: crate::graph::AngleSum| {
+                sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>()
+            };
+            match input {
+                Input::Sin(sum) => libm::sincos(angle(sum)).0,
+                Input::Cos(sum) => libm::sincos(angle(sum)).1,
+                Input::Position(joint) => state.q[joint],
+                Input::Velocity(joint) => state.qd[joint],
+                Input::Acceleration(joint) => state.qdd[joint],
+            }
+        });
+        evaluate(function, Formulation::NewtonEulerLink, &self.arm, &motion)
+    }
+}
+
+impl Emitted {
+    /// The results at a state, flat, as doubles that hold them exactly.
+    pub fn run(&self, state: &JointState) -> Vec<f64> {
+        match self.scalar {
+            ScalarType::F64 => self.run_in::<f64>(state),
+            ScalarType::F32 => self.run_in::<f32>(state),
+        }
+    }
+
+    fn run_in<T: Machine>(&self, state: &JointState) -> Vec<f64> {
+        let single = |values: &[f64]| values.iter().map(|&x| T::literal(x)).collect::<Vec<T>>();
+        let (q, qd, qdd) = (single(&state.q), single(&state.qd), single(&state.qdd));
+        let state = State {
+            q: &q,
+            qd: &qd,
+            qdd: &qdd,
+        };
+        self.text.run(state).into_iter().map(T::to_f64).collect()
+    }
+
+    /// The errors against the runtime, a quantity each.
+    pub fn against_runtime(&self, runtime: &Runtime, states: &[JointState]) -> Vec<Measure> {
+        let mut cases = Vec::with_capacity(states.len());
+        for state in states {
+            let state = match self.scalar {
+                ScalarType::F64 => state.clone(),
+                ScalarType::F32 => state.in_single(),
+            };
+            let mut reference = runtime.run(self.function, &state);
+            // What was proved to vanish is compared with zero, not with the
+            // dust that the runtime leaves there.
+            for (value, (_, operand)) in reference.iter_mut().zip(&self.text.outputs) {
+                if *operand == TextOperand::Literal(0.0) {
+                    *value = 0.0;
+                }
+            }
+            cases.push((self.run(&state), reference));
+        }
+        let mut measures = Vec::new();
+        let mut start = 0;
+        for &quantity in self.function.quantities() {
+            let range = start..start + quantity.len(state_len(states));
+            start = range.end;
+            let part = |values: &'_ [f64]| values[range.clone()].to_vec();
+            let pairs: Vec<_> = cases.iter().map(|(a, b)| (part(a), part(b))).collect();
+            let least = LEAST_PART * pairs.iter().map(|(_, b)| largest(b)).fold(0.0, f64::max);
+            measures.push(self.measure(quantity, worst(&pairs, least)));
+        }
+        measures
+    }
+
+    /// The errors against given states, a known quantity each. The symbols
+    /// h_ikm are compared as the load h that they give.
+    pub fn against_given(&self, states: &[GivenState]) -> Vec<Measure> {
+        let mut pairs: BTreeMap<Quantity, Vec<(Vec<f64>, Vec<f64>)>> = BTreeMap::new();
+        for given in states {
+            let results = self.run(&given.state);
+            let n = given.state.q.len();
+            let mut start = 0;
+            for &quantity in self.function.quantities() {
+                let values = &results[start..start + quantity.len(n)];
+                start += quantity.len(n);
+                let (quantity, values) = match quantity {
+                    Quantity::Christoffel => {
+                        (Quantity::Coriolis, contract(values, &given.state.qd))
+                    }
+                    other => (other, values.to_vec()),
+                };
+                if let Some(known) = given.known.get(&quantity) {
+                    let list = pairs.entry(quantity).or_default();
+                    list.push((values, known.clone()));
+                }
+            }
+        }
+        let measure = |(quantity, pairs): (Quantity, Vec<_>)| {
+            // Given states are taken as they are, each by its own size.
+            self.measure(quantity, worst(&pairs, 0.0))
+        };
+        pairs.into_iter().map(measure).collect()
+    }
+
+    fn measure(&self, quantity: Quantity, error: f64) -> Measure {
+        Measure {
+            function: self.function,
+            scalar: self.scalar,
+            quantity,
+            error,
+        }
+    }
+}
+
+fn state_len(states: &[JointState]) -> usize {
+    states.first().map_or(0, |state| state.q.len())
+}
+
+/// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
+fn contract(symbols: &[f64], qd: &[f64]) -> Vec<f64> {
+    let n = qd.len();
+    let row = |row: &[f64]| row.iter().zip(qd).map(|(h, v)| h * v).sum::<f64>();
+    let load = |matrix: &[f64]| {
+        let rows = matrix.chunks(n.max(1));
+        rows.zip(qd).map(|(r, v)| row(r) * v).sum::<f64>()
+    };
+    symbols.chunks((n * n).max(1)).map(load).collect()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// max|a − b| / max|b| of the worst pair; absolute where b vanishes.
+fn worst(pairs: &[(Vec<f64>, Vec<f64>)], least: f64) -> f64 {
+    let mut worst = 0.0f64;
+    for (actual, expected) in pairs {
+        let size = largest(expected).max(least);
+        let differences = actual.iter().zip(expected).map(|(a, b)| (a - b).abs());
+        for difference in differences {
+            let error = if size > 0.0 {
+                difference / size
+            } else {
+                difference
+            };
+            // A NaN loses every comparison: it must not go unnoticed.
+            worst = if error.is_nan() {
+                f64::INFINITY
+            } else {
+                worst.max(error)
+            };
+        }
+    }
+    worst
+}

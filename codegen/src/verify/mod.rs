@@ -4,10 +4,12 @@
 //! - [`degree`]: how likely that check is to miss a difference
 //! - [`text`]: the printed text is the program, every literal rounded once
 //! - [`interpret`]: the printed text run bit for bit
+//! - [`states`]: seeded states inside a robot's limits
 //! - [`floating`]: what rounding costs: against the runtime and given states
 
 pub mod degree;
 pub mod exact;
 pub mod floating;
 pub mod interpret;
+pub mod states;
 pub mod text;
