@@ -1,14 +1,25 @@
 //! One program as one flat function.
 //!
 //! One operation a line, so that the printed text can be read back and
-//! compared with the program operation by operation.
+//! compared with the program operation by operation. Long functions are cut
+//! into blocks (see [`BLOCK`]); their names stay unique.
 
 use std::fmt::Write;
 
 use super::{MathPath, ScalarType};
 use crate::function::{Argument, Function, Quantity};
 use crate::graph::Input;
-use crate::schedule::{Operand, Output, Program, Trig};
+use crate::schedule::{Operand, Output, Program, Step, Trig};
+
+/// A function of more operations than this is printed in blocks.
+pub const FLAT: usize = 1000;
+
+/// Operations a block.
+///
+/// To rustc each `let` opens a scope inside the one before, and its debug
+/// information walks them recursively: somewhere above 2 000 it overflows the
+/// compiler's stack. A block closes its scopes.
+pub const BLOCK: usize = 500;
 
 /// Prints the function; `doc` stands above it, one line an item.
 pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[String]) -> String {
@@ -22,17 +33,62 @@ pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[Stri
     for trig in &program.trig {
         write_trig(&mut text, trig, scalar, math);
     }
-    for (index, step) in program.steps.iter().enumerate() {
-        let (left, right) = (operand(&step.left, scalar), operand(&step.right, scalar));
-        let symbol = step.operation.symbol();
-        push(
-            &mut text,
-            format_args!("    let t{} = {left} {symbol} {right};", index + 1),
-        );
-    }
+    write_steps(&mut text, program, scalar);
     write_result(&mut text, program, scalar);
     text.push_str("}\n");
     text
+}
+
+fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
+    if program.steps.len() <= FLAT {
+        for (index, step) in program.steps.iter().enumerate() {
+            push(text, format_args!("    {}", statement(index, step, scalar)));
+        }
+        return;
+    }
+    let last_use = last_uses(program);
+    for (block, steps) in program.steps.chunks(BLOCK).enumerate() {
+        let start = block * BLOCK;
+        let end = start + steps.len();
+        // A block hands on what is read after it: that much is live.
+        let mut live = String::new();
+        for step in (start..end).filter(|&step| last_use[step] >= end) {
+            let _ = write!(live, "t{}, ", step + 1);
+        }
+        push(text, format_args!("    let ({}) = {{", live.trim_end()));
+        for (index, step) in (start..).zip(steps) {
+            push(
+                text,
+                format_args!("        {}", statement(index, step, scalar)),
+            );
+        }
+        push(text, format_args!("        ({})", live.trim_end()));
+        push(text, format_args!("    }};"));
+    }
+}
+
+fn statement(index: usize, step: &Step, scalar: ScalarType) -> String {
+    let (left, right) = (operand(&step.left, scalar), operand(&step.right, scalar));
+    let symbol = step.operation.symbol();
+    format!("let t{} = {left} {symbol} {right};", index + 1)
+}
+
+/// The last step that reads each step; past the end for results.
+fn last_uses(program: &Program) -> Vec<usize> {
+    let mut last = vec![0; program.steps.len()];
+    for (index, step) in program.steps.iter().enumerate() {
+        for operand in [&step.left, &step.right] {
+            if let Operand::Step(read) = operand {
+                last[*read] = index;
+            }
+        }
+    }
+    for output in &program.outputs {
+        if let Operand::Step(read) = output.value {
+            last[read] = usize::MAX;
+        }
+    }
+    last
 }
 
 /// The signature, without a brace.

@@ -104,6 +104,7 @@ fn header(robot: &Robot, functions: &[GeneratedFunction], scalar: ScalarType) ->
             robot.name,
             robot.joints.len()
         ),
+        format!("Input hash {}.", robot.short_hash()),
         String::new(),
         format!(
             "SI units, radians; {convention} DH; gravity ({}) m/s² in base axes.",

@@ -93,6 +93,7 @@ impl TextProgram {
                 outputs: Vec::new(),
             },
             sum: None,
+            block: None,
         };
         let mut tail = String::new();
         for (number, line) in lines {
@@ -100,6 +101,9 @@ impl TextProgram {
                 line: number,
                 message,
             };
+            if tail.is_empty() && reader.block(line).map_err(at)? {
+                continue;
+            }
             match line.strip_prefix("let ") {
                 Some(statement) if tail.is_empty() => {
                     reader.statement(statement).map_err(at)?;
@@ -190,9 +194,36 @@ struct Reader {
     program: TextProgram,
     /// The sum of angles that the line before formed.
     sum: Option<AngleSum>,
+    /// What the block that is open hands on, and whether it has done so.
+    block: Option<(String, bool)>,
 }
 
 impl Reader {
+    /// Whether the line begins or ends a block, which hands on values under
+    /// the names that they have inside.
+    fn block(&mut self, line: &str) -> Result<bool, String> {
+        let begins = line
+            .strip_prefix("let ")
+            .and_then(|l| l.strip_suffix(" = {"));
+        match (begins, self.block.take()) {
+            (Some(names), None) => self.block = Some((names.to_owned(), false)),
+            (Some(_), Some(_)) => return Err("a block in a block".into()),
+            (None, Some((names, false))) if line.starts_with('(') => {
+                if line != names {
+                    return Err(format!("the block hands on {line} as {names}"));
+                }
+                self.block = Some((names, true));
+            }
+            (None, Some((_, true))) if line == "};" => {}
+            (None, Some((_, true))) => return Err("the block does not end".into()),
+            (None, open) => {
+                self.block = open;
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// A line without `let `.
     fn statement(&mut self, line: &str) -> Result<(), String> {
         let line = line.strip_suffix(';').ok_or("no `;` at the end")?;
@@ -315,6 +346,9 @@ impl Reader {
     }
 
     fn result(&mut self, tail: &str) -> Result<(), String> {
+        if self.block.is_some() {
+            return Err("a block does not end".into());
+        }
         let words = tail
             .split([' ', ',', '[', ']', '{', '}'])
             .filter(|word| !word.is_empty() && !word.ends_with(':'));
