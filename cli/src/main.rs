@@ -1,2 +1,39 @@
-//! The `dalembert` command.
-fn main() {}
+//! The `dalembert` command: verified flat robot dynamics from a robot file.
+//!
+//! - [`args`]: the command line
+//! - [`generate`]: Rust source, written, printed or compared
+//! - [`count`]: operation counts
+//! - [`verify`]: the exact proof and what rounding costs
+//! - [`couplings`]: which coefficients vanish or repeat, and why
+//! - [`table3`]: the paper's counts beside the formulas' and the generator's
+//! - [`input`]: robot and state files
+//! - [`output`]: standard output, files, tables
+//! - [`outcome`]: exit codes
+#![forbid(unsafe_code)]
+
+mod args;
+mod count;
+mod couplings;
+mod generate;
+mod input;
+mod outcome;
+mod output;
+mod table3;
+mod verify;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+
+fn main() -> ExitCode {
+    let outcome = match Args::parse().command {
+        Command::Generate(args) => generate::run(&args),
+        Command::Count(args) => count::run(&args),
+        Command::Verify(args) => verify::run(&args),
+        Command::Couplings(args) => couplings::run(&args),
+        Command::Table3(args) => table3::run(&args),
+    };
+    outcome::exit(outcome)
+}

@@ -169,15 +169,27 @@ impl Quantity {
         }
     }
 
-    /// The name of one entry, one-based: `D_12`, `h_123`, with separators
-    /// where a robot has more than nine joints.
-    pub fn entry(self, index: usize, n: usize) -> String {
-        let letter = match self {
+    /// Its letter in the equations; `h_ikm` for the symbols that make up h.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Quantity::Christoffel => "h_ikm",
+            other => other.letter(),
+        }
+    }
+
+    fn letter(self) -> &'static str {
+        match self {
             Quantity::Torque => "τ",
             Quantity::Inertia => "D",
             Quantity::Coriolis | Quantity::Christoffel => "h",
             Quantity::Gravity => "c",
-        };
+        }
+    }
+
+    /// The name of one entry, one-based: `D_12`, `h_123`, with separators
+    /// where a robot has more than nine joints.
+    pub fn entry(self, index: usize, n: usize) -> String {
+        let letter = self.letter();
         let mut rest = index;
         let mut digits: Vec<String> = (0..self.rank())
             .map(|_| {

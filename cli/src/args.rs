@@ -1,0 +1,160 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Parser, Subcommand};
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, Start};
+use dalembert_codegen::simplify::Effort;
+
+/// Verified, flat robot dynamics generated for one arm.
+///
+/// Exit codes: 0 good, 1 a check failed, 2 bad input.
+#[derive(Debug, Parser)]
+#[command(name = "dalembert", version)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Generate Rust source for a robot, proved before it is printed
+    Generate(GenerateArgs),
+    /// Count the operations of the generated functions
+    Count(CountArgs),
+    /// Prove the functions and measure what rounding costs
+    Verify(VerifyArgs),
+    /// Say which coefficients of the dynamics vanish or repeat, and why
+    Couplings(CouplingsArgs),
+    /// Compare with Table 3: the paper's counts, the formulas', the generator's
+    Table3(Table3Args),
+}
+
+/// Which functions, and from what.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Choice {
+    /// The functions, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = function_parser())]
+    pub outputs: Vec<Function>,
+    /// The formulation to start from; `auto` takes the cheapest
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = start_parser())]
+    pub formulation: Start,
+    /// The scalar [default: both]
+    #[arg(long, value_name = "TYPE", value_parser = scalar_parser())]
+    pub scalar: Option<ScalarType>,
+    /// How long to search for fewer operations
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    pub effort: Effort,
+}
+
+impl Choice {
+    /// The request that it makes.
+    pub fn request(&self) -> Request {
+        let mut request = Request {
+            start: self.formulation,
+            effort: self.effort,
+            ..Request::default()
+        };
+        if !self.outputs.is_empty() {
+            request.functions.clone_from(&self.outputs);
+        }
+        if let Some(scalar) = self.scalar {
+            request.scalars = vec![scalar];
+        }
+        request
+    }
+}
+
+/// Arguments of `generate`.
+#[derive(Debug, clap::Args)]
+pub struct GenerateArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Write the code to this file [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Write nothing: compare with FILE and exit with 1 if it differs
+    #[arg(long, requires = "output")]
+    pub check: bool,
+    #[command(flatten)]
+    pub choice: Choice,
+}
+
+/// Arguments of `count`.
+#[derive(Debug, clap::Args)]
+pub struct CountArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub choice: Choice,
+}
+
+/// Arguments of `verify`.
+#[derive(Debug, clap::Args)]
+pub struct VerifyArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Compare with these states too: JSON with a list `states` of objects
+    /// with q, qd, qdd and any of tau, D, h, c
+    #[arg(long, value_name = "FILE.json")]
+    pub states: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub choice: Choice,
+}
+
+/// Arguments of `couplings`.
+#[derive(Debug, clap::Args)]
+pub struct CouplingsArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `table3`.
+#[derive(Debug, clap::Args)]
+pub struct Table3Args {
+    /// A robot file: show the counts after every stage for it
+    pub robot: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+// Clap lists the names and suggests the nearest for a slip.
+
+fn function_parser() -> impl TypedValueParser<Value = Function> {
+    let names = PossibleValuesParser::new(Function::ALL.map(Function::name));
+    names.try_map(|name| Function::from_name(&name).ok_or("no such function"))
+}
+
+fn start_parser() -> impl TypedValueParser<Value = Start> {
+    PossibleValuesParser::new(Start::NAMES)
+        .try_map(|name| Start::from_name(&name).ok_or("no such formulation"))
+}
+
+fn scalar_parser() -> impl TypedValueParser<Value = ScalarType> {
+    let names = PossibleValuesParser::new(ScalarType::ALL.map(ScalarType::name));
+    names.try_map(|name| ScalarType::from_name(&name).ok_or("no such scalar"))
+}
+
+fn effort_parser() -> impl TypedValueParser<Value = Effort> {
+    let names = PossibleValuesParser::new(Effort::ALL.map(Effort::name));
+    names.try_map(|name| {
+        let mut all = Effort::ALL.into_iter();
+        all.find(|effort| effort.name() == name)
+            .ok_or("no such effort")
+    })
+}

@@ -1,0 +1,43 @@
+//! `dalembert count`: the operations of the generated functions.
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::generate::generate;
+use dalembert_codegen::graph::Counts;
+use serde_json::{Map, Value, json};
+
+use crate::args::CountArgs;
+use crate::outcome::Outcome;
+use crate::{generate as report, input, output};
+
+/// Runs the subcommand.
+pub fn run(args: &CountArgs) -> Outcome {
+    let robot = input::robot(&args.robot)?;
+    let mut request = args.choice.request();
+    // Both scalars run the same program: one is enough to count it, and a
+    // constant that f32 cannot hold is no reason not to.
+    request.scalars = vec![args.choice.scalar.unwrap_or(ScalarType::F64)];
+    let generated = generate(&robot, &request)?;
+    if args.json {
+        let functions = generated.functions.iter();
+        let functions: Map<String, Value> = functions
+            .map(|f| (f.function.to_string(), counts(&f.counts)))
+            .collect();
+        return output::print_json(&json!({ "robot": robot.name, "functions": functions }));
+    }
+    output::print(&format!(
+        "robot {}, input {}\n\n{}",
+        robot.name,
+        robot.short_hash(),
+        report::counts(&generated)
+    ))
+}
+
+/// Counts as JSON.
+pub fn counts(counts: &Counts) -> Value {
+    json!({
+        "mul": counts.mul,
+        "add": counts.add,
+        "div": counts.div,
+        "sincos": counts.sincos,
+    })
+}

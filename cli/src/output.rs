@@ -1,0 +1,80 @@
+//! Standard output, files and tables.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::outcome::Failure;
+
+/// Prints to standard output. A reader that has gone away, as in `… | head`,
+/// is no failure.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
+            "error: standard output cannot be written: {error}"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a JSON document.
+pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    print(&format!("{value:#}\n"))
+}
+
+/// A line, or several, on standard error.
+pub fn note(text: &str) {
+    let mut err = io::stderr().lock();
+    // There is nowhere left to complain to.
+    let _ = writeln!(err, "{}", text.trim_end());
+}
+
+/// Writes a file as a whole or not at all: under another name in the same
+/// folder first, then renamed.
+pub fn write_file(path: &Path, text: &str) -> Result<(), Failure> {
+    let fail = |error: io::Error| {
+        Failure::Input(format!(
+            "error: `{}` cannot be written: {error}",
+            path.display()
+        ))
+    };
+    let Some(name) = path.file_name() else {
+        return Err(fail(io::ErrorKind::IsADirectory.into()));
+    };
+    if path.is_dir() {
+        return Err(fail(io::ErrorKind::IsADirectory.into()));
+    }
+    let mut temporary = name.to_os_string();
+    temporary.push(format!(".{}.part", std::process::id()));
+    let temporary = path.with_file_name(temporary);
+    let written = fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|error| {
+        let _ = fs::remove_file(&temporary);
+        fail(error)
+    })
+}
+
+/// Lays out rows in columns: the first to the left, the others to the right
+/// except the last `text` ones.
+pub fn table(rows: &[Vec<String>], text: usize) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut lines = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let pad = " ".repeat(widths[column] - cell.chars().count());
+            let left = column == 0 || column + text >= columns;
+            let (before, after) = if left { ("", &*pad) } else { (&*pad, "") };
+            line.push_str(&format!("  {before}{cell}{after}"));
+        }
+        lines.push_str(line.trim_end());
+        lines.push('\n');
+    }
+    lines
+}

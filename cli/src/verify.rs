@@ -1,0 +1,139 @@
+//! `dalembert verify`: the exact proof, then the emitted text run bit for bit
+//! against the generic runtime and against given states.
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::generate::{Generated, generate};
+use dalembert_codegen::verify::floating::{BOUND, GIVEN_BOUND, Measure, Runtime};
+use dalembert_codegen::verify::states::{SEED, STATES, seeded};
+use dalembert_model::robot::Robot;
+use serde_json::{Value, json};
+
+use crate::args::VerifyArgs;
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
+
+/// A measured error and its bound.
+struct Check {
+    against: &'static str,
+    states: usize,
+    measure: Measure,
+    bound: f64,
+}
+
+impl Check {
+    fn passed(&self) -> bool {
+        self.measure.error <= self.bound
+    }
+}
+
+/// Runs the subcommand.
+pub fn run(args: &VerifyArgs) -> Outcome {
+    let robot = input::robot(&args.robot)?;
+    let given = match &args.states {
+        Some(file) => input::states(file, robot.joints.len())?,
+        None => Vec::new(),
+    };
+    // What cannot be proved is not generated: this ends with the reason.
+    let generated = generate(&robot, &args.choice.request())?;
+    let runtime = Runtime::new(&robot);
+    let states = seeded(&robot, STATES, SEED);
+    let mut checks = Vec::new();
+    for emitted in &generated.emitted {
+        for measure in emitted.against_runtime(&runtime, &states) {
+            checks.push(Check {
+                against: "runtime",
+                states: states.len(),
+                measure,
+                bound: BOUND * emitted.scalar.unit_roundoff(),
+            });
+        }
+        // Given states are doubles: rounded to f32 they are other states.
+        if emitted.scalar == ScalarType::F64 {
+            for measure in emitted.against_given(&given) {
+                checks.push(Check {
+                    against: "states",
+                    states: given.len(),
+                    measure,
+                    bound: GIVEN_BOUND,
+                });
+            }
+        }
+    }
+    if args.json {
+        output::print_json(&json(&robot, &generated, &checks))?;
+    } else {
+        output::print(&text(&robot, &generated, &checks))?;
+    }
+    if checks.iter().all(Check::passed) {
+        Ok(())
+    } else {
+        Err(Failure::Check(
+            "error: rounding costs more than the bound".into(),
+        ))
+    }
+}
+
+fn text(robot: &Robot, generated: &Generated, checks: &[Check]) -> String {
+    let mut text = format!("robot {}, input {}\n\n", robot.name, robot.short_hash());
+    for function in &generated.functions {
+        text += &format!("  {} {}\n", function.function, function.proof);
+    }
+    text += "\nworst normwise error\n";
+    let head = [
+        "function", "scalar", "quantity", "against", "in u", "error", "bound", "",
+    ];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for check in checks {
+        let measure = &check.measure;
+        rows.push(vec![
+            measure.function.to_string(),
+            measure.scalar.to_string(),
+            measure.quantity.symbol().to_owned(),
+            format!("{} {}", check.states, check.against),
+            format!("{:.1}", measure.in_units()),
+            format!("{:.1e}", measure.error),
+            format!("{:.1e}", check.bound),
+            if check.passed() { "ok" } else { "FAILED" }.to_owned(),
+        ]);
+    }
+    text += &output::table(&rows, 1);
+    for warning in &generated.warnings {
+        text += &format!("warning: {warning}\n");
+    }
+    text
+}
+
+fn json(robot: &Robot, generated: &Generated, checks: &[Check]) -> Value {
+    let proofs = generated.functions.iter().map(|f| {
+        json!({
+            "function": f.function.name(),
+            "proved": true,
+            "points": f.proof.points,
+            "degree": f.proof.degree,
+            "failure_exponent": f.proof.failure_exponent,
+        })
+    });
+    let errors = checks.iter().map(|check| {
+        let measure = &check.measure;
+        json!({
+            "function": measure.function.name(),
+            "scalar": measure.scalar.name(),
+            "quantity": measure.quantity.symbol(),
+            "against": check.against,
+            "states": check.states,
+            // An infinite error has no JSON: null.
+            "error": measure.error,
+            "error_in_u": measure.in_units(),
+            "bound": check.bound,
+            "passed": check.passed(),
+        })
+    });
+    json!({
+        "robot": robot.name,
+        "input": robot.short_hash(),
+        "proofs": proofs.collect::<Vec<_>>(),
+        "errors": errors.collect::<Vec<_>>(),
+        "warnings": generated.warnings,
+        "passed": checks.iter().all(Check::passed),
+    })
+}
