@@ -3,18 +3,29 @@
 //! - [`generate`]: the one function that macro, build script and command call
 //! - [`function`]: the functions that can be generated
 //! - [`trace`]: the equations as a graph
+//! - [`portfolio`]: the formulations to start from, tuned to the robot
 //! - [`graph`]: the graph with exact constants and fingerprints
 //! - [`simplify`]: fewer operations, same function
 //! - [`schedule`]: straight-line code
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
+//!
+//! And the ways in, which all end in [`generate`]:
+//! - [`clauses`]: words, robot files, and `dynamics!` as tokens
+//! - [`builder`]: for build scripts
+//! - `stress`: stability at the extremes (feature `stress`)
 #![forbid(unsafe_code)]
 
+pub mod builder;
+pub mod clauses;
 pub mod emit;
 pub mod function;
 pub mod generate;
 pub mod graph;
+pub mod portfolio;
 pub mod schedule;
 pub mod simplify;
+#[cfg(feature = "stress")]
+pub mod stress;
 pub mod trace;
 pub mod verify;

@@ -149,7 +149,7 @@ fn stage(name: &'static str, graph: &Graph) -> Stage {
 
 /// Sines and cosines weigh as in the search, so that the choice of the seed
 /// and the search agree.
-fn cost(graph: &Graph) -> u64 {
+pub fn cost(graph: &Graph) -> u64 {
     let (counts, model) = (graph.counts(), CostModel::OPERATIONS);
     counts.mul as u64 * model.mul
         + counts.add as u64 * model.add

@@ -128,14 +128,7 @@ impl<S> Link<S> {
             d: f(&self.d),
             mass: f(&self.mass),
             com: self.com.each_ref().map(&mut f),
-            inertia: Inertia {
-                xx: f(&self.inertia.xx),
-                yy: f(&self.inertia.yy),
-                zz: f(&self.inertia.zz),
-                xy: f(&self.inertia.xy),
-                yz: f(&self.inertia.yz),
-                xz: f(&self.inertia.xz),
-            },
+            inertia: self.inertia.map(&mut f),
             viscous: f(&self.viscous),
             armature: f(&self.armature),
         }

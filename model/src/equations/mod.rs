@@ -21,6 +21,7 @@
 //! [`Scalar`]: crate::scalar::Scalar
 
 mod arm;
+pub mod chain;
 mod base;
 pub mod dalembert;
 mod formulation;

@@ -124,6 +124,20 @@ pub struct Inertia<S> {
     pub xz: S,
 }
 
+impl<S> Inertia<S> {
+    /// Every entry through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Inertia<T> {
+        Inertia {
+            xx: f(&self.xx),
+            yy: f(&self.yy),
+            zz: f(&self.zz),
+            xy: f(&self.xy),
+            yz: f(&self.yz),
+            xz: f(&self.xz),
+        }
+    }
+}
+
 impl<S: Clone> Inertia<S> {
     /// The tensor as three rows of three.
     pub fn rows(&self) -> [[S; 3]; 3] {

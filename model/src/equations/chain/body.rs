@@ -1,0 +1,174 @@
+//! Rigid bodies by their moments about a frame's origin.
+
+use super::{Rotation, apply};
+use crate::equations::matrix::{Vector, minus, negative, plus, scaled, sum, times, twice, zero_vector};
+use crate::equations::{Link, Rotor};
+use crate::robot::Inertia;
+use crate::scalar::Scalar;
+
+/// ∫ dm, ∫ r dm and ∫ r rᵀ dm: a pseudo-inertia by its parts.
+///
+/// Regrouped bodies need not be physical: masses may be negative.
+#[derive(Clone, Debug)]
+pub struct Body<S> {
+    /// ∫ dm
+    pub mass: S,
+    /// ∫ r dm
+    pub first: Vector<S>,
+    /// ∫ r rᵀ dm
+    pub second: Inertia<S>,
+}
+
+impl<S: Scalar> Body<S> {
+    /// Nothing.
+    pub fn zero() -> Self {
+        Body {
+            mass: S::zero(),
+            first: zero_vector(),
+            second: symmetric(|_, _| S::zero()),
+        }
+    }
+
+    /// A link about the origin of its DH frame:
+    /// ∫ r rᵀ dm = ½ tr(I)·1 − I + m s̄ s̄ᵀ, I about the centre of mass.
+    pub fn of(link: &Link<S>) -> Self {
+        let tensor = &link.inertia;
+        let half = plus(&plus(&tensor.xx, &tensor.yy), &tensor.zz).half();
+        let first = scaled(&link.mass, &link.com);
+        let second = symmetric(|i, j| {
+            let about_centre = if i == j {
+                minus(&half, entry(tensor, i, i))
+            } else {
+                negative(entry(tensor, i, j))
+            };
+            plus(&about_centre, &times(&first[i], &link.com[j]))
+        });
+        Body {
+            mass: link.mass.clone(),
+            first,
+            second,
+        }
+    }
+
+    /// Both together, about the same origin and in the same axes.
+    pub fn with(&self, other: &Body<S>) -> Self {
+        Body {
+            mass: plus(&self.mass, &other.mass),
+            first: sum(&self.first, &other.first),
+            second: symmetric(|i, j| {
+                plus(entry(&self.second, i, j), entry(&other.second, i, j))
+            }),
+        }
+    }
+
+    /// The same body with the opposite sign.
+    pub fn negated(&self) -> Self {
+        Body {
+            mass: negative(&self.mass),
+            first: self.first.clone().map(|x| negative(&x)),
+            second: symmetric(|i, j| negative(entry(&self.second, i, j))),
+        }
+    }
+
+    /// Seen from a frame in which this one is turned, then moved.
+    pub fn carried(&self, rotation: &Rotation<S>, offset: &Vector<S>) -> Self {
+        self.turned(rotation).moved(offset)
+    }
+
+    /// In other axes: r → R r.
+    pub fn turned(&self, rotation: &Rotation<S>) -> Self {
+        // R Σ, then (R Σ) Rᵀ.
+        let half: Rotation<S> = core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                let column = [0, 1, 2].map(|k| entry(&self.second, k, j).clone());
+                crate::equations::matrix::dot(&rotation[i], &column)
+            })
+        });
+        Body {
+            mass: self.mass.clone(),
+            first: apply(rotation, &self.first),
+            second: symmetric(|i, j| crate::equations::matrix::dot(&half[i], &rotation[j])),
+        }
+    }
+
+    /// About another origin: r → r + p.
+    pub fn moved(&self, offset: &Vector<S>) -> Self {
+        let first = sum(&self.first, &scaled(&self.mass, offset));
+        Body {
+            mass: self.mass.clone(),
+            // ∫ (r + p)(r + p)ᵀ = Σ + s pᵀ + p (s + m p)ᵀ
+            second: symmetric(|i, j| {
+                let mixed = plus(
+                    &times(&self.first[i], &offset[j]),
+                    &times(&offset[i], &first[j]),
+                );
+                plus(entry(&self.second, i, j), &mixed)
+            }),
+            first,
+        }
+    }
+
+    /// Turned about z by a variable angle. With k = s·(Σxx − Σyy) + 2c·Σxy:
+    /// Σxx′ = Σxx − s·k, Σyy′ = Σyy + s·k, Σxy′ = c·k − Σxy.
+    pub fn turned_z(&self, theta: &Rotor<S>) -> Self {
+        let (s, c, old) = (&theta.sin, &theta.cos, &self.second);
+        let [x, y] = theta.turn(&self.first[0], &self.first[1]);
+        let [xz, yz] = theta.turn(&old.xz, &old.yz);
+        let k = plus(
+            &times(s, &minus(&old.xx, &old.yy)),
+            &times(c, &twice(&old.xy)),
+        );
+        let shift = times(s, &k);
+        Body {
+            mass: self.mass.clone(),
+            first: [x, y, self.first[2].clone()],
+            second: Inertia {
+                xx: minus(&old.xx, &shift),
+                yy: plus(&old.yy, &shift),
+                zz: old.zz.clone(),
+                xy: minus(&times(c, &k), &old.xy),
+                yz,
+                xz,
+            },
+        }
+    }
+
+    /// Σ v
+    pub fn second_times(&self, v: &Vector<S>) -> Vector<S> {
+        crate::equations::matrix::tensor_times(&self.second, v)
+    }
+
+    /// In another unit of length: torques keep their numbers, so a mass is
+    /// multiplied by the square of the unit and a first moment by the unit.
+    pub fn in_unit(&self, unit: &S) -> Self {
+        Body {
+            mass: times(unit, &times(unit, &self.mass)),
+            first: scaled(unit, &self.first),
+            second: self.second.clone(),
+        }
+    }
+}
+
+/// The entry (i, j) of a symmetric tensor.
+pub fn entry<S>(tensor: &Inertia<S>, i: usize, j: usize) -> &S {
+    match (i.min(j), i.max(j)) {
+        (0, 0) => &tensor.xx,
+        (1, 1) => &tensor.yy,
+        (2, 2) => &tensor.zz,
+        (0, 1) => &tensor.xy,
+        (1, 2) => &tensor.yz,
+        _ => &tensor.xz,
+    }
+}
+
+/// A symmetric tensor from its entries with i ≤ j.
+pub fn symmetric<S>(entry: impl Fn(usize, usize) -> S) -> Inertia<S> {
+    Inertia {
+        xx: entry(0, 0),
+        yy: entry(1, 1),
+        zz: entry(2, 2),
+        xy: entry(0, 1),
+        yz: entry(1, 2),
+        xz: entry(0, 2),
+    }
+}

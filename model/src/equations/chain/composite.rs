@@ -1,0 +1,306 @@
+//! D, h, h_ikm and c from composite bodies.
+//!
+//! The composite body m is everything from link m to the hand, rigid, about
+//! the origin of frame m. h_ikm = Tr(Δ_k Δ_m W_m Δ_iᵀ), W_m its
+//! pseudo-inertia, is the Lagrange–Euler sum with the sum over links taken
+//! first; Δ_j is the unit twist of joint j in frame m.
+
+use alloc::vec::Vec;
+
+use super::recursion::{Couple, Motion, Spin};
+use super::{Body, Chain, Displacement};
+use crate::equations::matrix::{
+    Vector, cross, dot, minus, negative, plus, scaled, sum, times, twice, zero_vector,
+    zeros,
+};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// Which way the products for D travel; the values are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Travel {
+    /// Joint twists go out to the composite bodies.
+    Outward,
+    /// Composite momenta come in to the joints.
+    Inward,
+}
+
+/// The unit twist of a joint seen from a later frame.
+#[derive(Clone, Debug)]
+struct Twist<S> {
+    /// Angular part.
+    turn: Vector<S>,
+    /// Velocity of the frame's origin.
+    shift: Vector<S>,
+}
+
+/// Composite bodies and joint twists at one position.
+#[derive(Clone, Debug)]
+pub struct Composite<'a, S> {
+    chain: &'a Chain<S>,
+    at: &'a [Displacement<S>],
+    bodies: Vec<Body<S>>,
+    /// `twists[m][i]`, i < m: joint i seen from frame m.
+    twists: Vec<Vec<Twist<S>>>,
+}
+
+impl<'a, S: Scalar> Composite<'a, S> {
+    /// Composes the bodies from the hand inward.
+    pub fn new(chain: &'a Chain<S>, at: &'a [Displacement<S>]) -> Self {
+        let mut bodies: Vec<Body<S>> = Vec::with_capacity(chain.links.len());
+        for (i, link) in chain.links.iter().enumerate().rev() {
+            let outer = match bodies.last() {
+                Some(next) => {
+                    let (joint, at) = (&chain.links[i + 1], &at[i + 1]);
+                    let turned = match at {
+                        Displacement::Turn(theta) => next.turned_z(theta).turned(&joint.rotation),
+                        Displacement::Slide(_) => next.clone(),
+                    };
+                    turned.moved(&joint.lever(at))
+                }
+                None => Body::zero(),
+            };
+            bodies.push(link.body.with(&outer));
+        }
+        bodies.reverse();
+        let mut twists: Vec<Vec<Twist<S>>> = Vec::with_capacity(chain.links.len());
+        for (m, link) in chain.links.iter().enumerate() {
+            let lever = link.lever(&at[m]);
+            let seen = |twist: &Twist<S>| Twist {
+                turn: link.inward(&at[m], &twist.turn),
+                shift: link.inward(&at[m], &sum(&twist.shift, &cross(&twist.turn, &lever))),
+            };
+            let mut row: Vec<Twist<S>> = Vec::with_capacity(m);
+            if m > 0 {
+                row.extend(twists[m - 1].iter().map(seen));
+                row.push(seen(&own_twist(chain, m - 1)));
+            }
+            twists.push(row);
+        }
+        Composite {
+            chain,
+            at,
+            bodies,
+            twists,
+        }
+    }
+
+    /// Force and moment of a unit acceleration of joint k on its composite.
+    fn momentum(&self, k: usize) -> (Vector<S>, Vector<S>) {
+        let (link, body) = (&self.chain.links[k], &self.bodies[k]);
+        match link.kind {
+            JointKind::Revolute => {
+                let second = &body.second;
+                (
+                    mu(body),
+                    [
+                        negative(&second.xz),
+                        negative(&second.yz),
+                        plus(&second.xx, &second.yy),
+                    ],
+                )
+            }
+            JointKind::Prismatic => (
+                scaled(&body.mass, &link.axis),
+                cross(&body.first, &link.axis),
+            ),
+        }
+    }
+
+    /// D, n×n, armature on the diagonal.
+    pub fn inertia(&self, travel: Travel) -> Vec<Vec<S>> {
+        let n = self.chain.links.len();
+        let mut d: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
+        for k in 0..n {
+            let (mut force, mut moment) = self.momentum(k);
+            for i in (0..=k).rev() {
+                let load = match travel {
+                    Travel::Inward => self.chain.load(i, &force, &moment),
+                    Travel::Outward => self.project(i, k, &force, &moment),
+                };
+                let load = self.in_metres(k, load);
+                d[i][k] = if i == k {
+                    plus(&load, &self.chain.links[i].armature)
+                } else {
+                    load
+                };
+                d[k][i] = d[i][k].clone();
+                if travel == Travel::Inward && i > 0 {
+                    (force, moment) = self.chain.to_previous(i, &self.at[i], &force, &moment);
+                }
+            }
+        }
+        d
+    }
+
+    /// `h[i][k][m]` = h_ikm, n×n×n.
+    pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
+        let n = self.chain.links.len();
+        let mut h: Vec<Vec<Vec<S>>> = (0..n)
+            .map(|_| (0..n).map(|_| zeros(n)).collect())
+            .collect();
+        for m in 0..n {
+            for k in 0..=m {
+                let (force, moment) = self.quadratic(m, &self.twist(k, m).turn);
+                for i in 0..m {
+                    let load = self.project(i, m, &force, &moment);
+                    let value = self.in_metres(m, load);
+                    h[i][m][k] = value.clone();
+                    h[i][k][m] = value.clone();
+                    // h_mki = −h_ikm: joint m feels what joint i does not.
+                    if k <= i {
+                        h[m][i][k] = negative(&value);
+                        h[m][k][i] = negative(&value);
+                    }
+                }
+            }
+        }
+        h
+    }
+
+    /// c, length n.
+    pub fn gravity(&self, travel: Travel) -> Vec<S> {
+        let mut c = Vec::with_capacity(self.chain.links.len());
+        match travel {
+            Travel::Outward => {
+                let mut gravity = self.chain.gravity.clone();
+                for (i, link) in self.chain.links.iter().enumerate() {
+                    gravity = link.inward(&self.at[i], &gravity);
+                    let body = &self.bodies[i];
+                    c.push(match link.kind {
+                        JointKind::Revolute => {
+                            let [x, y, _] = &body.first;
+                            minus(&times(y, &gravity[0]), &times(x, &gravity[1]))
+                        }
+                        JointKind::Prismatic => {
+                            let pull = dot(&scaled(&body.mass, &link.axis), &gravity);
+                            negative(&times(&pull, &self.chain.per_unit))
+                        }
+                    });
+                }
+            }
+            Travel::Inward => {
+                // The weight of all links about each origin, links summed.
+                let rest = zeros(self.chain.links.len());
+                return self.chain.inverse_dynamics(
+                    self.at,
+                    &rest,
+                    &rest,
+                    Spin::Column,
+                    Couple::SecondMoments,
+                );
+            }
+        }
+        c
+    }
+
+    /// h, length n: what a joint does to the joints before it and to its own
+    /// composite, plus what the motion of the joints before does to it.
+    pub fn velocity_terms(&self, qd: &[S], spin: Spin) -> Vec<S> {
+        let chain = self.chain;
+        let rates = chain.rates(qd);
+        let n = chain.links.len();
+        let mut before = Motion::base(&zero_vector());
+        let mut wrenches = Vec::with_capacity(n);
+        let mut own = Vec::with_capacity(n);
+        for (i, link) in chain.links.iter().enumerate() {
+            // The motion of frame i with its own joint at rest.
+            let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
+            let body = &self.bodies[i];
+            let force = sum(
+                &scaled(&body.mass, &still.acceleration),
+                &still.u_times(&body.first),
+            );
+            let moment = sum(
+                &still.couple(body, Couple::SecondMoments),
+                &cross(&body.first, &still.acceleration),
+            );
+            own.push(chain.load(i, &force, &moment));
+            // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
+            let mut turn = still.omega.clone().map(|x| twice(&x));
+            if link.kind == JointKind::Revolute {
+                turn[2] = plus(&turn[2], &rates[i]);
+            }
+            let (force, moment) = self.quadratic(i, &turn);
+            wrenches.push((scaled(&rates[i], &force), scaled(&rates[i], &moment)));
+            before = before.next(link, &self.at[i], &rates[i], &S::zero(), spin);
+        }
+        let mut h = Vec::with_capacity(n);
+        let (mut force, mut moment) = (zero_vector(), zero_vector());
+        for i in (0..n).rev() {
+            h.push(plus(&chain.load(i, &force, &moment), &own[i]));
+            let (f, m) = &wrenches[i];
+            let (f, m) = (sum(&force, f), sum(&moment, m));
+            (force, moment) = chain.to_previous(i, &self.at[i], &f, &m);
+        }
+        h.reverse();
+        h
+    }
+
+    /// Force and moment of Δ_k Δ_m on the composite body m, `turn` being the
+    /// angular part of Δ_k.
+    fn quadratic(&self, m: usize, turn: &Vector<S>) -> (Vector<S>, Vector<S>) {
+        let (link, body) = (&self.chain.links[m], &self.bodies[m]);
+        match link.kind {
+            // A point r moves by z × r; turning that gives turn × (z × r).
+            JointKind::Revolute => {
+                let [x, y, _] = body.second_times(turn);
+                (
+                    cross(turn, &mu(body)),
+                    [y, negative(&x), S::zero()],
+                )
+            }
+            // Every point moves along the slide.
+            JointKind::Prismatic => {
+                let acceleration = cross(turn, &link.axis);
+                (
+                    scaled(&body.mass, &acceleration),
+                    cross(&body.first, &acceleration),
+                )
+            }
+        }
+    }
+
+    /// The unit twist of joint i seen from frame m ≥ i.
+    fn twist(&self, i: usize, m: usize) -> Twist<S> {
+        if i == m {
+            own_twist(self.chain, m)
+        } else {
+            self.twists[m][i].clone()
+        }
+    }
+
+    /// What joint i feels of a wrench about the origin of frame m.
+    fn project(&self, i: usize, m: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
+        let twist = self.twist(i, m);
+        let power = plus(&dot(&twist.turn, moment), &dot(&twist.shift, force));
+        self.in_metres(i, power)
+    }
+
+    /// A load or rate of a slide, back from the chain's unit of length.
+    fn in_metres(&self, joint: usize, value: S) -> S {
+        match self.chain.links[joint].kind {
+            JointKind::Revolute => value,
+            JointKind::Prismatic => times(&value, &self.chain.per_unit),
+        }
+    }
+}
+
+/// z × ∫ r dm
+fn mu<S: Scalar>(body: &Body<S>) -> Vector<S> {
+    [negative(&body.first[1]), body.first[0].clone(), S::zero()]
+}
+
+fn own_twist<S: Scalar>(chain: &Chain<S>, i: usize) -> Twist<S> {
+    let link = &chain.links[i];
+    match link.kind {
+        JointKind::Revolute => Twist {
+            turn: link.axis.clone(),
+            shift: zero_vector(),
+        },
+        JointKind::Prismatic => Twist {
+            turn: zero_vector(),
+            shift: link.axis.clone(),
+        },
+    }
+}

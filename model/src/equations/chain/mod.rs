@@ -1,0 +1,286 @@
+//! Both DH conventions as one kind of chain, with regrouped parameters.
+//!
+//! - this file: [`Chain`]: constant rotation, constant offset, then the joint
+//! - [`body`]: mass, first and second moments about a frame's origin
+//! - [`gauge`]: the freedom that leaves the dynamics alone: where an origin
+//!   lies on its axis, which parameters a link keeps, the unit of length
+//! - [`recursion`]: the customised Newton–Euler recursion
+//! - [`composite`]: D, h, h_ikm and c from composite bodies
+//!
+//! `README.md` beside this file derives each from the textbook form.
+
+pub mod body;
+pub mod composite;
+pub mod gauge;
+pub mod recursion;
+
+use alloc::vec::Vec;
+
+pub use body::Body;
+pub use gauge::{Gauge, LinkGauge};
+
+use super::matrix::{Vector, dot, plus, scaled, sum, times, zero_vector};
+use super::{Arm, JointPosition, Rotor};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// A constant rotation, row by row.
+pub type Rotation<S> = [Vector<S>; 3];
+
+/// A serial chain. Frame i of a revolute joint turns about its own z axis;
+/// that of a prismatic joint keeps the axes of the frame before it.
+#[derive(Clone, Debug)]
+pub struct Chain<S> {
+    /// Acceleration of gravity in base axes.
+    pub gravity: Vector<S>,
+    /// Links from the base to the hand.
+    pub links: Vec<ChainLink<S>>,
+    /// 1 / the unit of length.
+    pub per_unit: S,
+}
+
+/// One joint with what it moves.
+#[derive(Clone, Debug)]
+pub struct ChainLink<S> {
+    /// Revolute or prismatic.
+    pub kind: JointKind,
+    /// Revolute: axes of frame i at θ = 0 in the axes of frame i−1.
+    /// Prismatic: the identity.
+    pub rotation: Rotation<S>,
+    /// Origin of frame i (at q = 0 if prismatic) in frame i−1.
+    pub offset: Vector<S>,
+    /// Direction of the slide in the axes of frame i; z for a revolute joint.
+    pub axis: Vector<S>,
+    /// The pair of the constant added to q (revolute).
+    pub theta: Rotor<S>,
+    /// The link, about the origin and in the axes of its frame.
+    pub body: Body<S>,
+    /// Rotor inertia felt at the joint.
+    pub armature: S,
+    /// Viscous damping b_i.
+    pub viscous: S,
+}
+
+/// A joint's position: the pair of θ_i, or the displacement of a slide.
+#[derive(Clone, Debug)]
+pub enum Displacement<S> {
+    /// (sin θ_i, cos θ_i)
+    Turn(Rotor<S>),
+    /// q_i in the chain's unit of length.
+    Slide(S),
+}
+
+impl<S: Scalar> Chain<S> {
+    /// The chain of an arm in a gauge.
+    pub fn new(arm: &Arm<S>, gauge: &Gauge<S>) -> Chain<S> {
+        let mut links: Vec<ChainLink<S>> = Vec::with_capacity(arm.links.len());
+        // What is constant between the last frame and the next joint.
+        let mut turned = identity();
+        let mut moved: Vector<S> = zero_vector();
+        for (link, gauge) in arm.links.iter().zip(&gauge.links) {
+            let twist = turn_x(&link.alpha);
+            let along = [link.a.clone(), S::zero(), S::zero()];
+            let slide = [S::zero(), S::zero(), link.d.clone()];
+            if arm.convention == Convention::Modified {
+                moved = sum(&moved, &apply(&turned, &along));
+                turned = product(&turned, &twist);
+            }
+            // From the joint's moving frame on, before the link's own frame.
+            let (rest, reach) = match arm.convention {
+                Convention::Standard => (twist, along),
+                Convention::Modified => (identity(), zero_vector()),
+            };
+            let body = Body::of(link);
+            match link.kind {
+                JointKind::Revolute => {
+                    let (mut offset, mut ahead) = (moved, slide);
+                    if gauge.far_origin {
+                        offset = sum(&offset, &apply(&turned, &ahead));
+                        ahead = zero_vector();
+                    }
+                    moved = sum(&ahead, &reach);
+                    links.push(ChainLink {
+                        kind: link.kind,
+                        rotation: turned,
+                        offset,
+                        axis: unit_z(),
+                        theta: link.theta.clone(),
+                        body: body.carried(&rest, &moved),
+                        armature: link.armature.clone(),
+                        viscous: link.viscous.clone(),
+                    });
+                    turned = rest;
+                }
+                JointKind::Prismatic => {
+                    let axis = apply(&turned, &unit_z());
+                    let turn = product(&turned, &turn_z(&link.theta));
+                    let offset = sum(&moved, &apply(&turned, &slide));
+                    moved = apply(&turn, &reach);
+                    turned = product(&turn, &rest);
+                    let mut body = body.carried(&turned, &moved);
+                    let mut offset = offset;
+                    if gauge.far_origin {
+                        // The origin of the next joint's frame.
+                        body = body.carried(&identity(), &moved.clone().map(|x| x.neg()));
+                        offset = sum(&offset, &moved);
+                        moved = zero_vector();
+                    }
+                    links.push(ChainLink {
+                        kind: link.kind,
+                        rotation: identity(),
+                        offset,
+                        axis,
+                        theta: Rotor {
+                            sin: S::zero(),
+                            cos: S::one(),
+                        },
+                        body,
+                        armature: link.armature.clone(),
+                        viscous: link.viscous.clone(),
+                    });
+                }
+            }
+        }
+        let mut chain = Chain {
+            gravity: arm.gravity.clone(),
+            links,
+            per_unit: S::one(),
+        };
+        chain.regroup(gauge);
+        chain.change_unit(&gauge.unit, &gauge.per_unit);
+        chain
+    }
+
+    /// θ_i as pairs and slides in the chain's unit.
+    pub fn at(&self, position: &[JointPosition<S>]) -> Vec<Displacement<S>> {
+        self.links
+            .iter()
+            .zip(position)
+            .map(|(link, q)| match q {
+                JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
+                JointPosition::Prismatic(q) => Displacement::Slide(times(q, &self.per_unit)),
+            })
+            .collect()
+    }
+
+    /// A rate in the chain's unit: slides are scaled.
+    fn rates(&self, rates: &[S]) -> Vec<S> {
+        self.links
+            .iter()
+            .zip(rates)
+            .map(|(link, rate)| match link.kind {
+                JointKind::Revolute => rate.clone(),
+                JointKind::Prismatic => times(rate, &self.per_unit),
+            })
+            .collect()
+    }
+}
+
+impl<S> Chain<S> {
+    /// Every parameter through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Chain<T> {
+        let gravity = self.gravity.each_ref().map(&mut f);
+        let links = self.links.iter().map(|link| ChainLink {
+            kind: link.kind,
+            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(&mut f)),
+            offset: link.offset.each_ref().map(&mut f),
+            axis: link.axis.each_ref().map(&mut f),
+            theta: link.theta.map(&mut f),
+            body: Body {
+                mass: f(&link.body.mass),
+                first: link.body.first.each_ref().map(&mut f),
+                second: link.body.second.map(&mut f),
+            },
+            armature: f(&link.armature),
+            viscous: f(&link.viscous),
+        });
+        let links = links.collect();
+        Chain {
+            gravity,
+            links,
+            per_unit: f(&self.per_unit),
+        }
+    }
+}
+
+impl<S: Scalar> ChainLink<S> {
+    /// Components from frame i−1 into frame i.
+    fn inward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
+        match at {
+            Displacement::Turn(theta) => {
+                let v = apply_transposed(&self.rotation, v);
+                let [x, y] = theta.turn_back(&v[0], &v[1]);
+                [x, y, v[2].clone()]
+            }
+            Displacement::Slide(_) => v.clone(),
+        }
+    }
+
+    /// Components from frame i into frame i−1.
+    fn outward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
+        match at {
+            Displacement::Turn(theta) => {
+                let [x, y] = theta.turn(&v[0], &v[1]);
+                apply(&self.rotation, &[x, y, v[2].clone()])
+            }
+            Displacement::Slide(_) => v.clone(),
+        }
+    }
+
+    /// The joint axis in the axes of frame i−1, a constant.
+    fn axis_before(&self) -> Vector<S> {
+        apply(&self.rotation, &self.axis)
+    }
+
+    /// The origin of frame i in frame i−1.
+    fn lever(&self, at: &Displacement<S>) -> Vector<S> {
+        match at {
+            Displacement::Turn(_) => self.offset.clone(),
+            Displacement::Slide(q) => sum(&self.offset, &scaled(q, &self.axis)),
+        }
+    }
+}
+
+fn unit_z<S: Scalar>() -> Vector<S> {
+    [S::zero(), S::zero(), S::one()]
+}
+
+fn identity<S: Scalar>() -> Rotation<S> {
+    core::array::from_fn(|i| core::array::from_fn(|j| if i == j { S::one() } else { S::zero() }))
+}
+
+fn turn_x<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
+    let (s, c) = (&angle.sin, &angle.cos);
+    [
+        [S::one(), S::zero(), S::zero()],
+        [S::zero(), c.clone(), s.neg()],
+        [S::zero(), s.clone(), c.clone()],
+    ]
+}
+
+fn turn_z<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
+    let (s, c) = (&angle.sin, &angle.cos);
+    [
+        [c.clone(), s.neg(), S::zero()],
+        [s.clone(), c.clone(), S::zero()],
+        [S::zero(), S::zero(), S::one()],
+    ]
+}
+
+fn product<S: Scalar>(a: &Rotation<S>, b: &Rotation<S>) -> Rotation<S> {
+    let column = |j: usize| [b[0][j].clone(), b[1][j].clone(), b[2][j].clone()];
+    core::array::from_fn(|i| core::array::from_fn(|j| dot(&a[i], &column(j))))
+}
+
+/// R v
+fn apply<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
+    core::array::from_fn(|i| dot(&rotation[i], v))
+}
+
+/// Rᵀ v
+fn apply_transposed<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
+    core::array::from_fn(|j| {
+        let xy = plus(&times(&rotation[0][j], &v[0]), &times(&rotation[1][j], &v[1]));
+        plus(&xy, &times(&rotation[2][j], &v[2]))
+    })
+}

@@ -1,0 +1,276 @@
+//! The customised Newton–Euler recursion.
+//!
+//! With U = [ω̇]× + [ω]×[ω]× the acceleration of a point r of a link is
+//! v̇ + U r, so a regrouped link costs the few columns of U that its few
+//! moments need.
+
+use alloc::vec::Vec;
+
+use super::{Body, Chain, ChainLink, Displacement};
+use crate::equations::matrix::{
+    Vector, cross, dot, minus, negative, opposite, plus, scaled, sum, times, twice, zero_vector,
+};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// How a link's U is formed; the values are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Spin {
+    /// The column along a revolute axis is the one before, turned: it does
+    /// not depend on the joint's own motion. It gives ω̇_x, ω̇_y and ω_y².
+    Column,
+    /// ω̇ is propagated and U formed from it.
+    Rates,
+}
+
+/// How the moment of a link's own motion is formed; the values are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Couple {
+    /// The antisymmetric part of U Σ.
+    SecondMoments,
+    /// I ω̇ + ω × (I ω).
+    Euler,
+}
+
+/// The motion of one link, in its own axes.
+#[derive(Clone, Debug)]
+pub(super) struct Motion<S> {
+    pub(super) omega: Vector<S>,
+    pub(super) omega_dot: Vector<S>,
+    /// U, column by column.
+    pub(super) u: [Vector<S>; 3],
+    /// v̇ of the origin.
+    pub(super) acceleration: Vector<S>,
+}
+
+impl<S: Scalar> Motion<S> {
+    /// The base, accelerated upwards instead of being pulled down.
+    pub(super) fn base(gravity: &Vector<S>) -> Self {
+        Motion {
+            omega: zero_vector(),
+            omega_dot: zero_vector(),
+            u: [zero_vector(), zero_vector(), zero_vector()],
+            acceleration: opposite(gravity),
+        }
+    }
+
+    /// U r
+    pub(super) fn u_times(&self, r: &Vector<S>) -> Vector<S> {
+        let xy = sum(&scaled(&r[0], &self.u[0]), &scaled(&r[1], &self.u[1]));
+        sum(&xy, &scaled(&r[2], &self.u[2]))
+    }
+
+    /// The motion of the next link.
+    pub(super) fn next(
+        &self,
+        link: &ChainLink<S>,
+        at: &Displacement<S>,
+        rate: &S,
+        acceleration: &S,
+        spin: Spin,
+    ) -> Self {
+        let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
+        match link.kind {
+            JointKind::Prismatic => {
+                let axis = &link.axis;
+                let coriolis = cross(&scaled(&twice(rate), &self.omega), axis);
+                Motion {
+                    acceleration: sum(&sum(&carried, &coriolis), &scaled(acceleration, axis)),
+                    ..self.clone()
+                }
+            }
+            JointKind::Revolute => {
+                let turned = link.inward(at, &self.omega);
+                let omega = [
+                    turned[0].clone(),
+                    turned[1].clone(),
+                    plus(&turned[2], rate),
+                ];
+                let axis = link.axis_before();
+                let along = plus(&dot(&axis, &self.omega_dot), acceleration);
+                let (omega_dot, u) = match spin {
+                    Spin::Column => {
+                        let column = link.inward(at, &self.u_times(&axis));
+                        from_column(&omega, &along, column)
+                    }
+                    Spin::Rates => {
+                        let turned_dot = link.inward(at, &self.omega_dot);
+                        let omega_dot = [
+                            plus(&turned_dot[0], &times(&omega[1], rate)),
+                            minus(&turned_dot[1], &times(&omega[0], rate)),
+                            along,
+                        ];
+                        let u = from_rates(&omega, &omega_dot);
+                        (omega_dot, u)
+                    }
+                };
+                Motion {
+                    omega,
+                    omega_dot,
+                    u,
+                    acceleration: link.inward(at, &carried),
+                }
+            }
+        }
+    }
+
+    /// ∫ r × (U r) dm
+    pub(super) fn couple(&self, body: &Body<S>, form: Couple) -> Vector<S> {
+        match form {
+            Couple::SecondMoments => {
+                let sigma = &body.second;
+                let u = |row: usize, column: usize| &self.u[column][row];
+                let part = |a: &S, x: &S, b: &S, y: &S, c: &S, p: &S, q: &S| {
+                    let squares = minus(&times(a, x), &times(b, y));
+                    plus(&squares, &times(c, &minus(p, q)))
+                };
+                let mixed =
+                    |a: &S, x: &S, b: &S, y: &S| minus(&times(a, x), &times(b, y));
+                let (xx, yy, zz) = (&sigma.xx, &sigma.yy, &sigma.zz);
+                let (xy, yz, xz) = (&sigma.xy, &sigma.yz, &sigma.xz);
+                [
+                    plus(
+                        &part(yy, u(2, 1), zz, u(1, 2), yz, u(2, 2), u(1, 1)),
+                        &mixed(xy, u(2, 0), xz, u(1, 0)),
+                    ),
+                    plus(
+                        &part(zz, u(0, 2), xx, u(2, 0), xz, u(0, 0), u(2, 2)),
+                        &mixed(yz, u(0, 1), xy, u(2, 1)),
+                    ),
+                    plus(
+                        &part(xx, u(1, 0), yy, u(0, 1), xy, u(1, 1), u(0, 0)),
+                        &mixed(xz, u(1, 2), yz, u(0, 2)),
+                    ),
+                ]
+            }
+            Couple::Euler => {
+                let sigma = &body.second;
+                // I = tr(Σ)·1 − Σ
+                let tensor = crate::robot::Inertia {
+                    xx: plus(&sigma.yy, &sigma.zz),
+                    yy: plus(&sigma.xx, &sigma.zz),
+                    zz: plus(&sigma.xx, &sigma.yy),
+                    xy: negative(&sigma.xy),
+                    yz: negative(&sigma.yz),
+                    xz: negative(&sigma.xz),
+                };
+                let times = crate::equations::matrix::tensor_times;
+                sum(
+                    &times(&tensor, &self.omega_dot),
+                    &cross(&self.omega, &times(&tensor, &self.omega)),
+                )
+            }
+        }
+    }
+}
+
+/// ω̇ and U from ω, ω̇_z and the third column of U.
+fn from_column<S: Scalar>(
+    omega: &Vector<S>,
+    along: &S,
+    column: Vector<S>,
+) -> (Vector<S>, [Vector<S>; 3]) {
+    let [x, y, z] = omega;
+    let (xz, yz, xy) = (times(x, z), times(y, z), times(x, y));
+    let (xx, zz) = (times(x, x), times(z, z));
+    // U_13 = ω_x ω_z + ω̇_y and U_23 = ω_y ω_z − ω̇_x.
+    let omega_dot = [minus(&yz, &column[1]), minus(&column[0], &xz), along.clone()];
+    // U_33 = −(ω_x² + ω_y²), so −ω_y² = U_33 + ω_x².
+    let minus_yy = plus(&column[2], &xx);
+    let u = [
+        [
+            minus(&minus_yy, &zz),
+            plus(&xy, along),
+            minus(&twice(&xz), &column[0]),
+        ],
+        [
+            minus(&xy, along),
+            negative(&plus(&xx, &zz)),
+            minus(&twice(&yz), &column[1]),
+        ],
+        column,
+    ];
+    (omega_dot, u)
+}
+
+/// U = [ω̇]× + [ω]×[ω]×
+fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>; 3] {
+    let [x, y, z] = omega;
+    let [dx, dy, dz] = omega_dot;
+    let (xx, yy, zz) = (times(x, x), times(y, y), times(z, z));
+    let (xy, yz, xz) = (times(x, y), times(y, z), times(x, z));
+    [
+        [negative(&plus(&yy, &zz)), plus(&xy, dz), minus(&xz, dy)],
+        [minus(&xy, dz), negative(&plus(&xx, &zz)), plus(&yz, dx)],
+        [plus(&xz, dy), minus(&yz, dx), negative(&plus(&xx, &yy))],
+    ]
+}
+
+impl<S: Scalar> Chain<S> {
+    /// τ, length n.
+    pub fn inverse_dynamics(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        spin: Spin,
+        couple: Couple,
+    ) -> Vec<S> {
+        let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
+        let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
+        let base = Motion::base(&self.gravity);
+        for (i, link) in self.links.iter().enumerate() {
+            let before = motions.last().unwrap_or(&base);
+            motions.push(before.next(link, &at[i], &rates[i], &accelerations[i], spin));
+        }
+        let mut torques = Vec::with_capacity(self.links.len());
+        let (mut force, mut moment) = (zero_vector(), zero_vector());
+        for (i, link) in self.links.iter().enumerate().rev() {
+            let (body, motion) = (&link.body, &motions[i]);
+            let own = sum(
+                &scaled(&body.mass, &motion.acceleration),
+                &motion.u_times(&body.first),
+            );
+            let own_moment = sum(
+                &motion.couple(body, couple),
+                &cross(&body.first, &motion.acceleration),
+            );
+            force = sum(&force, &own);
+            moment = sum(&moment, &own_moment);
+            let load = self.load(i, &force, &moment);
+            let drive = plus(
+                &times(&link.armature, &qdd[i]),
+                &times(&link.viscous, &qd[i]),
+            );
+            torques.push(plus(&load, &drive));
+            (force, moment) = self.to_previous(i, &at[i], &force, &moment);
+        }
+        torques.reverse();
+        torques
+    }
+
+    /// The part of a wrench on link i that the joint feels.
+    pub(super) fn load(&self, i: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
+        match self.links[i].kind {
+            JointKind::Revolute => moment[2].clone(),
+            JointKind::Prismatic => {
+                times(&dot(force, &self.links[i].axis), &self.per_unit)
+            }
+        }
+    }
+
+    /// A wrench about the origin of frame i, about that of frame i−1.
+    pub(super) fn to_previous(
+        &self,
+        i: usize,
+        at: &Displacement<S>,
+        force: &Vector<S>,
+        moment: &Vector<S>,
+    ) -> (Vector<S>, Vector<S>) {
+        let link = &self.links[i];
+        let force = link.outward(at, force);
+        let moment = link.outward(at, moment);
+        let moment = sum(&moment, &cross(&link.lever(at), &force));
+        (force, moment)
+    }
+}
