@@ -9,6 +9,7 @@
 //! - [`schedule`]: straight-line code
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
+//! - [`couplings`]: which coefficients vanish or repeat, and why
 //!
 //! And the ways in, which all end in [`generate`]:
 //! - [`clauses`]: words, robot files, and `dynamics!` as tokens
@@ -18,6 +19,7 @@
 
 pub mod builder;
 pub mod clauses;
+pub mod couplings;
 pub mod emit;
 pub mod function;
 pub mod generate;
