@@ -26,6 +26,7 @@ use crate::robot::Robot;
 pub use crate::robot::Severity;
 pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
+pub use suggest::closest;
 
 /// How to read.
 #[derive(Clone, Debug, Default)]

@@ -35,7 +35,7 @@ const OTHER_WORDS: [(&str, &str); 30] = [
 ];
 
 /// The candidate that `word` is most likely a slip of, if one is near.
-pub(super) fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
+pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
     // Nothing is near a longer word, and the work stays bounded.
     if word.len() > 32 {
         return None;

@@ -1,0 +1,42 @@
+//! The list of what is wrong with an invocation.
+
+use proc_macro2::TokenStream;
+use quote::ToTokens;
+
+use super::messages::Message;
+
+/// Collects errors, each at the tokens that it is about, so that all of them
+/// are reported at once.
+#[derive(Default)]
+pub(super) struct Errors(Vec<syn::Error>);
+
+impl Errors {
+    /// A message of the table.
+    pub(super) fn push(&mut self, at: impl ToTokens, message: &Message) {
+        self.say(at, message.text, message.help);
+    }
+
+    /// A message that was put together.
+    pub(super) fn say(&mut self, at: impl ToTokens, text: &str, help: &str) {
+        let help = match help {
+            "" => String::new(),
+            help => format!("\n  = help: {help}"),
+        };
+        self.0
+            .push(syn::Error::new_spanned(at, format!("{text}{help}")));
+    }
+
+    /// What the parser of the grammar's head says.
+    pub(super) fn syntax(&mut self, error: syn::Error) {
+        self.0.push(error);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// One `compile_error!` each.
+    pub(super) fn into_tokens(self) -> TokenStream {
+        self.0.iter().map(syn::Error::to_compile_error).collect()
+    }
+}

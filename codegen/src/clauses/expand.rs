@@ -1,0 +1,147 @@
+//! `dynamics!` as a whole.
+
+use std::path::Path;
+
+use proc_macro2::TokenStream;
+use quote::{ToTokens, quote};
+use syn::LitStr;
+
+use dalembert_model::robot::{Robot, Severity};
+
+use super::errors::Errors;
+use super::invocation::{self, Invocation, RobotSource};
+use super::{RobotFile, module, stub, table};
+use crate::emit::MathPath;
+use crate::generate::{GenerateError, Generated, Request, generate};
+
+/// The modules that an invocation asks for, or everything that is wrong with
+/// it next to modules whose functions have no bodies.
+///
+/// Paths of robot files are relative to `base`.
+pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
+    let mut errors = Errors::default();
+    let Some(invocation) = invocation::read(input, &mut errors) else {
+        return errors.into_tokens();
+    };
+    let source = source(&invocation, base, &mut errors);
+    let generated = match &source.robot {
+        Some(robot) if errors.is_empty() => functions(robot, &invocation, &mut errors),
+        _ => None,
+    };
+    let (text, notes) = match generated {
+        Some(generated) => {
+            let notes = [source.notes, generated.warnings].concat();
+            (generated.text, notes)
+        }
+        None => (stub::write(&invocation, source.joints), Vec::new()),
+    };
+    let modules = module::dress(&text, &invocation, &notes).unwrap_or_else(|error| {
+        let text = format!("the generated text has no tokens: {error}");
+        errors.say(&invocation.name, &text, "");
+        TokenStream::new()
+    });
+    let (watch, errors) = (source.watch, errors.into_tokens());
+    quote!(#watch #errors #modules)
+}
+
+/// The robot and what goes with it.
+#[derive(Default)]
+struct Source {
+    robot: Option<Robot>,
+    joints: Option<usize>,
+    notes: Vec<String>,
+    /// Makes an edit of the robot file expand the macro again.
+    watch: TokenStream,
+}
+
+fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
+    match &invocation.robot {
+        RobotSource::File(path) => file(path, base, errors),
+        RobotSource::Table(block) => {
+            let read = table::read(&invocation.name, block, errors);
+            let in_range = (1..=Robot::MAX_JOINTS).contains(&read.joints);
+            Source {
+                robot: read.robot,
+                joints: in_range.then_some(read.joints),
+                notes: read.notes,
+                watch: TokenStream::new(),
+            }
+        }
+    }
+}
+
+fn file(literal: &LitStr, base: &Path, errors: &mut Errors) -> Source {
+    let shown = literal.value();
+    let path = base.join(&shown);
+    let watch = match path.to_str() {
+        Some(path) if path_exists(path) => {
+            quote!(
+                const _: &[::core::primitive::u8] = ::core::include_bytes!(#path);
+            )
+        }
+        _ => TokenStream::new(),
+    };
+    match RobotFile::read_as(&path, &shown) {
+        Ok(file) => Source {
+            joints: Some(file.robot.joints.len()),
+            notes: notes(&file, &shown),
+            robot: Some(file.robot),
+            watch,
+        },
+        Err(error) => {
+            for message in error.messages() {
+                errors.say(literal, &message, "");
+            }
+            Source {
+                joints: error.joints(),
+                watch,
+                ..Source::default()
+            }
+        }
+    }
+}
+
+/// The import of a file that is not there would be a second error.
+fn path_exists(path: &str) -> bool {
+    Path::new(path).is_file()
+}
+
+/// A macro cannot warn: what a reader warns of goes into the documentation.
+fn notes(file: &RobotFile, shown: &str) -> Vec<String> {
+    let warnings = file
+        .notes
+        .iter()
+        .filter(|n| n.severity == Severity::Warning);
+    warnings
+        .map(|note| format!("Warning, {shown}:{}: {}.", note.line, note.message))
+        .collect()
+}
+
+fn functions(robot: &Robot, invocation: &Invocation, errors: &mut Errors) -> Option<Generated> {
+    let request = Request {
+        functions: invocation.outputs.iter().map(|(f, _)| *f).collect(),
+        scalars: invocation.scalars.clone(),
+        start: invocation.start,
+        effort: invocation.effort,
+        math: MathPath(module::MATH.into()),
+        module: Some(invocation.name.to_string()),
+    };
+    generate(robot, &request)
+        .map_err(|error| {
+            let function = match &error {
+                GenerateError::Empty => None,
+                GenerateError::Constant { function, .. }
+                | GenerateError::TooLarge { function, .. }
+                | GenerateError::Disproved(function, _)
+                | GenerateError::Text(function, ..) => Some(*function),
+            };
+            let asked = invocation.outputs.iter();
+            let at = asked
+                .filter(|(output, _)| Some(*output) == function)
+                .map(|(_, tokens)| tokens.clone())
+                .next();
+            let at = at.unwrap_or_else(|| invocation.name.to_token_stream());
+            errors.say(at, &error.to_string(), "");
+        })
+        .ok()
+}

@@ -1,0 +1,245 @@
+//! The grammar of `dynamics!`: a module with its robot, then clauses.
+
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+use syn::ext::IdentExt;
+use syn::parse::{ParseStream, Parser};
+use syn::{Attribute, LitStr, Token, Visibility};
+
+use dalembert_model::read::closest;
+
+use super::errors::Errors;
+use super::messages as m;
+use super::statement::{self, Pair, pairs, trees};
+use super::words::{self, Word};
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::generate::Start;
+use crate::simplify::Effort;
+
+/// What an invocation says.
+pub(super) struct Invocation {
+    /// Its documentation and other attributes, for each module.
+    pub(super) attributes: Vec<Attribute>,
+    pub(super) visibility: Visibility,
+    pub(super) name: Ident,
+    pub(super) robot: RobotSource,
+    /// With the tokens that asked for them; after an error those that were
+    /// probably meant.
+    pub(super) outputs: Vec<(Function, TokenStream)>,
+    pub(super) scalars: Vec<ScalarType>,
+    pub(super) start: Start,
+    pub(super) effort: Effort,
+    /// The path of the facade crate.
+    pub(super) facade: TokenStream,
+}
+
+/// Where the robot is.
+pub(super) enum RobotSource {
+    File(LitStr),
+    Table(Group),
+}
+
+/// The clauses, in the order of the documentation.
+const CLAUSES: [&str; 5] = ["outputs", "scalar", "formulation", "effort", "crate"];
+
+/// Reads an invocation; `None` if not even the module is there.
+pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation> {
+    let mut head = None;
+    let parsed = |input: ParseStream<'_>| {
+        head = Some(self::head(input, errors)?);
+        input.parse::<TokenStream>()
+    };
+    let rest = match parsed.parse2(input) {
+        Ok(rest) => rest,
+        Err(error) => {
+            errors.syntax(error);
+            return None;
+        }
+    };
+    let (attributes, visibility, name, robot) = head?;
+    let mut invocation = Invocation {
+        attributes,
+        visibility,
+        name,
+        robot,
+        outputs: Vec::new(),
+        scalars: Vec::new(),
+        start: Start::Auto,
+        effort: Effort::Quick,
+        facade: quote!(::dalembert),
+    };
+    let mut asked = false;
+    for pair in clauses(rest, errors) {
+        asked |= pair.key == "outputs";
+        invocation.clause(&pair, errors);
+    }
+    if !asked {
+        errors.push(&invocation.name, &m::NO_OUTPUTS);
+    }
+    if invocation.outputs.is_empty() {
+        // For the stub: whatever the caller calls is there.
+        let all = Function::ALL.map(|f| (f, invocation.name.to_token_stream()));
+        invocation.outputs = all.to_vec();
+    }
+    if invocation.scalars.is_empty() {
+        invocation.scalars = vec![ScalarType::F64];
+    }
+    Some(invocation)
+}
+
+type Head = (Vec<Attribute>, Visibility, Ident, RobotSource);
+
+/// `/// … pub mod name = "file";` or `/// … pub mod name { … }`.
+fn head(input: ParseStream<'_>, errors: &mut Errors) -> syn::Result<Head> {
+    let attributes = input.call(Attribute::parse_outer)?;
+    let visibility = input.parse()?;
+    let wanted = |message: &m::Message| input.error(message.with_help());
+    if !input.peek(Token![mod]) {
+        return Err(wanted(&m::NO_MODULE));
+    }
+    input.parse::<Token![mod]>()?;
+    if !input.peek(Ident::peek_any) {
+        return Err(wanted(&m::NO_MODULE));
+    }
+    let name: Ident = input.parse()?;
+    if input.peek(syn::token::Brace) {
+        let tree: TokenTree = input.parse()?;
+        if let TokenTree::Group(group) = tree {
+            return Ok((attributes, visibility, name, RobotSource::Table(group)));
+        }
+    }
+    if !input.peek(Token![=]) {
+        return Err(wanted(&m::NO_ROBOT));
+    }
+    input.parse::<Token![=]>()?;
+    if !input.peek(LitStr) {
+        return Err(wanted(&m::NO_ROBOT));
+    }
+    let path: LitStr = input.parse()?;
+    if input.peek(Token![;]) {
+        input.parse::<Token![;]>()?;
+    } else if !input.is_empty() {
+        errors.syntax(wanted(&m::NO_SEMICOLON));
+    }
+    Ok((attributes, visibility, name, RobotSource::File(path)))
+}
+
+fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
+    let trees = trees(rest);
+    let second = |tree: &TokenTree| matches!(tree, TokenTree::Ident(i) if *i == "mod");
+    let end = match trees.iter().position(second) {
+        Some(place) => {
+            errors.push(&trees[place], &m::TWO_ROBOTS);
+            // What comes before it may be its documentation.
+            let clause = |tree: &TokenTree| statement::is_punct(tree, ';');
+            trees[..place].iter().rposition(clause).unwrap_or(0)
+        }
+        None => trees.len(),
+    };
+    pairs(&trees[..end], ';', errors)
+}
+
+impl Invocation {
+    fn clause(&mut self, pair: &Pair, errors: &mut Errors) {
+        let value = &pair.value;
+        match pair.key.to_string().as_str() {
+            "outputs" => {
+                for (output, at) in words::<Function>(value, errors) {
+                    if self.outputs.iter().any(|(earlier, _)| *earlier == output) {
+                        errors.push(&at, &m::TWICE);
+                    } else {
+                        self.outputs.push((output, at));
+                    }
+                }
+            }
+            "scalar" => {
+                for (scalar, at) in words::<ScalarType>(value, errors) {
+                    if self.scalars.contains(&scalar) {
+                        errors.push(&at, &m::TWICE);
+                    } else {
+                        self.scalars.push(scalar);
+                    }
+                }
+            }
+            "formulation" => self.start = word(value, errors).unwrap_or(self.start),
+            "effort" => self.effort = word(value, errors).unwrap_or(self.effort),
+            "crate" => {
+                if let Some(path) = facade(value, errors) {
+                    self.facade = path;
+                }
+            }
+            other => {
+                let help = match closest(other, &CLAUSES) {
+                    Some(meant) => format!("did you mean `{meant}`?"),
+                    None => format!("there is: {}", CLAUSES.join(", ")),
+                };
+                errors.say(&pair.key, &format!("unknown clause `{other}`"), &help);
+            }
+        }
+    }
+}
+
+/// Words with commas between; an unknown one counts as the one that was
+/// probably meant, so that its users are not told that it is missing.
+fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
+    let mut read = Vec::new();
+    for item in statement::items(value) {
+        let at: TokenStream = item.iter().cloned().collect();
+        match item {
+            [TokenTree::Ident(ident)] => {
+                let value = match words::parse(&ident.to_string()) {
+                    Ok(value) => Some(value),
+                    Err(error) => {
+                        errors.say(ident, &error.message(), &error.help());
+                        error.meant.and_then(|meant| words::parse(meant).ok())
+                    }
+                };
+                read.extend(value.map(|value| (value, at)));
+            }
+            [] => errors.say(
+                first(value),
+                &format!("expected the name of an {}", W::WHAT),
+                "",
+            ),
+            [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_COMMA),
+            _ => errors.push(at, &m::NO_WORD),
+        }
+    }
+    read
+}
+
+fn word<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Option<W> {
+    let mut words = words(value, errors).into_iter();
+    let first = words.next();
+    for (_, at) in words {
+        errors.push(at, &m::ONE_WORD);
+    }
+    Some(first?.0)
+}
+
+/// The path of the facade crate, as an import inside the module can take it.
+fn facade(value: &[TokenTree], errors: &mut Errors) -> Option<TokenStream> {
+    let tokens: TokenStream = value.iter().cloned().collect();
+    if value.is_empty() {
+        return None;
+    }
+    let parser = syn::Path::parse_mod_style;
+    let Ok(path) = parser.parse2(tokens.clone()) else {
+        errors.push(tokens, &m::CRATE_PATH);
+        return None;
+    };
+    let start = path.segments.first().map(|s| s.ident.clone());
+    if let Some(start) = start.filter(|s| s == "self" || s == "super") {
+        errors.push(start, &m::CRATE_RELATIVE);
+        return None;
+    }
+    Some(path.into_token_stream())
+}
+
+fn first(value: &[TokenTree]) -> TokenStream {
+    value
+        .first()
+        .map(ToTokens::to_token_stream)
+        .unwrap_or_default()
+}

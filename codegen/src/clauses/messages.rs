@@ -1,0 +1,84 @@
+//! Everything that can be wrong with the form of an invocation, in one table.
+//! What can be wrong with a robot is the reader's to say, which words there
+//! are is [`words`](super::words)'.
+
+/// What is wrong, and what would be right.
+pub(super) struct Message {
+    pub(super) text: &'static str,
+    pub(super) help: &'static str,
+}
+
+const fn message(text: &'static str, help: &'static str) -> Message {
+    Message { text, help }
+}
+
+pub(super) const NO_ROBOT: Message = message(
+    "expected the path of a robot file in quotes, or a robot in braces",
+    "pub mod puma560 = \"robots/puma560.toml\"; or pub mod arm { convention: standard; … }",
+);
+pub(super) const NO_MODULE: Message = message(
+    "expected `mod` and the name of the module",
+    "pub mod puma560 = \"robots/puma560.toml\";",
+);
+pub(super) const NO_SEMICOLON: Message = message("expected `;` after the path", "");
+pub(super) const TWO_ROBOTS: Message = message(
+    "an invocation has one robot",
+    "write a second `dynamics!` for the next",
+);
+pub(super) const NO_KEY: Message = message(
+    "expected the name of a clause",
+    "a clause is `name: value;`, such as `outputs: inverse_dynamics, gravity;`",
+);
+pub(super) const NO_COLON: Message = message(
+    "expected `:` after the clause's name",
+    "a clause is `name: value;`",
+);
+pub(super) const NO_KEY_COLON: Message =
+    message("expected `:` after the key", "a key is `name: value`");
+pub(super) const TWICE: Message = message("this is given twice", "once is enough");
+pub(super) const NO_VALUE: Message = message("expected a value", "");
+pub(super) const NO_OUTPUTS: Message = message(
+    "there is no clause `outputs`",
+    "outputs: inverse_dynamics, gravity;",
+);
+pub(super) const NO_WORD: Message = message("expected a word", "");
+pub(super) const NO_COMMA: Message = message("expected `,` or `;`", "");
+pub(super) const ONE_WORD: Message = message("expected one word only", "");
+pub(super) const CRATE_PATH: Message = message(
+    "expected the path of the crate `dalembert`",
+    "crate = ::my_library::dalembert;",
+);
+pub(super) const CRATE_RELATIVE: Message = message(
+    "the path would be taken from inside the generated module",
+    "start with `crate::` or with the name of a crate",
+);
+pub(super) const NO_ITEM: Message = message(
+    "expected `key: value;` or `joint { … }`",
+    "a robot has: convention, gravity, joint",
+);
+pub(super) const NAMED: Message = message(
+    "the robot is called after its module",
+    "leave `name` out here; a joint may have one",
+);
+pub(super) const JOINT_BRACES: Message = message(
+    "expected `{` after `joint`",
+    "joint { kind: revolute, mass: 1, com: [0, 0, 0], inertia: [0, 0, 1, 0, 0, 0] }",
+);
+pub(super) const SUFFIX: Message = message(
+    "a number of a robot has no type",
+    "it is exact: write the digits alone",
+);
+pub(super) const NO_NUMBER: Message = message(
+    "this is not a decimal number",
+    "write a number like 0.5, -3 or 1.2e-4",
+);
+
+impl Message {
+    /// Both, as the compiler shows them.
+    pub(super) fn with_help(&self) -> String {
+        match self.help {
+            "" => self.text.to_owned(),
+            help => format!("{}\n  = help: {help}", self.text),
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! What users ask for, in whichever way they ask: the words of a request,
+//! the robot file, and `dynamics!` as a whole.
+//!
+//! - [`words`]: outputs, scalars, formulations and efforts by name
+//! - [`robot_file`]: a robot file from a path, with errors fit to show
+//! - [`expand`]: the tokens of `dynamics!` to the tokens of its modules, by
+//!   way of `invocation` (the grammar), `table` (a robot written in the
+//!   macro), `module` (the generated text as tokens) and `stub` (what stands
+//!   there instead after an error)
+//! - `messages`, `errors`: what can be wrong with an invocation, and the list
+//!   of what is
+//!
+//! The command and the build script's builder use the first two.
+
+mod errors;
+mod expand;
+mod invocation;
+mod messages;
+mod module;
+pub mod robot_file;
+mod statement;
+mod stub;
+mod table;
+pub mod words;
+
+pub use expand::expand;
+pub use robot_file::{RobotFile, RobotFileError};
+pub use words::{UnknownWord, Word};

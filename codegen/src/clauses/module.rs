@@ -1,0 +1,74 @@
+//! The generated text as tokens, with the user's name, visibility and
+//! attributes.
+//!
+//! The compiler's own lexer reads the text; nothing parses it again, since
+//! bodies are as long as the dynamics are.
+
+use proc_macro2::{Delimiter, Group, Ident, LexError, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+use syn::Attribute;
+
+use super::invocation::Invocation;
+
+/// Where the bodies find sine and cosine: an import of the module, so that a
+/// wrong path to the facade is one error and not one a call.
+pub(super) const MATH: &str = "__math";
+
+/// Dresses every module of the text; `notes` end its documentation.
+pub(super) fn dress(
+    text: &str,
+    invocation: &Invocation,
+    notes: &[String],
+) -> Result<TokenStream, LexError> {
+    let Invocation {
+        attributes,
+        visibility,
+        facade,
+        ..
+    } = invocation;
+    let math = Ident::new(MATH, proc_macro2::Span::call_site());
+    let import = quote! {
+        #[allow(unused_imports)]
+        use #facade::__private::math as #math;
+    };
+    let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
+    let gap = attributes.iter().any(is_doc).then(|| quote!(#[doc = ""]));
+    let notes: TokenStream = notes
+        .iter()
+        .map(|note| quote!(#[doc = ""] #[doc = #note]))
+        .collect();
+
+    let mut tokens = TokenStream::new();
+    let mut start = true;
+    for tree in text.parse::<TokenStream>()? {
+        if start {
+            tokens.extend(quote!(#(#attributes)* #gap));
+            start = false;
+        }
+        match tree {
+            // Not every caller calls all of it.
+            TokenTree::Ident(word) if word == "pub" => {
+                tokens.extend(quote!(#notes #[allow(dead_code)] #visibility));
+            }
+            TokenTree::Ident(word) if word != "mod" => {
+                name(&word, invocation).to_tokens(&mut tokens);
+            }
+            TokenTree::Group(body) if body.delimiter() == Delimiter::Brace => {
+                let inner = body.stream();
+                let whole = Group::new(Delimiter::Brace, quote!(#import #inner));
+                whole.to_tokens(&mut tokens);
+                start = true;
+            }
+            tree => tree.to_tokens(&mut tokens),
+        }
+    }
+    Ok(tokens)
+}
+
+/// The module's name as the user wrote it, so that tools find their way.
+fn name(word: &Ident, invocation: &Invocation) -> Ident {
+    if *word == invocation.name {
+        return invocation.name.clone();
+    }
+    Ident::new(&word.to_string(), invocation.name.span())
+}

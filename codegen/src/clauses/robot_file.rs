@@ -1,0 +1,184 @@
+//! A robot file from a path, with errors fit to show.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
+use dalembert_model::robot::Robot;
+
+/// A robot file that was read.
+#[derive(Clone, Debug)]
+pub struct RobotFile {
+    /// The robot.
+    pub robot: Robot,
+    /// Warnings and notes.
+    pub notes: Vec<Diagnostic>,
+    /// The text, which the notes' spans are about.
+    pub source: String,
+}
+
+impl RobotFile {
+    /// Reads the file at a path; messages call it by the path.
+    ///
+    /// # Errors
+    /// [`RobotFileError`], with everything that is wrong with the file.
+    pub fn read(path: &Path) -> Result<RobotFile, RobotFileError> {
+        Self::read_as(path, &path.display().to_string())
+    }
+
+    /// Reads the file at a path; messages call it by a shorter name.
+    ///
+    /// # Errors
+    /// As [`RobotFile::read`].
+    pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
+        let bytes = bytes(path).map_err(|error| match error.kind() {
+            ErrorKind::NotFound => missing(path, shown),
+            _ => RobotFileError::Unreadable {
+                shown: shown.to_owned(),
+                error: error.to_string(),
+            },
+        })?;
+        let source = String::from_utf8_lossy(&bytes).into_owned();
+        match read::parse_bytes(&bytes, &Options::default()) {
+            Ok(reading) => Ok(RobotFile {
+                robot: reading.robot,
+                notes: reading.notes,
+                source,
+            }),
+            Err(diagnostics) => Err(RobotFileError::Wrong {
+                shown: shown.to_owned(),
+                source,
+                diagnostics,
+            }),
+        }
+    }
+}
+
+/// One byte more than a robot file may have is enough for the reader to say
+/// so; the path may be a device without end.
+fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?
+        .take(read::MAX_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Why there is no robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RobotFileError {
+    /// There is no such file.
+    Missing {
+        /// The path as messages show it.
+        shown: String,
+        /// Where it was looked for.
+        directory: PathBuf,
+        /// The file there that was probably meant.
+        meant: Option<String>,
+    },
+    /// It cannot be read.
+    Unreadable {
+        /// The path as messages show it.
+        shown: String,
+        /// What the system says.
+        error: String,
+    },
+    /// It is not a robot.
+    Wrong {
+        /// The path as messages show it.
+        shown: String,
+        /// The text.
+        source: String,
+        /// What is wrong with it.
+        diagnostics: Diagnostics,
+    },
+}
+
+impl RobotFileError {
+    /// Every error by itself; those of the text with their line. Never empty.
+    pub fn messages(&self) -> Vec<String> {
+        match self {
+            RobotFileError::Missing {
+                shown,
+                directory,
+                meant,
+            } => {
+                let help = match meant {
+                    Some(meant) => format!("did you mean `{meant}`?"),
+                    None => format!("paths are relative to {}", directory.display()),
+                };
+                vec![format!("there is no file `{shown}`\n  = help: {help}")]
+            }
+            RobotFileError::Unreadable { shown, error } => {
+                vec![format!("cannot read `{shown}`: {error}")]
+            }
+            RobotFileError::Wrong {
+                shown,
+                source,
+                diagnostics,
+            } => {
+                let render = |diagnostic: &Diagnostic| {
+                    let text = diagnostic.render(shown, source);
+                    // Whoever shows it says that it is an error.
+                    text.trim_end().trim_start_matches("error: ").to_owned()
+                };
+                diagnostics.0.iter().map(render).collect()
+            }
+        }
+    }
+
+    /// How many joints the file seems to have. A file with an error in it has
+    /// no robot to ask, and what users wrote calls functions of some size.
+    pub fn joints(&self) -> Option<usize> {
+        let RobotFileError::Wrong { source, .. } = self else {
+            return None;
+        };
+        let heads = source.lines().filter(|line| {
+            let head: String = line.split_whitespace().collect();
+            head.starts_with("[[joint]]")
+        });
+        Some(heads.count()).filter(|n| (1..=Robot::MAX_JOINTS).contains(n))
+    }
+}
+
+/// All messages, each marked as an error, an empty line between two.
+impl fmt::Display for RobotFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, message) in self.messages().iter().enumerate() {
+            let gap = if index > 0 { "\n\n" } else { "" };
+            write!(f, "{gap}error: {message}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for RobotFileError {}
+
+fn missing(path: &Path, shown: &str) -> RobotFileError {
+    let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
+    let folder = parent.unwrap_or(Path::new("."));
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| name.ends_with(".toml"))
+        .collect();
+    // The order of a folder differs between machines.
+    names.sort();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let meant = closest(&name, &names).map(|meant| match shown.strip_suffix(&*name) {
+        Some(start) => format!("{start}{meant}"),
+        None => meant.to_owned(),
+    });
+    // What the shown path is relative to.
+    let up = Path::new(shown).components().count();
+    let directory = path.ancestors().nth(up).unwrap_or(folder);
+    RobotFileError::Missing {
+        shown: shown.to_owned(),
+        directory: directory.to_owned(),
+        meant,
+    }
+}

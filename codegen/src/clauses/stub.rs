@@ -1,0 +1,66 @@
+//! What stands for the modules after an error: the same functions without
+//! bodies, so that only the error is reported and not every call as well.
+
+use std::fmt::Write;
+
+use super::invocation::Invocation;
+use crate::emit::{ScalarType, module};
+use crate::function::{Function, Quantity};
+
+/// The modules' text. Without a number of joints the functions take arrays
+/// of any length.
+pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
+    let mut text = String::new();
+    for &scalar in &invocation.scalars {
+        let base = invocation.name.to_string();
+        let name = module::name(&base, scalar, &invocation.scalars);
+        let count = joints.unwrap_or(1);
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "pub mod {name} {{\npub const N: usize = {count};");
+        for (function, _) in &invocation.outputs {
+            text += &self::function(*function, joints, scalar);
+        }
+        text += "}\n";
+    }
+    text
+}
+
+fn function(function: Function, joints: Option<usize>, scalar: ScalarType) -> String {
+    let (length, generic, argument) = match joints {
+        Some(n) => (n.to_string(), "", ""),
+        None => ("L".to_owned(), "<const L: usize>", "<L>"),
+    };
+    let array = |quantity: Quantity| {
+        (0..quantity.rank()).fold(scalar.to_string(), |inner, _| {
+            format!("[{inner}; {length}]")
+        })
+    };
+    let arguments: Vec<String> = function
+        .arguments()
+        .iter()
+        .map(|argument| format!("_{}: &[{scalar}; {length}]", argument.name()))
+        .collect();
+    let mut text = String::new();
+    let result = match function.structure() {
+        None => array(function.quantities()[0]),
+        Some(name) => {
+            let fields = function.quantities().iter();
+            let fields: Vec<String> = fields
+                .map(|&quantity| format!("pub {}: {}", quantity.field(), array(quantity)))
+                .collect();
+            let _ = writeln!(
+                text,
+                "#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {name}{generic} {{ {} }}",
+                fields.join(", ")
+            );
+            format!("{name}{argument}")
+        }
+    };
+    let _ = writeln!(
+        text,
+        "pub fn {}{generic}({}) -> {result} {{ ::core::unreachable!() }}",
+        function.name(),
+        arguments.join(", ")
+    );
+    text
+}

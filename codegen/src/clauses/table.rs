@@ -1,0 +1,284 @@
+//! A robot that is written in the macro.
+//!
+//! Its tokens are written out as a robot file, which the reader of robot
+//! files reads, and what that says is mapped back to the tokens: so the
+//! macro has the reader's numbers, angles, checks and messages, and cannot
+//! differ from it. Every piece of the text has a mark with its tokens.
+
+use std::ops::Range;
+
+use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::Lit;
+
+use dalembert_model::number::Angle;
+use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
+use dalembert_model::read::{self, Diagnostic, Options};
+use dalembert_model::robot::Robot;
+
+use super::errors::Errors;
+use super::messages as m;
+use super::statement::{self, Pair, group, pairs, trees};
+
+/// A robot and what is worth knowing about it; or as much as its callers need
+/// to go on after an error.
+pub(super) struct Read {
+    pub(super) robot: Option<Robot>,
+    pub(super) joints: usize,
+    pub(super) notes: Vec<String>,
+}
+
+/// Reads the block behind the module's name.
+pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
+    let (keys, joints) = split(block, errors);
+    let mut file = File::default();
+    file.name(name);
+    for pair in pairs(&keys, ';', errors) {
+        match pair.key.to_string().as_str() {
+            "name" => errors.push(&pair.key, &m::NAMED),
+            "joint" => errors.push(&pair.key, &m::JOINT_BRACES),
+            _ => file.line(&pair, errors),
+        }
+    }
+    for (head, body) in &joints {
+        file.mark(head.to_token_stream(), |file| file.text += "[[joint]]");
+        file.text.push('\n');
+        for pair in pairs(&trees(body.stream()), ',', errors) {
+            file.line(&pair, errors);
+        }
+    }
+    let (robot, found) = match read::parse(&file.text, &Options::default()) {
+        Ok(reading) => (Some(reading.robot), reading.notes),
+        Err(diagnostics) => (None, diagnostics.0),
+    };
+    let notes = match robot {
+        Some(_) => found.iter().map(|d| reword(&d.message)).collect(),
+        None => {
+            for diagnostic in &found {
+                file.report(diagnostic, name, errors);
+            }
+            Vec::new()
+        }
+    };
+    Read {
+        robot,
+        joints: joints.len(),
+        notes,
+    }
+}
+
+/// The robot's own keys, and its joints. A file has them in this order too.
+fn split(block: &Group, errors: &mut Errors) -> (Vec<TokenTree>, Vec<(Ident, Group)>) {
+    let (mut keys, mut joints) = (Vec::new(), Vec::new());
+    let mut rest = trees(block.stream()).into_iter().peekable();
+    while let Some(tree) = rest.next() {
+        let TokenTree::Ident(word) = &tree else {
+            keys.push(tree);
+            continue;
+        };
+        let body = rest.peek().and_then(|next| group(next, Delimiter::Brace));
+        match body.cloned() {
+            Some(body) => {
+                if word != "joint" {
+                    errors.push(word, &m::NO_ITEM);
+                }
+                joints.push((word.clone(), body));
+                rest.next();
+            }
+            None => keys.push(tree),
+        }
+    }
+    (keys, joints)
+}
+
+/// The robot file as it is written.
+#[derive(Default)]
+struct File {
+    text: String,
+    /// Which tokens a piece of the text is of.
+    marks: Vec<(Range<usize>, TokenStream)>,
+    /// Pieces that stand in for tokens which were reported already.
+    spoiled: Vec<Range<usize>>,
+}
+
+impl File {
+    fn mark(&mut self, tokens: TokenStream, write: impl FnOnce(&mut Self)) {
+        let start = self.text.len();
+        write(self);
+        self.marks.push((start..self.text.len(), tokens));
+    }
+
+    /// The file begins with the name: what is wrong with the robot as a whole
+    /// is reported there.
+    fn name(&mut self, name: &Ident) {
+        self.mark(name.to_token_stream(), |file| {
+            file.text += "name = ";
+            file.quoted(&name.to_string());
+        });
+        self.text.push('\n');
+    }
+
+    fn line(&mut self, pair: &Pair, errors: &mut Errors) {
+        self.pair(pair, errors);
+        self.text.push('\n');
+    }
+
+    fn pair(&mut self, pair: &Pair, errors: &mut Errors) {
+        let key = pair.key.to_string();
+        self.mark(pair.key.to_token_stream(), |file| match key.is_ascii() {
+            true => file.text += key.trim_start_matches("r#"),
+            false => file.quoted(&key),
+        });
+        self.text += " = ";
+        self.value(&pair.value, errors);
+    }
+
+    fn value(&mut self, value: &[TokenTree], errors: &mut Errors) {
+        self.mark(value.iter().cloned().collect(), |file| match value {
+            [] => file.spoil(),
+            [tree] => {
+                if let Some(list) = group(tree, Delimiter::Bracket) {
+                    file.list(list, errors);
+                } else if let Some(block) = group(tree, Delimiter::Brace) {
+                    file.block(block, errors);
+                } else {
+                    file.scalar(value, errors);
+                }
+            }
+            _ => file.scalar(value, errors),
+        });
+    }
+
+    fn list(&mut self, list: &Group, errors: &mut Errors) {
+        self.text.push('[');
+        for item in statement::items(&trees(list.stream())) {
+            if item.is_empty() {
+                errors.push(list, &m::NO_VALUE);
+            }
+            self.value(item, errors);
+            self.text += ", ";
+        }
+        self.text.push(']');
+    }
+
+    fn block(&mut self, block: &Group, errors: &mut Errors) {
+        self.text += "{ ";
+        for (index, pair) in pairs(&trees(block.stream()), ',', errors)
+            .iter()
+            .enumerate()
+        {
+            if index > 0 {
+                self.text += ", ";
+            }
+            self.pair(pair, errors);
+        }
+        self.text += " }";
+    }
+
+    /// A number, an angle or a word, from the source text of its tokens.
+    fn scalar(&mut self, value: &[TokenTree], errors: &mut Errors) {
+        let literals = value.iter().filter_map(|tree| match tree {
+            TokenTree::Literal(literal) => Some(Lit::new(literal.clone())),
+            _ => None,
+        });
+        for literal in literals {
+            let suffix = match &literal {
+                Lit::Str(text) if value.len() == 1 => return self.quoted(&text.value()),
+                Lit::Int(number) => number.suffix(),
+                Lit::Float(number) => number.suffix(),
+                _ => "",
+            };
+            if !matches!(suffix, "" | "deg") {
+                errors.push(literal, &m::SUFFIX);
+                return self.spoil();
+            }
+        }
+        let text = join(value);
+        let error = match parse_decimal(&text) {
+            Ok(number) => {
+                // In the form that a file may have: without `1e400` integers.
+                let plain = write_decimal(&number).unwrap_or(text);
+                self.text += &plain;
+                return;
+            }
+            Err(error) => error,
+        };
+        let unsigned = text.trim_start_matches(['-', '+']);
+        let number = unsigned.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        if error == NumberError::Malformed && (!number || Angle::parse(&text).is_ok()) {
+            return self.quoted(&text);
+        }
+        let at: TokenStream = value.iter().cloned().collect();
+        match error {
+            NumberError::Malformed => errors.push(at, &m::NO_NUMBER),
+            error => errors.say(at, &format!("`{text}` is {error}"), error.help()),
+        }
+        self.spoil();
+    }
+
+    /// Stands in for a value that cannot be read: whatever the key, the
+    /// reader refuses it, and so says nothing that rests on it.
+    fn spoil(&mut self) {
+        let start = self.text.len();
+        self.text += "nan";
+        self.spoiled.push(start..self.text.len());
+    }
+
+    fn quoted(&mut self, text: &str) {
+        self.text.push('"');
+        for c in text.chars() {
+            match c {
+                '"' | '\\' => self.text.extend(['\\', c]),
+                c if c.is_control() => self.text += &format!("\\U{:08X}", u32::from(c)),
+                c => self.text.push(c),
+            }
+        }
+        self.text.push('"');
+    }
+
+    /// Reports at the innermost tokens that the message is about.
+    fn report(&self, found: &Diagnostic, name: &Ident, errors: &mut Errors) {
+        let at = found.span.start;
+        if self.spoiled.iter().any(|range| range.contains(&at)) {
+            return;
+        }
+        let around = self.marks.iter().filter(|(range, _)| range.contains(&at));
+        let tokens = match around.min_by_key(|(range, _)| range.len()) {
+            Some((_, tokens)) => tokens.clone(),
+            None => name.to_token_stream(),
+        };
+        let help = found.help.as_deref().map(reword).unwrap_or_default();
+        errors.say(tokens, &reword(&found.message), &help);
+    }
+}
+
+/// The source text of a value; spaces only where two words would become one.
+fn join(value: &[TokenTree]) -> String {
+    let mut text = String::new();
+    let mut word = false;
+    for tree in value {
+        let next = matches!(tree, TokenTree::Ident(_) | TokenTree::Literal(_));
+        if word && next {
+            text.push(' ');
+        }
+        word = next;
+        text += &tree.to_string();
+    }
+    text
+}
+
+/// How the reader's messages about a file read in the macro.
+const DIALECT: [(&str, &str); 6] = [
+    ("[[joint]] tables", "`joint { … }` blocks"),
+    ("[[joint]] table", "`joint { … }` block"),
+    ("[[joint]]", "`joint { … }`"),
+    ("the string ", ""),
+    (" = ", ": "),
+    ("\"", ""),
+];
+
+fn reword(text: &str) -> String {
+    DIALECT.iter().fold(text.to_owned(), |text, (file, here)| {
+        text.replace(file, here)
+    })
+}

@@ -1,0 +1,147 @@
+//! Outputs, scalars, formulations and efforts by name.
+
+use std::fmt;
+
+use dalembert_model::read::closest;
+
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::generate::Start;
+use crate::simplify::Effort;
+
+/// A value that users name by a word.
+pub trait Word: Copy {
+    /// What messages call it.
+    const WHAT: &'static str;
+
+    /// Every value with its word, in the order that messages list them.
+    fn all() -> Vec<(&'static str, Self)>;
+}
+
+impl Word for Function {
+    const WHAT: &'static str = "output";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        Function::ALL.map(|f| (f.name(), f)).to_vec()
+    }
+}
+
+impl Word for ScalarType {
+    const WHAT: &'static str = "scalar";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        ScalarType::ALL.map(|s| (s.name(), s)).to_vec()
+    }
+}
+
+impl Word for Effort {
+    const WHAT: &'static str = "effort";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        Effort::ALL.map(|e| (e.name(), e)).to_vec()
+    }
+}
+
+impl Word for Start {
+    const WHAT: &'static str = "formulation";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        let named = |name: &'static str| Start::from_name(name).map(|start| (name, start));
+        Start::NAMES.into_iter().filter_map(named).collect()
+    }
+}
+
+/// The value of a word.
+///
+/// ```
+/// use dalembert_codegen::clauses::words::parse;
+/// use dalembert_codegen::function::Function;
+///
+/// assert_eq!(parse("gravity"), Ok(Function::Gravity));
+/// let error = parse::<Function>("gravty").unwrap_err();
+/// assert_eq!(error.to_string(), "unknown output `gravty`: did you mean `gravity`?");
+/// ```
+///
+/// # Errors
+/// [`UnknownWord`], with the word that was probably meant.
+pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
+    let all = W::all();
+    if let Some((_, value)) = all.iter().find(|(name, _)| *name == text) {
+        return Ok(*value);
+    }
+    let known: Vec<&'static str> = all.into_iter().map(|(name, _)| name).collect();
+    Err(UnknownWord {
+        what: W::WHAT,
+        found: text.to_owned(),
+        meant: closest(text, &known),
+        known,
+    })
+}
+
+/// A word that names nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownWord {
+    /// What it should name: `output`, `scalar`, …
+    pub what: &'static str,
+    /// The word.
+    pub found: String,
+    /// The word that was probably meant.
+    pub meant: Option<&'static str>,
+    /// Every word there is.
+    pub known: Vec<&'static str>,
+}
+
+impl UnknownWord {
+    /// What is wrong.
+    pub fn message(&self) -> String {
+        format!("unknown {} `{}`", self.what, self.found)
+    }
+
+    /// The likely fix.
+    pub fn help(&self) -> String {
+        match self.meant {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => format!("there is: {}", self.known.join(", ")),
+        }
+    }
+}
+
+impl fmt::Display for UnknownWord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message(), self.help())
+    }
+}
+
+impl std::error::Error for UnknownWord {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_reads_back() {
+        fn check<W: Word + PartialEq + std::fmt::Debug>() {
+            for (name, value) in W::all() {
+                assert_eq!(parse(name), Ok(value));
+            }
+        }
+        check::<Function>();
+        check::<ScalarType>();
+        check::<Effort>();
+        check::<Start>();
+        assert_eq!(Start::all().len(), Start::NAMES.len());
+    }
+
+    #[test]
+    fn unknown_words() {
+        for (text, shown) in [
+            ("f46", "unknown scalar `f46`: did you mean `f64`?"),
+            ("double", "unknown scalar `double`: there is: f64, f32"),
+        ] {
+            assert_eq!(
+                parse::<ScalarType>(text).map_err(|e| e.to_string()),
+                Err(shown.into())
+            );
+        }
+    }
+}
