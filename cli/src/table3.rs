@@ -1,5 +1,0 @@
-use crate::args::Table3Args;
-use crate::outcome::Outcome;
-pub fn run(_args: &Table3Args) -> Outcome {
-    Ok(())
-}

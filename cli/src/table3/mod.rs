@@ -1,0 +1,197 @@
+//! `dalembert table3`: the paper's Table 3 beside what the formulas cost as
+//! written and what is generated.
+//!
+//! - [`paper`]: the polynomials of the table
+//! - [`written`]: the formulas with the counting scalar
+//! - [`generic`]: an arm without special numbers
+
+mod generic;
+mod paper;
+mod written;
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, Start, formulation_name, generate};
+use dalembert_codegen::graph::Counts;
+use dalembert_codegen::simplify::Stage;
+use dalembert_model::equations::Formulation;
+use dalembert_model::robot::Robot;
+use serde_json::{Map, Value, json};
+
+use crate::args::Table3Args;
+use crate::count;
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
+
+/// The formulations of the table, and what it calls them.
+const FORMULATIONS: [(Formulation, &str); 3] = [
+    (Formulation::LagrangeEuler, "Lagrange–Euler"),
+    (Formulation::NewtonEulerLink, "Newton–Euler"),
+    (Formulation::Dalembert, "generalized D'Alembert"),
+];
+
+/// The rows of the table.
+const JOINTS: std::ops::RangeInclusive<usize> = 1..=7;
+
+/// Multiplications and additions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Pair {
+    mul: u64,
+    add: u64,
+}
+
+/// One formulation at one number of joints.
+struct Cell {
+    paper: Pair,
+    written: Pair,
+    generated: Counts,
+}
+
+/// Runs the subcommand.
+pub fn run(args: &Table3Args) -> Outcome {
+    match &args.robot {
+        Some(file) => robot(&input::robot(file)?, args.json),
+        None => table(args.json),
+    }
+}
+
+fn table(as_json: bool) -> Outcome {
+    let mut rows = Vec::new();
+    for n in JOINTS {
+        let robot = generic::robot(n);
+        let mut cells = Vec::new();
+        for (formulation, _) in FORMULATIONS {
+            let stages = stages(&robot, Start::Only(formulation))?;
+            let generated = stages.last().map(|stage| stage.counts).unwrap_or_default();
+            cells.push(Cell {
+                paper: paper::counts(formulation, n as u64),
+                written: written::generic(formulation, n),
+                generated,
+            });
+        }
+        rows.push((n, cells));
+    }
+    if as_json {
+        let rows: Vec<Value> = rows.iter().map(|(n, cells)| row_json(*n, cells)).collect();
+        return output::print_json(&json!({ "table3": rows }));
+    }
+    let mut text = String::from(
+        "Table 3: inverse dynamics of n revolute joints, mul add.\n\
+         paper: its polynomials. as written: the formula, no number special.\n\
+         generated: for an arm of random numbers, quick search.\n",
+    );
+    for (index, (_, name)) in FORMULATIONS.into_iter().enumerate() {
+        text += &format!("\n{name}\n");
+        let head = ["n", "paper", "as written", "generated"];
+        let mut lines = vec![head.map(String::from).to_vec()];
+        for (n, cells) in &rows {
+            let cell = &cells[index];
+            lines.push(vec![
+                n.to_string(),
+                pair_text(cell.paper),
+                pair_text(cell.written),
+                format!("{} {}", cell.generated.mul, cell.generated.add),
+            ]);
+        }
+        text += &output::table(&lines, 0);
+    }
+    output::print(&text)
+}
+
+/// For one robot: the paper at its n, the formula with its numbers, and the
+/// counts after every stage, from each formulation and from all.
+fn robot(robot: &Robot, as_json: bool) -> Outcome {
+    let n = robot.joints.len();
+    let mut starts = Vec::new();
+    for (formulation, name) in FORMULATIONS {
+        let paper = paper::counts(formulation, n as u64);
+        let written = written::robot(formulation, robot);
+        let stages = stages(robot, Start::Only(formulation))?;
+        let key = formulation_name(formulation);
+        starts.push((key, name, Some((paper, written)), stages));
+    }
+    starts.push(("auto", "all of them", None, stages(robot, Start::Auto)?));
+    if as_json {
+        let formulations: Map<String, Value> = starts
+            .iter()
+            .map(|(key, _, formula, stages)| {
+                let mut value = json!({});
+                if let Some((paper, written)) = formula {
+                    value["paper"] = pair_json(*paper);
+                    value["as_written"] = pair_json(*written);
+                }
+                value["stages"] = stages.iter().map(stage_json).collect();
+                ((*key).to_owned(), value)
+            })
+            .collect();
+        return output::print_json(&json!({
+            "robot": robot.name,
+            "input": robot.short_hash(),
+            "function": Function::InverseDynamics.name(),
+            "joints": n,
+            "formulations": formulations,
+        }));
+    }
+    let mut text = format!(
+        "robot {}, {n} joints, input {}\ninverse dynamics, mul add\n",
+        robot.name,
+        robot.short_hash()
+    );
+    for (_, name, formula, stages) in &starts {
+        text += &format!("\nfrom {name}\n");
+        let mut lines = Vec::new();
+        if let Some((paper, written)) = formula {
+            lines.push(vec!["Table 3".to_owned(), pair_text(*paper)]);
+            lines.push(vec!["formula as written".to_owned(), pair_text(*written)]);
+        }
+        for Stage { name, counts } in stages {
+            lines.push(vec![
+                (*name).to_owned(),
+                format!("{} {}", counts.mul, counts.add),
+            ]);
+        }
+        text += &output::table(&lines, 0);
+    }
+    output::print(&text)
+}
+
+fn stages(robot: &Robot, start: Start) -> Result<Vec<Stage>, Failure> {
+    let request = Request {
+        functions: vec![Function::InverseDynamics],
+        scalars: vec![ScalarType::F64],
+        start,
+        ..Request::default()
+    };
+    let functions = generate(robot, &request)?.functions;
+    Ok(functions.into_iter().flat_map(|f| f.stages).collect())
+}
+
+fn row_json(n: usize, cells: &[Cell]) -> Value {
+    let mut row = json!({ "n": n });
+    for ((formulation, _), cell) in FORMULATIONS.into_iter().zip(cells) {
+        row[formulation_name(formulation)] = json!({
+            "paper": pair_json(cell.paper),
+            "as_written": pair_json(cell.written),
+            "generated": count::counts(&cell.generated),
+        });
+    }
+    row
+}
+
+fn stage_json(stage: &Stage) -> Value {
+    let mut value = json!({ "stage": stage.name });
+    if let (Value::Object(value), Value::Object(counts)) =
+        (&mut value, count::counts(&stage.counts))
+    {
+        value.extend(counts);
+    }
+    value
+}
+
+fn pair_json(pair: Pair) -> Value {
+    json!({ "mul": pair.mul, "add": pair.add })
+}
+
+fn pair_text(pair: Pair) -> String {
+    format!("{} {}", pair.mul, pair.add)
+}
