@@ -1,0 +1,134 @@
+//! Whatever is wrong with the input: exit code 2, a message, never a panic.
+
+mod support;
+
+use std::fs;
+
+use support::{robot, run, temporary};
+
+#[test]
+fn broken_robot_files_name_the_line() {
+    let folder = temporary("broken");
+    let file = folder.join("arm.toml");
+    let name = file.to_str().unwrap();
+    let planar = fs::read_to_string(robot("planar2r")).unwrap();
+    // From the first key on: the comments before it have words of their own.
+    let planar = planar[planar.find("\nname").unwrap() + 1..].to_owned();
+    let line = |word: &str| planar.lines().position(|l| l.starts_with(word)).unwrap() + 1;
+    let mass = line("mass");
+    for (source, expected) in [
+        (
+            planar.replacen("mass", "mas", 1),
+            format!("arm.toml:{mass}:1"),
+        ),
+        (
+            planar.replacen("mass = ", "mass = -", 1),
+            format!("arm.toml:{mass}:"),
+        ),
+        (
+            planar.replacen("mass = ", "mass = nan #", 1),
+            format!("arm.toml:{mass}:"),
+        ),
+        (
+            planar.replacen("revolute", "rotary", 1),
+            "did you mean".into(),
+        ),
+        (planar.replacen('=', "", 1), "arm.toml:".into()),
+        (String::new(), "arm.toml:1:1".into()),
+        ("\u{0}".into(), "arm.toml:1".into()),
+        (planar.replacen("planar2r", "fn", 1), "Rust".into()),
+        ("[[joint]]\n".repeat(70), "64 joints".into()),
+    ] {
+        fs::write(&file, &source).unwrap();
+        for subcommand in ["generate", "count", "verify", "couplings", "table3"] {
+            let ran = run(&[subcommand, name]);
+            assert_eq!(ran.code, 2, "{subcommand}: {source:?}: {}", ran.err);
+            assert!(ran.err.contains(&expected), "{subcommand}: {}", ran.err);
+            assert!(ran.out.is_empty());
+            assert!(!ran.err.contains("panicked"));
+        }
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text() {
+    let folder = temporary("bytes");
+    let file = folder.join("arm.toml");
+    for bytes in [&b"\xff\xfe"[..], b"name = \"\xc3\"", &vec![b'a'; 2 << 20]] {
+        fs::write(&file, bytes).unwrap();
+        let ran = run(&["count", file.to_str().unwrap()]);
+        assert_eq!(ran.code, 2, "{}", ran.err);
+        assert!(ran.err.starts_with("error: "), "{}", ran.err);
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    let folder = temporary("folders");
+    let missing = folder.join("no.toml");
+    let ran = run(&["generate", missing.to_str().unwrap()]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("no.toml` cannot be read"), "{}", ran.err);
+    assert_eq!(run(&["count", folder.to_str().unwrap()]).code, 2);
+
+    let planar = robot("planar2r");
+    let into = |target: &str| run(&["generate", &planar, "--outputs", "gravity", "-o", target]);
+    for target in [
+        folder.join("none/arm.rs"),
+        folder.clone(),
+        folder.join(".."),
+    ] {
+        let ran = into(target.to_str().unwrap());
+        assert_eq!(ran.code, 2, "{}", ran.err);
+        assert!(ran.err.contains("cannot be written"), "{}", ran.err);
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[test]
+fn wrong_words_on_the_command_line() {
+    let puma = robot("puma560");
+    for (arguments, hint) in [
+        (vec!["generate", &puma, "--outputs", "graviti"], "'gravity'"),
+        (
+            vec!["count", &puma, "--formulation", "lagrange"],
+            "'lagrange_euler'",
+        ),
+        (vec!["count", &puma, "--scalar", "f65"], "'f64'"),
+        (vec!["count", &puma, "--effort", "quik"], "'quick'"),
+        (vec!["generate", &puma, "--check"], "--output"),
+        (vec!["generat", &puma], "'generate'"),
+        (vec!["generate"], "<ROBOT>"),
+        (vec![], "Usage"),
+    ] {
+        let ran = run(&arguments);
+        assert_eq!(ran.code, 2, "{arguments:?}");
+        assert!(ran.err.contains(hint), "{arguments:?}: {}", ran.err);
+    }
+}
+
+#[test]
+fn what_no_scalar_can_hold_is_said() {
+    let folder = temporary("range");
+    let file = folder.join("arm.toml");
+    let planar = fs::read_to_string(robot("planar2r")).unwrap();
+    let heavy = planar.replacen("mass = ", "mass = 1e200 #", 1);
+    fs::write(&file, heavy).unwrap();
+    let name = file.to_str().unwrap();
+    let ran = run(&["generate", name]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("f32 cannot hold"), "{}", ran.err);
+    assert_eq!(run(&["generate", name, "--scalar", "f64"]).code, 0);
+    // Counting needs no scalar.
+    assert_eq!(run(&["count", name]).code, 0);
+}
+
+#[test]
+fn help_and_version_are_no_failures() {
+    let help = run(&["--help"]);
+    assert_eq!(help.code, 0);
+    for subcommand in ["generate", "count", "verify", "couplings", "table3"] {
+        assert!(help.out.contains(subcommand));
+    }
+    assert!(run(&["--version"]).out.contains(env!("CARGO_PKG_VERSION")));
+}

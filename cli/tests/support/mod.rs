@@ -1,0 +1,46 @@
+//! Running the command.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// How a run ended.
+pub struct Ran {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+pub fn run(arguments: &[&str]) -> Ran {
+    let output = Command::new(env!("CARGO_BIN_EXE_dalembert"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    Ran {
+        // A signal has no code.
+        code: output.status.code().unwrap_or(-1),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// A checked-in robot file.
+pub fn robot(name: &str) -> String {
+    let root = env!("CARGO_MANIFEST_DIR");
+    format!("{root}/../generated/robots/{name}.toml")
+}
+
+/// The states of a robot by an independent library.
+pub fn golden(name: &str) -> String {
+    let root = env!("CARGO_MANIFEST_DIR");
+    format!("{root}/../model/tests/data/golden/{name}.json")
+}
+
+/// An empty folder of this test run.
+pub fn temporary(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
