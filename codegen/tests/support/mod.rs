@@ -1,0 +1,44 @@
+//! Robots for the tests of the generator.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::path::Path;
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Generated, Request, Start, generate};
+use dalembert_model::read;
+use dalembert_model::robot::Robot;
+
+/// A checked-in robot.
+pub fn robot(name: &str) -> Robot {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+    let source = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
+    read_robot(&source)
+}
+
+/// A robot from the text of its file.
+pub fn read_robot(source: &str) -> Robot {
+    read::parse(source, &read::Options::default())
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .robot
+}
+
+/// One function in both scalars.
+pub fn one(robot: &Robot, function: Function) -> Generated {
+    let request = Request {
+        functions: vec![function],
+        ..Request::default()
+    };
+    generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// One function in f64 from one formulation.
+pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
+    let request = Request {
+        functions: vec![function],
+        scalars: vec![ScalarType::F64],
+        start,
+        ..Request::default()
+    };
+    generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}

@@ -1,0 +1,184 @@
+//! Reading emitted text back: what is no emitted function is refused with a
+//! line and a reason.
+
+mod support;
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::verify::text::TextProgram;
+
+const TEXT: &str = "\
+pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
+    let (s1, c1) = libm::sincos(q[0]);
+    let a1p2 = q[0] + q[1];
+    let c1p2 = libm::cos(a1p2);
+    let t1 = c1 * 0.5;
+    let t2 = t1 - s1;
+    let t3 = c1p2 * t2;
+    [t3, -t2]
+}
+";
+
+fn read(text: &str) -> Result<TextProgram, (usize, String)> {
+    TextProgram::parse(text, Function::Gravity, ScalarType::F64)
+        .map_err(|error| (error.line, error.message))
+}
+
+#[test]
+fn what_was_emitted_reads() {
+    let program = read(TEXT).unwrap();
+    let counts = program.counts();
+    // The angle sum is an addition.
+    assert_eq!((counts.mul, counts.add, counts.sincos), (2, 2, 2));
+    assert_eq!(program.outputs.len(), 2);
+    assert!(program.outputs[1].0);
+}
+
+#[test]
+fn what_was_not_is_refused() {
+    for (from, to, line, why) in [
+        ("gravity", "inertia", 1, "there is no function `gravity`"),
+        (
+            "let t1 = c1 * 0.5;",
+            "let t1 = c1 * 0.5",
+            5,
+            "no `;` at the end",
+        ),
+        ("let t1 =", "let t1:", 5, "no ` = `"),
+        ("let t2", "let t3", 6, "`t2` is next, not `t3`"),
+        ("t1 - s1", "t1 / s1", 6, "`/` is no operation"),
+        (
+            "t1 - s1",
+            "t1 - s1 - s1",
+            6,
+            "`t1 - s1 - s1` is not one operation",
+        ),
+        ("t1 - s1", "t9 - s1", 6, "`t9` is not computed yet"),
+        (
+            "t1 - s1",
+            "t1 - s2",
+            6,
+            "`s2` is neither a value nor a literal",
+        ),
+        ("0.5", "5", 5, "`5` is neither a value nor a literal"),
+        ("0.5", "0.5x", 5, "`0.5x` is neither a value nor a literal"),
+        (
+            "libm::cos",
+            "libm::tan",
+            4,
+            "`libm::tan` is no sine or cosine",
+        ),
+        (
+            "libm::cos(a1p2)",
+            "libm::cos(a1m2)",
+            4,
+            "`a1m2` is no angle",
+        ),
+        (
+            "libm::cos",
+            "libm::cosf",
+            4,
+            "`libm::cosf` is no sine or cosine",
+        ),
+        (
+            "(s1, c1)",
+            "(c1, s1)",
+            2,
+            "`(s1, c1)` expected, not `(c1, s1)`",
+        ),
+        ("q[0] + q[1]", "q[0] - q[1]", 3, "`a1p2` is the sum 1m2"),
+        ("q[0] + q[1]", "q[0] + q[0]", 3, "a joint twice in a sum"),
+        ("q[0] + q[1]", "q[0] + t1", 3, "`t1` is no position"),
+        ("[t3, -t2]", "[t3, -t4]", 9, "`t4` is not computed yet"),
+        (
+            "[t3, -t2]",
+            "[t3, -t2]\n    let t4 = t1 + t2;",
+            9,
+            "a statement after the result",
+        ),
+        ("}\n", "", 1, "`gravity` does not end"),
+    ] {
+        let text = TEXT.replacen(from, to, 1);
+        let error = read(&text).unwrap_err();
+        assert_eq!(error, (line, why.to_owned()), "{from} -> {to}");
+    }
+}
+
+/// D, h and c are arrays of one element type: names in the wrong order compile.
+#[test]
+fn the_struct_at_the_end_is_read_with_its_names() {
+    let read = |result: &str| {
+        let text = format!("pub fn manipulator_equation() -> M {{\n{result}\n}}\n");
+        TextProgram::parse(&text, Function::ManipulatorEquation, ScalarType::F64)
+    };
+    let good =
+        "ManipulatorEquation {\nd: [[1.0, -q[0]], [3.0, 4.0]],\nh: [5.0, 6.0],\nc: [7.0, 8.0],\n}";
+    assert_eq!(read(good).unwrap().outputs.len(), 8);
+    for (from, to) in [
+        ("h:", "c:"),
+        (
+            "h: [5.0, 6.0],\nc: [7.0, 8.0]",
+            "c: [5.0, 6.0],\nh: [7.0, 8.0]",
+        ),
+        ("ManipulatorEquation", "DynamicCoefficients"),
+        ("ManipulatorEquation {\n", ""),
+        ("[[1.0, -q[0]], [3.0, 4.0]]", "[1.0, -q[0], 3.0, 4.0]"),
+        ("[3.0, 4.0]", "[3.0]"),
+        ("5.0, 6.0", "5.0 6.0"),
+        ("5.0, 6.0", "5.0,, 6.0"),
+        ("8.0],", "8.0]"),
+        ("8.0],\n}", "8.0],\n}\n0.0"),
+    ] {
+        let text = good.replacen(from, to, 1);
+        assert_ne!(text, good);
+        assert!(read(&text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn blocks_hand_on_what_they_say() {
+    let block = |head: &str, tail: &str| {
+        TEXT.replace(
+            "    let t1",
+            &format!("    let {head} = {{\n        let t1"),
+        )
+        .replace(
+            "    let t3",
+            &format!("        {tail}\n    }};\n    let t3"),
+        )
+    };
+    assert_eq!(read(&block("(t2,)", "(t2,)")), read(TEXT));
+    assert!(read(&block("(t2,)", "(t1,)")).is_err());
+    assert!(read(&block("(t1, t2,)", "(t2, t1,)")).is_err());
+    let open = TEXT.replace("    let t1", "    let (t2,) = {\n    let t1");
+    assert!(read(&open).is_err());
+    let twice = TEXT.replace(
+        "    let t1",
+        "    let (t2,) = {\n    let (t2,) = {\n    let t1",
+    );
+    assert_eq!(read(&twice).unwrap_err().1, "a block in a block");
+}
+
+/// Longer functions are printed in blocks, and read back: `generate` does.
+#[test]
+fn long_functions_are_in_blocks() {
+    let panda = support::robot("panda");
+    let text = support::one(&panda, Function::DynamicCoefficients).text;
+    let most = text
+        .split("= {\n")
+        .map(|part| part.lines().take_while(|l| l.contains("let t")).count());
+    assert!(most.max().unwrap() <= 1001);
+    if text.matches("    let t").count() > 2 * 1000 {
+        assert!(text.contains(",) = {\n"));
+    }
+}
+
+#[test]
+fn a_robot_is_generated_alike_every_time() {
+    for name in ["puma560", "panda"] {
+        let robot = support::robot(name);
+        let text = || generate(&robot, &Request::default()).unwrap().text;
+        assert!(text() == text(), "{name}");
+    }
+}
