@@ -1,0 +1,255 @@
+//! The checked-in code as compiled: against the torques of an independent
+//! library, against the generic runtime, and against itself.
+
+use std::fs;
+use std::path::Path;
+
+use dalembert_model::read;
+use dalembert_model::reference::Reference;
+use nalgebra::DVector;
+use serde_json::Value;
+
+/// The bound against the files.
+const FILES: f64 = 1e-12;
+/// The bound against the runtime and across functions, in u.
+const ROUNDING: f64 = 100.0;
+
+/// q, q̇, q̈ and what is known there.
+struct State {
+    motion: [Vec<f64>; 3],
+    tau: Vec<f64>,
+    d: Vec<f64>,
+    h: Vec<f64>,
+    c: Vec<f64>,
+}
+
+/// Everything that a module computes at a state, matrices row by row.
+struct Outputs {
+    tau: Vec<f64>,
+    c: Vec<f64>,
+    d: Vec<f64>,
+    h: Vec<f64>,
+    /// D, h, c of `manipulator_equation`.
+    together: [Vec<f64>; 3],
+    /// D, h_ikm, c of `dynamic_coefficients`.
+    coefficients: [Vec<f64>; 3],
+}
+
+struct Compiled {
+    name: &'static str,
+    double: fn(&[Vec<f64>; 3]) -> Outputs,
+    single: fn(&[Vec<f64>; 3]) -> Outputs,
+}
+
+macro_rules! run {
+    ($module:ident, $float:ty) => {
+        |motion| {
+            use dalembert_generated::$module as arm;
+            let [q, qd, qdd]: [[$float; arm::N]; 3] = motion
+                .each_ref()
+                .map(|x| std::array::from_fn(|i| x[i] as $float));
+            let vector = |x: [$float; arm::N]| x.map(f64::from).to_vec();
+            let matrix = |x: [[$float; arm::N]; arm::N]| x.map(vector).concat();
+            let both = arm::manipulator_equation(&q, &qd);
+            let all = arm::dynamic_coefficients(&q);
+            Outputs {
+                tau: vector(arm::inverse_dynamics(&q, &qd, &qdd)),
+                c: vector(arm::gravity(&q)),
+                d: matrix(arm::inertia(&q)),
+                h: vector(arm::coriolis(&q, &qd)),
+                together: [matrix(both.d), vector(both.h), vector(both.c)],
+                coefficients: [matrix(all.d), all.h.map(matrix).concat(), vector(all.c)],
+            }
+        }
+    };
+}
+
+macro_rules! compiled {
+    ($($double:ident $single:ident),*) => {
+        [$(Compiled {
+            name: stringify!($double),
+            double: run!($double, f64),
+            single: run!($single, f32),
+        }),*]
+    };
+}
+
+const ROBOTS: [Compiled; 6] = compiled![
+    panda panda_f32,
+    planar2r planar2r_f32,
+    planar3r planar3r_f32,
+    puma560 puma560_f32,
+    stanford stanford_f32,
+    ur10 ur10_f32
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn states(name: &str) -> Vec<State> {
+    let file = root().join(format!("model/tests/data/golden/{name}.json"));
+    let json: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    fn numbers(json: &Value) -> Vec<f64> {
+        match json {
+            Value::Array(list) => list.iter().flat_map(numbers).collect(),
+            number => vec![number.as_f64().unwrap()],
+        }
+    }
+    let states = json["states"].as_array().unwrap().iter();
+    let state = |json: &Value| State {
+        motion: ["q", "qd", "qdd"].map(|key| numbers(&json[key])),
+        tau: numbers(&json["tau"]),
+        d: numbers(&json["D"]),
+        h: numbers(&json["h"]),
+        c: numbers(&json["c"]),
+    };
+    states.map(state).collect()
+}
+
+fn runtime(name: &str) -> Reference<f64> {
+    let file = root().join(format!("generated/robots/{name}.toml"));
+    let source = fs::read_to_string(file).unwrap();
+    let reading = read::parse(&source, &read::Options::default()).unwrap();
+    Reference::from_robot(&reading.robot)
+}
+
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// max|a − b| ≤ bound·max|b|.
+fn close(a: &[f64], b: &[f64], bound: f64, what: &str) {
+    assert_eq!(a.len(), b.len(), "{what}");
+    let error = largest(a.iter().zip(b).map(|(a, b)| a - b));
+    let size = largest(b.iter().copied());
+    assert!(
+        error <= bound * size && a.iter().all(|x| x.is_finite()),
+        "{what}: error {error:e} of {size:e}"
+    );
+}
+
+#[test]
+fn six_robots_against_the_files() {
+    for robot in ROBOTS {
+        let states = states(robot.name);
+        assert_eq!(states.len(), 60);
+        for state in states {
+            let out = (robot.double)(&state.motion);
+            let check = |a: &[f64], b: &[f64], what| {
+                close(a, b, FILES, &format!("{} {what}", robot.name));
+            };
+            check(&out.tau, &state.tau, "tau");
+            for c in [&out.c, &out.together[2], &out.coefficients[2]] {
+                check(c, &state.c, "c");
+            }
+            for d in [&out.d, &out.together[0], &out.coefficients[0]] {
+                check(d, &state.d, "D");
+            }
+            for h in [&out.h, &out.together[1]] {
+                check(h, &state.h, "h");
+            }
+        }
+    }
+}
+
+#[test]
+fn six_robots_against_the_runtime() {
+    for robot in ROBOTS {
+        let runtime = runtime(robot.name);
+        for state in states(robot.name) {
+            let rounded = state.motion.each_ref();
+            let rounded = rounded.map(|x| x.iter().map(|&x| f64::from(x as f32)).collect());
+            for (run, motion, unit) in [
+                (robot.double, &state.motion, f64::EPSILON / 2.0),
+                (robot.single, &rounded, f64::from(f32::EPSILON) / 2.0),
+            ] {
+                let out = run(motion);
+                let [q, qd, qdd] = motion.each_ref().map(|x| DVector::from_column_slice(x));
+                let bound = ROUNDING * unit;
+                let check = |a: &[f64], b: &[f64], what| {
+                    close(a, b, bound, &format!("{} {what} {unit:e}", robot.name));
+                };
+                let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+                check(&out.tau, tau.as_slice(), "tau");
+                // Symmetric: its columns are its rows.
+                let d = runtime.inertia(&q).unwrap();
+                check(&out.d, d.as_slice(), "D");
+                let c = runtime.gravity(&q).unwrap();
+                check(&out.c, c.as_slice(), "c");
+                let h = runtime.coriolis(&q, &qd).unwrap();
+                check(&out.h, h.as_slice(), "h");
+                check(&out.together[1], h.as_slice(), "h");
+                let symbols = runtime.christoffel(&q).unwrap();
+                let symbols: Vec<f64> = symbols.iter().flat_map(|m| m.iter().copied()).collect();
+                check(&out.coefficients[1], &symbols, "h_ikm");
+            }
+        }
+    }
+}
+
+/// τ = D q̈ + h + c (none of the six has damping), D = Dᵀ, and h from h_ikm.
+#[test]
+fn the_functions_agree() {
+    for robot in ROBOTS {
+        for state in states(robot.name) {
+            for (run, unit) in [
+                (robot.double, f64::EPSILON / 2.0),
+                (robot.single, f64::from(f32::EPSILON) / 2.0),
+            ] {
+                // Both scalars at the same state, which f32 holds.
+                let motion = state.motion.each_ref();
+                let motion = motion.map(|x| x.iter().map(|&x| f64::from(x as f32)).collect());
+                let out = run(&motion);
+                let [_, qd, qdd]: &[Vec<f64>; 3] = &motion;
+                let n = qd.len();
+                for d in [&out.d, &out.together[0], &out.coefficients[0]] {
+                    for (i, k) in (0..n).flat_map(|i| (0..i).map(move |k| (i, k))) {
+                        assert_eq!(d[i * n + k], d[k * n + i], "{}", robot.name);
+                    }
+                }
+                let [d, h, c] = &out.together;
+                let terms = |i: usize| {
+                    let products = (0..n).map(move |k| d[i * n + k] * qdd[k]);
+                    products.chain([h[i], c[i]])
+                };
+                let sum: Vec<f64> = (0..n).map(|i| terms(i).sum()).collect();
+                // The terms may cancel: what they round to is their own size.
+                let size = largest((0..n).flat_map(terms));
+                let error = largest(sum.iter().zip(&out.tau).map(|(a, b)| a - b));
+                assert!(error <= ROUNDING * unit * size, "{}", robot.name);
+
+                let symbols = &out.coefficients[1];
+                let terms = |i: usize| {
+                    let pairs = (0..n * n).map(move |km| (km / n, km % n));
+                    pairs.map(move |(k, m)| symbols[(i * n + k) * n + m] * qd[k] * qd[m])
+                };
+                let sum: Vec<f64> = (0..n).map(|i| terms(i).sum()).collect();
+                let size = largest((0..n).flat_map(terms));
+                let error = largest(sum.iter().zip(h).map(|(a, b)| a - b));
+                assert!(error <= ROUNDING * unit * size, "{}", robot.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_no_number_spreads_and_nothing_panics() {
+    for robot in ROBOTS {
+        let motion = states(robot.name).remove(0).motion;
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for which in 0..3 {
+                let mut motion = motion.clone();
+                let last = motion[which].len() - 1;
+                motion[which][last] = bad;
+                for run in [robot.double, robot.single] {
+                    let out = run(&motion);
+                    // Each torque that depends on the last joint: its own at
+                    // least, but the last position may have no part in it.
+                    let spread = out.tau.iter().any(|x| !x.is_finite());
+                    assert!(spread || which == 0, "{} {which} {bad}", robot.name);
+                }
+            }
+        }
+    }
+}
