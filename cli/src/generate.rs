@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use dalembert_codegen::generate::{Generated, formulation_name, generate};
+use dalembert_codegen::generate::{Generated, generate};
 use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
@@ -74,7 +74,7 @@ pub fn counts(generated: &Generated) -> String {
             counts.add.to_string(),
             counts.div.to_string(),
             counts.sincos.to_string(),
-            formulation_name(function.formulation).to_owned(),
+            function.source.name().to_owned(),
             format!("exact, miss < 1e{}", function.proof.failure_exponent),
         ]);
     }

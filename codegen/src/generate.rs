@@ -9,11 +9,11 @@ use dalembert_model::scalar::Scalar;
 
 use crate::emit::module::{self, ModuleOptions};
 use crate::emit::{MathPath, ScalarType};
-use crate::function::Function;
-use crate::graph::Counts;
+use crate::function::{Function, Quantity};
+use crate::graph::{Counts, Graph};
+use crate::portfolio::{self, Source, Variant};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{Effort, Stage, simplify};
-use crate::trace::trace;
 use crate::verify::exact::{Disproof, Proof, prove};
 use crate::verify::floating::Emitted;
 use crate::verify::text::{TextError, TextProgram};
@@ -43,24 +43,21 @@ impl Start {
         })
     }
 
-    fn formulations(self) -> Vec<Formulation> {
+    /// The graphs to start from.
+    fn variants(self, robot: &Robot, function: Function, effort: Effort) -> Vec<Variant> {
         match self {
-            Start::Only(formulation) => vec![formulation],
-            Start::Auto => vec![
-                Formulation::NewtonEulerLink,
-                Formulation::Dalembert,
-                Formulation::LagrangeEuler,
-            ],
+            Start::Only(formulation) => vec![portfolio::textbook(robot, function, formulation)],
+            Start::Auto => {
+                let mut variants = portfolio::regrouped(robot, function, effort);
+                // The textbook recursion gives D column by column and h_ikm
+                // by polarisation, with n² of work a link or more: no match.
+                if function.quantities() == [Quantity::Torque] {
+                    let recursion = Formulation::NewtonEulerLink;
+                    variants.push(portfolio::textbook(robot, function, recursion));
+                }
+                variants
+            }
         }
-    }
-}
-
-/// The name of a formulation in reports and on the command line.
-pub fn formulation_name(formulation: Formulation) -> &'static str {
-    match formulation {
-        Formulation::LagrangeEuler => "lagrange_euler",
-        Formulation::Dalembert => "dalembert",
-        _ => "newton_euler",
     }
 }
 
@@ -101,7 +98,7 @@ pub struct GeneratedFunction {
     /// Which function.
     pub function: Function,
     /// The formulation that the search started from.
-    pub formulation: Formulation,
+    pub source: Source,
     /// The final program with exact constants.
     pub program: Program,
     /// Its counts.
@@ -235,20 +232,18 @@ fn one(
     if outputs > MOST_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
-    let formulations = request.start.formulations();
-    let mut traced = Vec::new();
-    let mut graphs = Vec::new();
-    for &formulation in &formulations {
-        let trace = trace(robot, function, formulation);
-        traced.push(trace.traced);
-        graphs.push(trace.graph);
-    }
-    let Some(simplified) = simplify(&graphs, request.effort) else {
+    let variants = request.start.variants(robot, function, request.effort);
+    let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
+    let helpers = match request.start {
+        Start::Auto => vec![portfolio::angle_sums(robot)],
+        Start::Only(_) => Vec::new(),
+    };
+    let Some(simplified) = simplify(&graphs, &helpers, request.effort) else {
         return Err(GenerateError::Empty);
     };
     let mut stages = vec![Stage {
         name: "traced",
-        counts: traced[simplified.seed],
+        counts: variants[simplified.seed].traced,
     }];
     stages.extend(simplified.stages);
     let program = Program::new(function, n, &simplified.graph);
@@ -260,7 +255,7 @@ fn one(
     });
     Ok(GeneratedFunction {
         function,
-        formulation: formulations[simplified.seed],
+        source: variants[simplified.seed].source,
         counts,
         program,
         stages,

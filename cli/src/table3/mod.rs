@@ -11,8 +11,9 @@ mod written;
 
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, Start, formulation_name, generate};
+use dalembert_codegen::generate::{Request, Start, generate};
 use dalembert_codegen::graph::Counts;
+use dalembert_codegen::portfolio::Source;
 use dalembert_codegen::simplify::Stage;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
@@ -107,7 +108,7 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
         let paper = paper::counts(formulation, n as u64);
         let written = written::robot(formulation, robot);
         let stages = stages(robot, Start::Only(formulation))?;
-        let key = formulation_name(formulation);
+        let key = Source::Textbook(formulation).name();
         starts.push((key, name, Some((paper, written)), stages));
     }
     starts.push(("auto", "all of them", None, stages(robot, Start::Auto)?));
@@ -169,7 +170,7 @@ fn stages(robot: &Robot, start: Start) -> Result<Vec<Stage>, Failure> {
 fn row_json(n: usize, cells: &[Cell]) -> Value {
     let mut row = json!({ "n": n });
     for ((formulation, _), cell) in FORMULATIONS.into_iter().zip(cells) {
-        row[formulation_name(formulation)] = json!({
+        row[Source::Textbook(formulation).name()] = json!({
             "paper": pair_json(cell.paper),
             "as_written": pair_json(cell.written),
             "generated": count::counts(&cell.generated),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
 use super::{MathPath, ScalarType, function};
-use crate::generate::{GeneratedFunction, formulation_name};
+use crate::generate::GeneratedFunction;
 
 /// How a robot's modules are printed.
 #[derive(Clone, Copy, Debug)]
@@ -153,7 +153,7 @@ fn header(robot: &Robot, functions: &[GeneratedFunction], scalar: ScalarType) ->
             counts.mul,
             counts.add,
             counts.sincos,
-            formulation_name(generated.formulation)
+            generated.source.name()
         ));
     }
     lines.extend([

@@ -97,6 +97,15 @@ impl Classes {
         classes
     }
 
+    /// The first way of each class: of a fresh [`Classes::new`] the program
+    /// that the graph was, since a merged graph computes each class once.
+    pub fn program(&self) -> Vec<Option<Way>> {
+        self.classes
+            .iter()
+            .map(|class| class.ways.first().copied())
+            .collect()
+    }
+
     /// How many classes there are.
     pub fn len(&self) -> usize {
         self.classes.len()
@@ -249,7 +258,7 @@ impl Classes {
     /// The graph that computes the outputs by the chosen ways.
     ///
     /// The choice must be acyclic below the outputs and name a way for each
-    /// class that they need.
+    /// class that they need; classes beyond its end have no way.
     pub fn graph(&self, choice: &[Option<Way>]) -> Graph {
         let mut builder = Builder::new(Folding::Semantic);
         let mut values: Vec<Option<Value>> = vec![None; self.len()];
@@ -262,7 +271,7 @@ impl Classes {
                     continue;
                 }
                 let class = self.get(id);
-                let value = match (&class.leaf, choice[id as usize]) {
+                let value = match (&class.leaf, choice.get(id as usize).copied().flatten()) {
                     (Some(Leaf::Constant(c)), _) => Value::Constant(c.clone()),
                     (Some(Leaf::Input(input)), _) => builder.input(*input),
                     (None, Some(way)) => {

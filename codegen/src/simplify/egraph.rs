@@ -153,7 +153,10 @@ fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option
                 pending.pop();
                 continue;
             }
-            let term = match (&classes.get(class).leaf, choice[class as usize]) {
+            let term = match (
+                &classes.get(class).leaf,
+                choice.get(class as usize).copied().flatten(),
+            ) {
                 (None, Some(way)) => {
                     let [a, b] = way.operands();
                     let (Some(&x), Some(&y)) = (ids.get(&a), ids.get(&b)) else {

@@ -166,6 +166,13 @@ impl<'a> Extraction<'a> {
             .collect()
     }
 
+    /// The classes that the live program computes, ascending.
+    pub fn live(&self) -> Vec<ClassId> {
+        let mut live = self.live.clone();
+        live.sort_unstable();
+        live
+    }
+
     fn way(&self, id: ClassId) -> Option<Way> {
         let chosen = self.chosen[id as usize];
         self.classes.get(id).ways.get(chosen as usize).copied()

@@ -1,73 +1,29 @@
 //! Fewer operations, same function.
 //!
+//! - [`effort`]: how much work a search may do, in moves and nodes
 //! - [`classes`]: values up to sign by fingerprint, and the ways to compute each
 //! - [`rules`], [`egraph`]: equality saturation with rules as data
+//! - [`discover`]: ways that only the fingerprints show
 //! - [`extract`]: the cheapest program that the ways allow
+//! - [`search`]: discovery and extraction in turns, to a plateau
 //! - [`random`]: the deterministic generator of the search
 
 pub mod classes;
+pub mod discover;
+pub mod effort;
 pub mod egraph;
 pub mod extract;
 pub mod random;
 pub mod rules;
+pub mod search;
 
 use std::fmt;
 
 use crate::graph::{Counts, Folding, Graph};
-use classes::{Classes, Way};
-use egraph::Budget;
-use extract::{CostModel, Extraction, Schedule};
+use classes::Classes;
+pub use effort::Effort;
+pub use extract::{CostModel, Extraction, Schedule};
 use random::Random;
-
-/// How much work the simplifier may do. Work is counted in e-nodes and moves,
-/// never in time, so the result is the same on every machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Effort {
-    /// Well below a second for a six-joint arm, in a release build.
-    #[default]
-    Quick,
-    /// Up to two minutes a function.
-    Thorough,
-}
-
-impl Effort {
-    /// Both, least first.
-    pub const ALL: [Effort; 2] = [Effort::Quick, Effort::Thorough];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Effort::Quick => "quick",
-            Effort::Thorough => "thorough",
-        }
-    }
-
-    fn budget(self) -> Budget {
-        match self {
-            Effort::Quick => Budget {
-                nodes: 20_000,
-                iterations: 2,
-                rounds: 1,
-            },
-            Effort::Thorough => Budget {
-                nodes: 100_000,
-                iterations: 4,
-                rounds: 2,
-            },
-        }
-    }
-
-    fn schedule(self) -> Schedule {
-        Schedule {
-            moves: match self {
-                Effort::Quick => 100_000,
-                Effort::Thorough => 5_000_000,
-            },
-            hot: 0.15,
-            cold: 0.04,
-        }
-    }
-}
 
 /// What one step left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +32,15 @@ pub struct Stage {
     pub name: &'static str,
     /// The counts after it.
     pub counts: Counts,
+}
+
+impl Stage {
+    fn of(name: &'static str, graph: &Graph) -> Self {
+        Stage {
+            name,
+            counts: graph.counts(),
+        }
+    }
 }
 
 impl fmt::Display for Stage {
@@ -95,11 +60,12 @@ pub struct Simplified {
     pub stages: Vec<Stage>,
 }
 
-/// The cheapest program found for a function from the graphs of one or more
-/// formulations; never dearer than the cheapest of them merged by fingerprint.
+/// The cheapest program found for a function from one or more graphs of it;
+/// never dearer than the cheapest of them merged by fingerprint.
 ///
-/// Returns `None` if there is no variant.
-pub fn simplify(variants: &[Graph], effort: Effort) -> Option<Simplified> {
+/// `helpers` are graphs of other values that may serve, such as the sines of
+/// angle sums. Returns `None` if there is no variant.
+pub fn simplify(variants: &[Graph], helpers: &[Graph], effort: Effort) -> Option<Simplified> {
     let merged: Vec<Graph> = variants
         .iter()
         .map(|graph| graph.rebuild(Folding::Semantic))
@@ -109,49 +75,50 @@ pub fn simplify(variants: &[Graph], effort: Effort) -> Option<Simplified> {
         .enumerate()
         .min_by_key(|(_, graph)| cost(graph))?;
     let mut stages = vec![
-        stage("folded", &variants[seed]),
-        stage("fingerprints", start),
+        Stage::of("folded", &variants[seed]),
+        Stage::of("fingerprints", start),
     ];
+    let mut random = Random::new(1);
 
     let mut classes = Classes::new(start);
-    // A merged graph computes each class once, so its ways are its program.
-    let program: Vec<Option<Way>> = (0..classes.len() as u32)
-        .map(|id| classes.get(id).ways.first().copied())
-        .collect();
+    let program = classes.program();
     egraph::saturate(&mut classes, &program, effort.budget());
-    for graph in variants {
-        classes.absorb(graph);
+    let mut best = search::extract(&classes, &program, effort.first_schedule(), &mut random)
+        .filter_cheaper(start);
+    stages.push(Stage::of("e-graph", &best));
+
+    let settings = effort.search();
+    let mut idle = 0;
+    for _ in 0..settings.rounds {
+        let before = cost(&best);
+        best = search::round(&best, variants, helpers, &settings, &mut random);
+        idle = if cost(&best) < before { 0 } else { idle + 1 };
+        if idle > settings.patience {
+            break;
+        }
     }
-    let mut search = Extraction::new(&classes, &program, CostModel::OPERATIONS);
-    search.climb();
-    search.anneal(effort.schedule(), &mut Random::new(1));
-    search.climb();
-    let graph = classes.graph(&search.choice());
-    let graph = if cost(&graph) <= cost(start) {
-        graph
-    } else {
-        start.clone()
-    };
-    stages.push(stage("e-graph", &graph));
+    stages.push(Stage::of("search", &best));
     Some(Simplified {
-        graph,
+        graph: best,
         seed,
         stages,
     })
 }
 
-fn stage(name: &'static str, graph: &Graph) -> Stage {
-    Stage {
-        name,
-        counts: graph.counts(),
-    }
-}
-
-/// Sines and cosines weigh as in the search, so that the choice of the seed
-/// and the search agree.
+/// The price that the search minimises, in hundredths of an operation.
 pub fn cost(graph: &Graph) -> u64 {
     let (counts, model) = (graph.counts(), CostModel::OPERATIONS);
     counts.mul as u64 * model.mul
         + counts.add as u64 * model.add
         + counts.sincos as u64 * model.sincos
+}
+
+impl Graph {
+    fn filter_cheaper(self, other: &Graph) -> Graph {
+        if cost(&self) <= cost(other) {
+            self
+        } else {
+            other.clone()
+        }
+    }
 }

@@ -16,7 +16,6 @@ use num_traits::{One, Signed, Zero};
 
 use super::{Angle, Rational};
 use crate::equations::Rotor;
-use crate::robot::Inertia;
 use crate::scalar::Scalar;
 
 /// An exact constant.
@@ -227,21 +226,6 @@ impl Scalar for Exact {
     }
     fn is_one(&self) -> bool {
         self.as_rational().is_some_and(One::is_one)
-    }
-}
-
-impl Inertia<Rational> {
-    /// The same tensor in exact constants.
-    pub fn to_exact(&self) -> Inertia<Exact> {
-        let e = |x: &Rational| Exact::from(x.clone());
-        Inertia {
-            xx: e(&self.xx),
-            yy: e(&self.yy),
-            zz: e(&self.zz),
-            xy: e(&self.xy),
-            yz: e(&self.yz),
-            xz: e(&self.xz),
-        }
     }
 }
 

@@ -1,7 +1,9 @@
 //! Rigid bodies by their moments about a frame's origin.
 
 use super::{Rotation, apply};
-use crate::equations::matrix::{Vector, minus, negative, plus, scaled, sum, times, twice, zero_vector};
+use crate::equations::matrix::{
+    Vector, minus, negative, plus, scaled, sum, times, twice, zero_vector,
+};
 use crate::equations::{Link, Rotor};
 use crate::robot::Inertia;
 use crate::scalar::Scalar;
@@ -50,14 +52,27 @@ impl<S: Scalar> Body<S> {
         }
     }
 
+    /// Whether turning it about z changes nothing, by structure.
+    pub fn is_axisymmetric(&self) -> bool {
+        let second = &self.second;
+        [
+            &self.first[0],
+            &self.first[1],
+            &second.xy,
+            &second.yz,
+            &second.xz,
+            &minus(&second.xx, &second.yy),
+        ]
+        .into_iter()
+        .all(S::is_zero)
+    }
+
     /// Both together, about the same origin and in the same axes.
     pub fn with(&self, other: &Body<S>) -> Self {
         Body {
             mass: plus(&self.mass, &other.mass),
             first: sum(&self.first, &other.first),
-            second: symmetric(|i, j| {
-                plus(entry(&self.second, i, j), entry(&other.second, i, j))
-            }),
+            second: symmetric(|i, j| plus(entry(&self.second, i, j), entry(&other.second, i, j))),
         }
     }
 

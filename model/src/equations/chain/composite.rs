@@ -10,8 +10,7 @@ use alloc::vec::Vec;
 use super::recursion::{Couple, Motion, Spin};
 use super::{Body, Chain, Displacement};
 use crate::equations::matrix::{
-    Vector, cross, dot, minus, negative, plus, scaled, sum, times, twice, zero_vector,
-    zeros,
+    Vector, cross, dot, minus, negative, plus, scaled, sum, times, twice, zero_vector, zeros,
 };
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -136,9 +135,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
     /// `h[i][k][m]` = h_ikm, n×n×n.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.chain.links.len();
-        let mut h: Vec<Vec<Vec<S>>> = (0..n)
-            .map(|_| (0..n).map(|_| zeros(n)).collect())
-            .collect();
+        let mut h: Vec<Vec<Vec<S>>> = (0..n).map(|_| (0..n).map(|_| zeros(n)).collect()).collect();
         for m in 0..n {
             for k in 0..=m {
                 let (force, moment) = self.quadratic(m, &self.twist(k, m).turn);
@@ -194,13 +191,14 @@ impl<'a, S: Scalar> Composite<'a, S> {
         c
     }
 
-    /// h, length n: what a joint does to the joints before it and to its own
-    /// composite, plus what the motion of the joints before does to it.
-    pub fn velocity_terms(&self, qd: &[S], spin: Spin) -> Vec<S> {
+    /// τ, length n, without armature and damping: what a joint does to the
+    /// joints before it and to its own composite, plus what the motion of the
+    /// joints before, and gravity, do to that composite.
+    pub fn torques(&self, gravity: &Vector<S>, qd: &[S], qdd: &[S], spin: Spin) -> Vec<S> {
         let chain = self.chain;
-        let rates = chain.rates(qd);
+        let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
         let n = chain.links.len();
-        let mut before = Motion::base(&zero_vector());
+        let mut before = Motion::base(gravity);
         let mut wrenches = Vec::with_capacity(n);
         let mut own = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
@@ -222,19 +220,29 @@ impl<'a, S: Scalar> Composite<'a, S> {
                 turn[2] = plus(&turn[2], &rates[i]);
             }
             let (force, moment) = self.quadratic(i, &turn);
-            wrenches.push((scaled(&rates[i], &force), scaled(&rates[i], &moment)));
-            before = before.next(link, &self.at[i], &rates[i], &S::zero(), spin);
+            let (push, twist) = self.momentum(i);
+            wrenches.push((
+                sum(
+                    &scaled(&rates[i], &force),
+                    &scaled(&accelerations[i], &push),
+                ),
+                sum(
+                    &scaled(&rates[i], &moment),
+                    &scaled(&accelerations[i], &twist),
+                ),
+            ));
+            before = before.next(link, &self.at[i], &rates[i], &accelerations[i], spin);
         }
-        let mut h = Vec::with_capacity(n);
+        let mut torques = Vec::with_capacity(n);
         let (mut force, mut moment) = (zero_vector(), zero_vector());
         for i in (0..n).rev() {
-            h.push(plus(&chain.load(i, &force, &moment), &own[i]));
             let (f, m) = &wrenches[i];
-            let (f, m) = (sum(&force, f), sum(&moment, m));
-            (force, moment) = chain.to_previous(i, &self.at[i], &f, &m);
+            (force, moment) = (sum(&force, f), sum(&moment, m));
+            torques.push(plus(&chain.load(i, &force, &moment), &own[i]));
+            (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
         }
-        h.reverse();
-        h
+        torques.reverse();
+        torques
     }
 
     /// Force and moment of Δ_k Δ_m on the composite body m, `turn` being the
@@ -245,10 +253,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             // A point r moves by z × r; turning that gives turn × (z × r).
             JointKind::Revolute => {
                 let [x, y, _] = body.second_times(turn);
-                (
-                    cross(turn, &mu(body)),
-                    [y, negative(&x), S::zero()],
-                )
+                (cross(turn, &mu(body)), [y, negative(&x), S::zero()])
             }
             // Every point moves along the slide.
             JointKind::Prismatic => {

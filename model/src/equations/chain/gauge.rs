@@ -10,54 +10,33 @@
 use alloc::vec::Vec;
 
 use super::{Body, Chain};
-use crate::equations::matrix::{plus, scaled};
+use crate::equations::Arm;
+use crate::equations::matrix::{Vector, scaled, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// What of a revolute link's second moment along its axis stays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Axial {
-    /// Nothing: Σzz = 0.
-    None,
-    /// All of it.
-    All,
-    /// Σzz = −Σxx: then I_yy = 0.
-    MinusXx,
-    /// Σzz = −Σyy: then I_xx = 0.
-    MinusYy,
-}
-
-/// The gauge of one link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct LinkGauge {
-    /// Whether the origin lies after the constant part of the step along the
-    /// axis (revolute), or at the next joint (prismatic).
-    pub far_origin: bool,
-    /// Whether the link keeps its mass.
-    pub keep_mass: bool,
-    /// Whether the link keeps its first moment along the axis.
-    pub keep_first: bool,
-    /// What it keeps of its second moments (prismatic: all or none).
-    pub axial: Axial,
-}
-
-impl Default for LinkGauge {
-    /// Base parameters.
-    fn default() -> Self {
-        LinkGauge {
-            far_origin: true,
-            keep_mass: false,
-            keep_first: false,
-            axial: Axial::None,
-        }
-    }
+/// The gauge of one link, in metres and kilograms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkGauge<S> {
+    /// Where the frame's origin lies, from the end of the step before the
+    /// joint, in the axes of the frame: on the axis for a revolute joint,
+    /// anywhere for a prismatic one.
+    pub origin: Vector<S>,
+    /// The mass that a revolute link keeps.
+    pub mass: S,
+    /// The first moment along the axis that it keeps.
+    pub first: S,
+    /// The second moment along the axis, Σzz, that it keeps.
+    pub second: S,
+    /// Whether a prismatic link keeps its second moments.
+    pub keep_seconds: bool,
 }
 
 /// The gauge of a chain.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Gauge<S> {
     /// One a link.
-    pub links: Vec<LinkGauge>,
+    pub links: Vec<LinkGauge<S>>,
     /// The unit of length, in metres.
     pub unit: S,
     /// Its inverse.
@@ -65,10 +44,21 @@ pub struct Gauge<S> {
 }
 
 impl<S: Scalar> Gauge<S> {
-    /// Base parameters in metres.
-    pub fn base(n: usize) -> Self {
+    /// Base parameters in metres: a revolute link keeps nothing that can
+    /// move, and its origin lies after the constant step along the axis.
+    pub fn base(arm: &Arm<S>) -> Self {
+        let links = arm.links.iter().map(|link| LinkGauge {
+            origin: match link.kind {
+                JointKind::Revolute => [S::zero(), S::zero(), link.d.clone()],
+                JointKind::Prismatic => zero_vector(),
+            },
+            mass: S::zero(),
+            first: S::zero(),
+            second: S::zero(),
+            keep_seconds: false,
+        });
         Gauge {
-            links: (0..n).map(|_| LinkGauge::default()).collect(),
+            links: links.collect(),
             unit: S::one(),
             per_unit: S::one(),
         }
@@ -80,17 +70,27 @@ impl<S: Scalar> Chain<S> {
     pub(super) fn regroup(&mut self, gauge: &Gauge<S>) {
         for i in (0..self.links.len()).rev() {
             let link = &self.links[i];
-            let moving = match link.kind {
-                JointKind::Revolute => on_axis(&link.body, &gauge.links[i]),
-                JointKind::Prismatic => second_moments(&link.body, &gauge.links[i]),
+            let (moving, arriving) = match link.kind {
+                JointKind::Revolute => {
+                    let moving = on_axis(&link.body, &gauge.links[i]);
+                    let arriving = moving.carried(&link.rotation, &link.offset);
+                    (moving, arriving)
+                }
+                JointKind::Prismatic => {
+                    // Second moments without mass have no place, only axes,
+                    // and these are shared.
+                    let moving = second_moments(&link.body, &gauge.links[i]);
+                    (moving.clone(), moving)
+                }
             };
-            let arriving = match link.kind {
-                JointKind::Revolute => moving.carried(&link.rotation, &link.offset),
-                // Second moments without mass have no place, only axes, and
-                // these are shared.
-                JointKind::Prismatic => moving.clone(),
-            };
-            self.links[i].body = self.links[i].body.with(&moving.negated());
+            let link = &mut self.links[i];
+            let body = &link.body;
+            link.free = [
+                body.mass.clone(),
+                body.first[2].clone(),
+                body.second.zz.clone(),
+            ];
+            link.body = body.with(&moving.negated());
             if i > 0 {
                 self.links[i - 1].body = self.links[i - 1].body.with(&arriving);
             }
@@ -111,27 +111,17 @@ impl<S: Scalar> Chain<S> {
     }
 }
 
-fn on_axis<S: Scalar>(body: &Body<S>, gauge: &LinkGauge) -> Body<S> {
+fn on_axis<S: Scalar>(body: &Body<S>, keep: &LinkGauge<S>) -> Body<S> {
     let mut moving = Body::zero();
-    if !gauge.keep_mass {
-        moving.mass = body.mass.clone();
-    }
-    if !gauge.keep_first {
-        moving.first = [S::zero(), S::zero(), body.first[2].clone()];
-    }
-    let second = &body.second;
-    moving.second.zz = match gauge.axial {
-        Axial::None => second.zz.clone(),
-        Axial::All => S::zero(),
-        Axial::MinusXx => plus(&second.zz, &second.xx),
-        Axial::MinusYy => plus(&second.zz, &second.yy),
-    };
+    moving.mass = body.mass.sub(&keep.mass);
+    moving.first[2] = body.first[2].sub(&keep.first);
+    moving.second.zz = body.second.zz.sub(&keep.second);
     moving
 }
 
-fn second_moments<S: Scalar>(body: &Body<S>, gauge: &LinkGauge) -> Body<S> {
+fn second_moments<S: Scalar>(body: &Body<S>, keep: &LinkGauge<S>) -> Body<S> {
     let mut moving = Body::zero();
-    if gauge.axial != Axial::All {
+    if !keep.keep_seconds {
         moving.second = body.second.clone();
     }
     moving

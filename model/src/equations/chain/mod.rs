@@ -19,7 +19,7 @@ use alloc::vec::Vec;
 pub use body::Body;
 pub use gauge::{Gauge, LinkGauge};
 
-use super::matrix::{Vector, dot, plus, scaled, sum, times, zero_vector};
+use super::matrix::{Vector, difference, dot, plus, scaled, sum, times, zero_vector};
 use super::{Arm, JointPosition, Rotor};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -55,10 +55,16 @@ pub struct ChainLink<S> {
     pub theta: Rotor<S>,
     /// The link, about the origin and in the axes of its frame.
     pub body: Body<S>,
+    /// Mass, first and second moment along the axis that the link could keep
+    /// (revolute): its own and what arrived from the links after it.
+    pub free: [S; 3],
     /// Rotor inertia felt at the joint.
     pub armature: S,
     /// Viscous damping b_i.
     pub viscous: S,
+    /// Whether the frame may stay behind while the link turns: for a last
+    /// link that is symmetric about its axis.
+    pub spins_freely: bool,
 }
 
 /// A joint's position: the pair of θ_i, or the displacement of a slide.
@@ -93,12 +99,8 @@ impl<S: Scalar> Chain<S> {
             let body = Body::of(link);
             match link.kind {
                 JointKind::Revolute => {
-                    let (mut offset, mut ahead) = (moved, slide);
-                    if gauge.far_origin {
-                        offset = sum(&offset, &apply(&turned, &ahead));
-                        ahead = zero_vector();
-                    }
-                    moved = sum(&ahead, &reach);
+                    let offset = sum(&moved, &apply(&turned, &gauge.origin));
+                    moved = sum(&difference(&slide, &gauge.origin), &reach);
                     links.push(ChainLink {
                         kind: link.kind,
                         rotation: turned,
@@ -106,25 +108,21 @@ impl<S: Scalar> Chain<S> {
                         axis: unit_z(),
                         theta: link.theta.clone(),
                         body: body.carried(&rest, &moved),
+                        free: zero_vector(),
                         armature: link.armature.clone(),
                         viscous: link.viscous.clone(),
+                        spins_freely: false,
                     });
                     turned = rest;
                 }
                 JointKind::Prismatic => {
                     let axis = apply(&turned, &unit_z());
                     let turn = product(&turned, &turn_z(&link.theta));
-                    let offset = sum(&moved, &apply(&turned, &slide));
-                    moved = apply(&turn, &reach);
+                    let before = sum(&moved, &apply(&turned, &slide));
+                    let offset = sum(&before, &gauge.origin);
+                    moved = difference(&apply(&turn, &reach), &gauge.origin);
                     turned = product(&turn, &rest);
-                    let mut body = body.carried(&turned, &moved);
-                    let mut offset = offset;
-                    if gauge.far_origin {
-                        // The origin of the next joint's frame.
-                        body = body.carried(&identity(), &moved.clone().map(|x| x.neg()));
-                        offset = sum(&offset, &moved);
-                        moved = zero_vector();
-                    }
+                    let body = body.carried(&turned, &moved);
                     links.push(ChainLink {
                         kind: link.kind,
                         rotation: identity(),
@@ -135,8 +133,10 @@ impl<S: Scalar> Chain<S> {
                             cos: S::one(),
                         },
                         body,
+                        free: zero_vector(),
                         armature: link.armature.clone(),
                         viscous: link.viscous.clone(),
+                        spins_freely: false,
                     });
                 }
             }
@@ -146,9 +146,18 @@ impl<S: Scalar> Chain<S> {
             links,
             per_unit: S::one(),
         };
+        chain.free_spin();
         chain.regroup(gauge);
         chain.change_unit(&gauge.unit, &gauge.per_unit);
         chain
+    }
+
+    /// Marks the last link if it looks the same however far it has turned:
+    /// then its frame need not turn, only its rate counts.
+    fn free_spin(&mut self) {
+        if let Some(last) = self.links.last_mut() {
+            last.spins_freely = last.kind == JointKind::Revolute && last.body.is_axisymmetric();
+        }
     }
 
     /// θ_i as pairs and slides in the chain's unit.
@@ -157,6 +166,10 @@ impl<S: Scalar> Chain<S> {
             .iter()
             .zip(position)
             .map(|(link, q)| match q {
+                JointPosition::Revolute(_) if link.spins_freely => Displacement::Turn(Rotor {
+                    sin: S::zero(),
+                    cos: S::one(),
+                }),
                 JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
                 JointPosition::Prismatic(q) => Displacement::Slide(times(q, &self.per_unit)),
             })
@@ -182,7 +195,10 @@ impl<S> Chain<S> {
         let gravity = self.gravity.each_ref().map(&mut f);
         let links = self.links.iter().map(|link| ChainLink {
             kind: link.kind,
-            rotation: link.rotation.each_ref().map(|row| row.each_ref().map(&mut f)),
+            rotation: link
+                .rotation
+                .each_ref()
+                .map(|row| row.each_ref().map(&mut f)),
             offset: link.offset.each_ref().map(&mut f),
             axis: link.axis.each_ref().map(&mut f),
             theta: link.theta.map(&mut f),
@@ -191,8 +207,10 @@ impl<S> Chain<S> {
                 first: link.body.first.each_ref().map(&mut f),
                 second: link.body.second.map(&mut f),
             },
+            free: link.free.each_ref().map(&mut f),
             armature: f(&link.armature),
             viscous: f(&link.viscous),
+            spins_freely: link.spins_freely,
         });
         let links = links.collect();
         Chain {
@@ -280,7 +298,10 @@ fn apply<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
 /// Rᵀ v
 fn apply_transposed<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|j| {
-        let xy = plus(&times(&rotation[0][j], &v[0]), &times(&rotation[1][j], &v[1]));
+        let xy = plus(
+            &times(&rotation[0][j], &v[0]),
+            &times(&rotation[1][j], &v[1]),
+        );
         plus(&xy, &times(&rotation[2][j], &v[2]))
     })
 }

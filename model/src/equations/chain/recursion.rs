@@ -81,11 +81,7 @@ impl<S: Scalar> Motion<S> {
             }
             JointKind::Revolute => {
                 let turned = link.inward(at, &self.omega);
-                let omega = [
-                    turned[0].clone(),
-                    turned[1].clone(),
-                    plus(&turned[2], rate),
-                ];
+                let omega = [turned[0].clone(), turned[1].clone(), plus(&turned[2], rate)];
                 let axis = link.axis_before();
                 let along = plus(&dot(&axis, &self.omega_dot), acceleration);
                 let (omega_dot, u) = match spin {
@@ -124,8 +120,7 @@ impl<S: Scalar> Motion<S> {
                     let squares = minus(&times(a, x), &times(b, y));
                     plus(&squares, &times(c, &minus(p, q)))
                 };
-                let mixed =
-                    |a: &S, x: &S, b: &S, y: &S| minus(&times(a, x), &times(b, y));
+                let mixed = |a: &S, x: &S, b: &S, y: &S| minus(&times(a, x), &times(b, y));
                 let (xx, yy, zz) = (&sigma.xx, &sigma.yy, &sigma.zz);
                 let (xy, yz, xz) = (&sigma.xy, &sigma.yz, &sigma.xz);
                 [
@@ -174,7 +169,11 @@ fn from_column<S: Scalar>(
     let (xz, yz, xy) = (times(x, z), times(y, z), times(x, y));
     let (xx, zz) = (times(x, x), times(z, z));
     // U_13 = ω_x ω_z + ω̇_y and U_23 = ω_y ω_z − ω̇_x.
-    let omega_dot = [minus(&yz, &column[1]), minus(&column[0], &xz), along.clone()];
+    let omega_dot = [
+        minus(&yz, &column[1]),
+        minus(&column[0], &xz),
+        along.clone(),
+    ];
     // U_33 = −(ω_x² + ω_y²), so −ω_y² = U_33 + ω_x².
     let minus_yy = plus(&column[2], &xx);
     let u = [
@@ -253,9 +252,7 @@ impl<S: Scalar> Chain<S> {
     pub(super) fn load(&self, i: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         match self.links[i].kind {
             JointKind::Revolute => moment[2].clone(),
-            JointKind::Prismatic => {
-                times(&dot(force, &self.links[i].axis), &self.per_unit)
-            }
+            JointKind::Prismatic => times(&dot(force, &self.links[i].axis), &self.per_unit),
         }
     }
 

@@ -1,0 +1,257 @@
+//! The formulations that a function can start from, each as a graph.
+//!
+//! The textbook forms are traced as they stand; the chain forms
+//! ([`dalembert_model::equations::chain`]) in a gauge that is tuned to the
+//! robot and the function ([`tune`]).
+
+pub mod tune;
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use dalembert_model::equations::chain::composite::{Composite, Travel};
+use dalembert_model::equations::chain::recursion::{Couple, Spin};
+use dalembert_model::equations::chain::{Chain, Displacement, Gauge};
+use dalembert_model::equations::matrix::{plus, times, zero_vector, zeros};
+use dalembert_model::equations::{Arm, Formulation, Rotor};
+use dalembert_model::number::Exact;
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+
+use crate::function::{Function, Quantity};
+use crate::graph::symbol::Symbol;
+use crate::graph::{Builder, Counts, Folding, Graph, Input};
+use crate::simplify::{self, Effort};
+use crate::trace::{Motion, trace};
+
+/// One association of the chain formulas; all give the same values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Form {
+    /// How U is formed.
+    pub spin: Spin,
+    /// How a link's own moment is formed.
+    pub couple: Couple,
+    /// Which way D and c travel.
+    pub travel: Travel,
+    /// Whether h comes from composite bodies, or from the recursion.
+    pub composite_h: bool,
+}
+
+impl Form {
+    /// The forms that differ for a function, the usually cheapest first.
+    pub fn of(function: Function) -> Vec<Form> {
+        let mut forms = Vec::new();
+        let quantities = function.quantities();
+        let recursive = quantities
+            .iter()
+            .any(|q| matches!(q, Quantity::Torque | Quantity::Coriolis));
+        let composite = quantities.iter().any(|q| {
+            !matches!(
+                q,
+                Quantity::Torque | Quantity::Coriolis | Quantity::Christoffel
+            )
+        });
+        for travel in [Travel::Outward, Travel::Inward] {
+            for composite_h in [false, true] {
+                for spin in [Spin::Column, Spin::Rates] {
+                    for couple in [Couple::SecondMoments, Couple::Euler] {
+                        // A choice that the function does not read.
+                        let idle = (!recursive
+                            && (spin == Spin::Rates || couple == Couple::Euler || composite_h))
+                            || (!composite && travel == Travel::Inward)
+                            || (composite_h && couple == Couple::Euler);
+                        if !idle {
+                            forms.push(Form {
+                                spin,
+                                couple,
+                                travel,
+                                composite_h,
+                            });
+                        }
+                    }
+                }
+            }
+        }
+        forms
+    }
+}
+
+/// The outputs of a function by the chain formulas, flat.
+fn evaluate<S: Scalar>(
+    function: Function,
+    chain: &Chain<S>,
+    form: Form,
+    motion: &Motion<S>,
+) -> Vec<S> {
+    let at = chain.at(&motion.q);
+    let composite = Composite::new(chain, &at);
+    let mut outputs = Vec::new();
+    for quantity in function.quantities() {
+        match quantity {
+            Quantity::Torque if form.composite_h => {
+                let torques = composite.torques(&chain.gravity, &motion.qd, &motion.qdd, form.spin);
+                outputs.extend(chain.links.iter().zip(torques).enumerate().map(
+                    |(i, (link, torque))| {
+                        let drive = plus(
+                            &times(&link.armature, &motion.qdd[i]),
+                            &times(&link.viscous, &motion.qd[i]),
+                        );
+                        plus(&torque, &drive)
+                    },
+                ));
+            }
+            Quantity::Torque => outputs.extend(chain.inverse_dynamics(
+                &at,
+                &motion.qd,
+                &motion.qdd,
+                form.spin,
+                form.couple,
+            )),
+            Quantity::Inertia => {
+                outputs.extend(composite.inertia(form.travel).into_iter().flatten());
+            }
+            Quantity::Coriolis if form.composite_h => {
+                let (still, rest) = (zero_vector(), zeros(chain.links.len()));
+                outputs.extend(composite.torques(&still, &motion.qd, &rest, form.spin));
+            }
+            Quantity::Coriolis => {
+                let mut still = chain.clone();
+                still.gravity = zero_vector();
+                for link in &mut still.links {
+                    link.viscous = S::zero();
+                }
+                let rest = zeros(chain.links.len());
+                outputs.extend(still.inverse_dynamics(
+                    &at,
+                    &motion.qd,
+                    &rest,
+                    form.spin,
+                    form.couple,
+                ));
+            }
+            Quantity::Christoffel => {
+                outputs.extend(composite.christoffel().into_iter().flatten().flatten());
+            }
+            Quantity::Gravity => outputs.extend(composite.gravity(form.travel)),
+        }
+    }
+    outputs
+}
+
+/// Traces a function by the chain formulas; also the operations as executed.
+pub fn trace_chain(
+    robot: &Robot,
+    function: Function,
+    chain: &Chain<Exact>,
+    form: Form,
+    folding: Folding,
+) -> (Graph, Counts) {
+    let builder = Rc::new(RefCell::new(Builder::new(folding)));
+    let chain = chain.map(|constant| Symbol::from(constant.clone()));
+    let motion = Motion::of(robot, |input: Input| Symbol::input(&builder, input));
+    let outputs: Vec<_> = evaluate(function, &chain, form, &motion)
+        .iter()
+        .map(Symbol::value)
+        .collect();
+    let traced = builder.borrow().asked();
+    let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(folding));
+    (graph.finish(&outputs), traced)
+}
+
+/// The robot's arm with exact parameters, the base folded.
+pub fn exact_arm(robot: &Robot) -> Arm<Exact> {
+    Arm::from_robot(robot, &mut Exact::clone).fold_base()
+}
+
+/// Where a graph comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// A formulation as the textbook has it.
+    Textbook(Formulation),
+    /// The chain formulas with regrouped parameters.
+    Regrouped,
+}
+
+impl Source {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Source::Textbook(Formulation::LagrangeEuler) => "lagrange_euler",
+            Source::Textbook(Formulation::Dalembert) => "dalembert",
+            Source::Textbook(_) => "newton_euler",
+            Source::Regrouped => "regrouped",
+        }
+    }
+}
+
+/// One graph of a function to start from.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Where it comes from.
+    pub source: Source,
+    /// The graph, folded as it was built.
+    pub graph: Graph,
+    /// The operations of the formula as executed.
+    pub traced: Counts,
+}
+
+/// A textbook formulation.
+pub fn textbook(robot: &Robot, function: Function, formulation: Formulation) -> Variant {
+    let trace = trace(robot, function, formulation);
+    Variant {
+        source: Source::Textbook(formulation),
+        graph: trace.graph,
+        traced: trace.traced,
+    }
+}
+
+/// A function in every chain form, in the gauge that is cheapest for it.
+pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Variant> {
+    let arm = exact_arm(robot);
+    let forms = Form::of(function);
+    let tuned = tune::tune(&arm, &forms, effort.gauge_rounds(), |chain, form| {
+        simplify::cost(&trace_chain(robot, function, chain, form, Folding::Semantic).0)
+    });
+    let chain = Chain::new(&arm, &tuned.gauge);
+    forms
+        .iter()
+        .map(|&form| {
+            let (graph, traced) = trace_chain(robot, function, &chain, form, Folding::Syntactic);
+            Variant {
+                source: Source::Regrouped,
+                graph,
+                traced,
+            }
+        })
+        .collect()
+}
+
+/// Values that no recursion forms but that shorten it: the sine and cosine of
+/// the angle sums of parallel joints, by products, so that large angles lose
+/// nothing.
+pub fn angle_sums(robot: &Robot) -> Graph {
+    let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
+    let arm = exact_arm(robot);
+    let chain = Chain::new(&arm, &Gauge::base(&arm));
+    let chain = chain.map(|constant| Symbol::from(constant.clone()));
+    let motion = Motion::of(robot, |input: Input| Symbol::input(&builder, input));
+    let at = chain.at(&motion.q);
+    let mut outputs = Vec::new();
+    let mut sum: Option<Rotor<Symbol>> = None;
+    for (i, (link, here)) in chain.links.iter().zip(&at).enumerate() {
+        let Displacement::Turn(pair) = here else {
+            // A slide does not turn what follows.
+            continue;
+        };
+        let parallel = i > 0 && link.rotation[2][2].is_one() && link.rotation[0][0].is_one();
+        sum = Some(match &sum {
+            Some(before) if parallel => {
+                let both = before.compose(pair);
+                outputs.extend([both.sin.value(), both.cos.value()]);
+                both
+            }
+            _ => pair.clone(),
+        });
+    }
+    std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic)).finish(&outputs)
+}

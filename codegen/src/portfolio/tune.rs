@@ -1,0 +1,305 @@
+//! The cheapest gauge of a chain: coordinate descent.
+//!
+//! Each candidate is traced and merged by fingerprint, about a millisecond.
+//! The candidates for a link come from what its parameters and its parent's
+//! would become: nothing kept, everything kept, or just as much as makes an
+//! entry vanish that would cost operations.
+
+use dalembert_model::equations::Arm;
+use dalembert_model::equations::chain::body::entry;
+use dalembert_model::equations::chain::{Body, Chain, Gauge, LinkGauge};
+use dalembert_model::equations::matrix::{Vector, zero_vector};
+use dalembert_model::number::Exact;
+use dalembert_model::robot::JointKind;
+use dalembert_model::scalar::Scalar;
+
+use super::Form;
+
+/// Constants of a tuned chain with more monomials than this are not formed:
+/// regrouping through many different odd angles would multiply them.
+const MOST_TERMS: usize = 200;
+
+/// What the descent found.
+#[derive(Clone, Debug)]
+pub struct Tuned {
+    /// The gauge.
+    pub gauge: Gauge<Exact>,
+    /// The cheapest form in it.
+    pub form: Form,
+    /// Its price.
+    pub price: u64,
+}
+
+/// Descends from base parameters; `price` must not depend on anything else.
+pub fn tune(
+    arm: &Arm<Exact>,
+    forms: &[Form],
+    rounds: usize,
+    price: impl Fn(&Chain<Exact>, Form) -> u64,
+) -> Tuned {
+    let mut descent = Descent {
+        arm,
+        price,
+        best: Tuned {
+            gauge: Gauge::base(arm),
+            form: forms[0],
+            price: u64::MAX,
+        },
+    };
+    if is_large(&Chain::new(arm, &descent.best.gauge)) {
+        descent.best.gauge = plain(arm);
+    }
+    descent.forms(forms);
+    for _ in 0..rounds {
+        let before = descent.best.price;
+        descent.units();
+        for i in (0..arm.links.len()).rev() {
+            descent.link(i);
+        }
+        descent.forms(forms);
+        if descent.best.price >= before {
+            break;
+        }
+    }
+    descent.best
+}
+
+struct Descent<'a, P> {
+    arm: &'a Arm<Exact>,
+    price: P,
+    best: Tuned,
+}
+
+impl<P: Fn(&Chain<Exact>, Form) -> u64> Descent<'_, P> {
+    fn attempt(&mut self, gauge: Gauge<Exact>) {
+        let chain = Chain::new(self.arm, &gauge);
+        if is_large(&chain) {
+            return;
+        }
+        let price = (self.price)(&chain, self.best.form);
+        if price < self.best.price {
+            self.best.price = price;
+            self.best.gauge = gauge;
+        }
+    }
+
+    fn forms(&mut self, forms: &[Form]) {
+        let chain = Chain::new(self.arm, &self.best.gauge);
+        for &form in forms {
+            let price = (self.price)(&chain, form);
+            if price < self.best.price {
+                self.best.price = price;
+                self.best.form = form;
+            }
+        }
+    }
+
+    /// Metres, and every length of the chain.
+    fn units(&mut self) {
+        let mut metres = self.best.gauge.clone();
+        (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
+        let chain = Chain::new(self.arm, &metres);
+        let mut units = vec![Exact::one()];
+        for length in chain.links.iter().flat_map(|link| &link.offset) {
+            let length = if length.leads_negative() {
+                length.neg()
+            } else {
+                length.clone()
+            };
+            if !length.is_zero() && !units.contains(&length) {
+                units.push(length);
+            }
+        }
+        for unit in units {
+            if let Some(per_unit) = quotient(&Exact::one(), &unit) {
+                self.attempt(Gauge {
+                    unit,
+                    per_unit,
+                    ..self.best.gauge.clone()
+                });
+            }
+        }
+    }
+
+    fn link(&mut self, i: usize) {
+        let mut metres = self.best.gauge.clone();
+        (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
+        let chain = Chain::new(self.arm, &metres);
+        let candidates = match self.arm.links[i].kind {
+            JointKind::Revolute => revolute(self.arm, &chain, &metres.links[i], i),
+            JointKind::Prismatic => prismatic(&chain, &metres.links[i], i),
+        };
+        for candidate in candidates {
+            let mut gauge = self.best.gauge.clone();
+            gauge.links[i] = candidate;
+            self.attempt(gauge);
+        }
+    }
+}
+
+/// The gauge that moves nothing.
+fn plain(arm: &Arm<Exact>) -> Gauge<Exact> {
+    let mut gauge = Gauge::base(arm);
+    // From the hand inward, so that nothing has arrived that could be kept.
+    for i in (0..arm.links.len()).rev() {
+        let free = Chain::new(arm, &gauge).links[i].free.clone();
+        let [mass, first, second] = free;
+        let link = &mut gauge.links[i];
+        (link.mass, link.first, link.second) = (mass, first, second);
+        link.keep_seconds = true;
+    }
+    gauge
+}
+
+fn is_large(chain: &Chain<Exact>) -> bool {
+    chain.links.iter().any(|link| {
+        let body = &link.body;
+        let seconds = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        seconds
+            .iter()
+            .map(|&(i, j)| entry(&body.second, i, j))
+            .chain(&body.first)
+            .any(|constant| constant.terms() > MOST_TERMS)
+    })
+}
+
+/// a / b for rational b.
+fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
+    a.divide(b.as_rational()?)
+}
+
+fn revolute(
+    arm: &Arm<Exact>,
+    chain: &Chain<Exact>,
+    now: &LinkGauge<Exact>,
+    i: usize,
+) -> Vec<LinkGauge<Exact>> {
+    let link = &chain.links[i];
+    let [mass, first, second] = &link.free;
+    let zero = Exact::zero();
+    let body = &link.body;
+    let mut masses = vec![zero.clone(), mass.clone()];
+    let mut firsts = vec![zero.clone(), first.clone()];
+    let mut seconds = vec![
+        zero.clone(),
+        second.clone(),
+        body.second.xx.neg(),
+        body.second.yy.neg(),
+    ];
+    if i > 0 {
+        // What is kept does not arrive at the parent.
+        let parent = &chain.links[i - 1].body;
+        for (kept, list, effect) in [
+            (&now.mass, &mut masses, unit_body(1, 0, 0)),
+            (&now.first, &mut firsts, unit_body(0, 1, 0)),
+            (&now.second, &mut seconds, unit_body(0, 0, 1)),
+        ] {
+            let effect = effect.carried(&link.rotation, &link.offset);
+            for (entry, slope) in costly(parent).into_iter().zip(costly(&effect)) {
+                if let Some(more) = quotient(&entry, &slope) {
+                    list.push(kept.add(&more));
+                }
+            }
+        }
+    }
+    let mut origins = vec![zero, arm.links[i].d.clone()];
+    for (moment, slope) in [
+        (&body.second.xz, &body.first[0]),
+        (&body.second.yz, &body.first[1]),
+    ] {
+        if let Some(further) = quotient(moment, slope) {
+            origins.push(now.origin[2].add(&further));
+        }
+    }
+    if let Some(next) = chain.links.get(i + 1) {
+        origins.push(now.origin[2].add(&next.offset[2]));
+    }
+    let mut candidates = Vec::new();
+    for choice in masses {
+        candidates.push(LinkGauge {
+            mass: choice,
+            ..now.clone()
+        });
+    }
+    for choice in firsts {
+        candidates.push(LinkGauge {
+            first: choice,
+            ..now.clone()
+        });
+    }
+    for choice in seconds {
+        candidates.push(LinkGauge {
+            second: choice,
+            ..now.clone()
+        });
+    }
+    for z in origins {
+        candidates.push(LinkGauge {
+            origin: [Exact::zero(), Exact::zero(), z],
+            ..now.clone()
+        });
+    }
+    candidates
+}
+
+fn prismatic(chain: &Chain<Exact>, now: &LinkGauge<Exact>, i: usize) -> Vec<LinkGauge<Exact>> {
+    let link = &chain.links[i];
+    let shifted = |by: &Vector<Exact>| -> Vector<Exact> {
+        core::array::from_fn(|axis| now.origin[axis].add(&by[axis]))
+    };
+    let mut origins = vec![
+        zero_vector(),
+        shifted(&link.offset.clone().map(|x| x.neg())),
+    ];
+    if let Some(next) = chain.links.get(i + 1) {
+        origins.push(shifted(&next.offset));
+    }
+    let centre: Vec<Exact> = link
+        .body
+        .first
+        .iter()
+        .filter_map(|moment| quotient(moment, &link.body.mass))
+        .collect();
+    if let Ok(centre) = <Vector<Exact>>::try_from(centre) {
+        origins.push(shifted(&centre));
+    }
+    let mut candidates = Vec::new();
+    for origin in origins {
+        candidates.push(LinkGauge {
+            origin,
+            ..now.clone()
+        });
+    }
+    for keep_seconds in [false, true] {
+        candidates.push(LinkGauge {
+            keep_seconds,
+            ..now.clone()
+        });
+    }
+    candidates
+}
+
+/// The entries of a body that cost operations in every gauge.
+fn costly(body: &Body<Exact>) -> Vec<Exact> {
+    let second = &body.second;
+    vec![
+        body.first[0].clone(),
+        body.first[1].clone(),
+        second.xx.clone(),
+        second.yy.clone(),
+        second.xy.clone(),
+        second.yz.clone(),
+        second.xz.clone(),
+        second.xx.sub(&second.yy),
+    ]
+}
+
+/// A unit mass, first or second moment on the axis.
+fn unit_body(mass: i64, first: i64, second: i64) -> Body<Exact> {
+    let number = |n: i64| if n == 0 { Exact::zero() } else { Exact::one() };
+    let mut body = Body::zero();
+    body.mass = number(mass);
+    body.first[2] = number(first);
+    body.second.zz = number(second);
+    body
+}

@@ -1,0 +1,100 @@
+//! How much work a search may do: counted in e-nodes, pairs and moves, never
+//! in time, so the result is the same on every machine.
+
+use super::egraph::Budget;
+use super::extract::Schedule;
+use super::search::Settings;
+
+/// The levels of the command line and the macro.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Effort {
+    /// Well below a second for a six-joint arm, in a release build.
+    #[default]
+    Quick,
+    /// Up to two minutes a function.
+    Thorough,
+}
+
+impl Effort {
+    /// Both, least first.
+    pub const ALL: [Effort; 2] = [Effort::Quick, Effort::Thorough];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Effort::Quick => "quick",
+            Effort::Thorough => "thorough",
+        }
+    }
+
+    /// The level of a name.
+    pub fn from_name(name: &str) -> Option<Effort> {
+        Effort::ALL.into_iter().find(|e| e.name() == name)
+    }
+
+    /// Rounds of the gauge's descent.
+    pub fn gauge_rounds(self) -> usize {
+        match self {
+            Effort::Quick => 1,
+            Effort::Thorough => 3,
+        }
+    }
+
+    pub(super) fn budget(self) -> Budget {
+        match self {
+            Effort::Quick => Budget {
+                nodes: 5_000,
+                iterations: 1,
+                rounds: 1,
+            },
+            Effort::Thorough => Budget {
+                nodes: 100_000,
+                iterations: 3,
+                rounds: 2,
+            },
+        }
+    }
+
+    /// Annealing of what the e-graph found.
+    pub(super) fn first_schedule(self) -> Schedule {
+        Schedule {
+            moves: match self {
+                Effort::Quick => 0,
+                Effort::Thorough => 500_000,
+            },
+            ..COOLING
+        }
+    }
+
+    pub(super) fn search(self) -> Settings {
+        match self {
+            Effort::Quick => Settings {
+                rounds: 1,
+                patience: 0,
+                pairs: 1_500,
+                substitutes: 700,
+                schedule: Schedule {
+                    moves: 60_000,
+                    ..COOLING
+                },
+            },
+            Effort::Thorough => Settings {
+                rounds: 24,
+                patience: 4,
+                pairs: 6_000,
+                substitutes: 3_000,
+                schedule: Schedule {
+                    moves: 2_000_000,
+                    ..COOLING
+                },
+            },
+        }
+    }
+}
+
+/// Hotter than this destroys a program of 300 operations.
+const COOLING: Schedule = Schedule {
+    moves: 0,
+    hot: 0.2,
+    cold: 0.04,
+};

@@ -1,0 +1,73 @@
+//! Discovery and extraction in turns.
+
+use super::classes::{ClassId, Classes, Way};
+use super::cost;
+use super::discover;
+use super::extract::{CostModel, Extraction, Schedule};
+use super::random::Random;
+use crate::graph::Graph;
+
+/// The limits of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Rounds at most.
+    pub rounds: usize,
+    /// Rounds without a gain before it stops.
+    pub patience: usize,
+    /// The most classes among which all pairs are tried.
+    pub pairs: usize,
+    /// The most classes among which two-operation substitutes are tried.
+    pub substitutes: usize,
+    /// Annealing of a round.
+    pub schedule: Schedule,
+}
+
+/// One round from a program: what other graphs and the fingerprints offer,
+/// then extraction. Never returns a dearer program.
+pub fn round(
+    program: &Graph,
+    variants: &[Graph],
+    helpers: &[Graph],
+    settings: &Settings,
+    random: &mut Random,
+) -> Graph {
+    let mut classes = Classes::new(program);
+    let choice = classes.program();
+    let own: Vec<ClassId> = (0..classes.len() as ClassId).collect();
+    for graph in variants.iter().chain(helpers) {
+        classes.absorb(graph);
+    }
+    discover::multiples(&mut classes, &own, &choice);
+    let everything = classes.len() as ClassId;
+    let pool: Vec<ClassId> = if classes.len() <= settings.pairs {
+        (0..everything).collect()
+    } else {
+        own.iter().copied().take(settings.pairs).collect()
+    };
+    discover::pairs(&mut classes, &pool);
+    if own.len() <= settings.substitutes {
+        discover::resubstitute(&mut classes, &own, &own);
+    }
+    let found = extract(&classes, &choice, settings.schedule, random);
+    if cost(&found) <= cost(program) {
+        found
+    } else {
+        program.clone()
+    }
+}
+
+/// Climbs, anneals and climbs again from a choice.
+pub fn extract(
+    classes: &Classes,
+    choice: &[Option<Way>],
+    schedule: Schedule,
+    random: &mut Random,
+) -> Graph {
+    let mut search = Extraction::new(classes, choice, CostModel::OPERATIONS);
+    search.climb();
+    if schedule.moves > 0 {
+        search.anneal(schedule, random);
+        search.climb();
+    }
+    classes.graph(&search.choice())
+}
