@@ -1,0 +1,72 @@
+//! The reference: the link-frame recursion over a big float of 134 digits, at
+//! the exact parameters and the exact binary state.
+
+use dalembert_model::equations::{Arm, Formulation, Rotor};
+use dalembert_model::number::{Angle, Exact};
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+use crate::function::Function;
+use crate::graph::{AngleSum, Input};
+use crate::trace::{Motion, evaluate};
+use crate::verify::states::JointState;
+
+/// A robot in the big float.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    robot: Robot,
+    arm: Arm<Big>,
+}
+
+impl Truth {
+    /// Of a robot, nothing snapped, each parameter rounded to 448 bits.
+    pub fn new(robot: &Robot) -> Truth {
+        Truth {
+            arm: Arm::from_robot(robot, &mut number),
+            robot: robot.clone(),
+        }
+    }
+
+    /// The results of a function, flat; `None` at a state that is not finite.
+    pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
+        let values = state.q.iter().chain(&state.qd).chain(&state.qdd);
+        if values.into_iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let finite = |x: f64| Big::from_f64(x).unwrap_or_else(Big::zero);
+        // A motion reads the angles of single joints only; each joint's pair
+        // is made once.
+        let mut pairs: Vec<(AngleSum, (Big, Big))> = Vec::new();
+        let mut pair = |sum: AngleSum| match pairs.last() {
+            Some((last, pair)) if *last == sum => pair.clone(),
+            _ => {
+                let joint = sum.terms().map(|(joint, _)| joint).sum::<usize>();
+                let made = finite(state.q[joint]).sin_cos();
+                pairs.push((sum, made.clone()));
+                made
+            }
+        };
+        let motion = Motion::of(&self.robot, |input| match input {
+            Input::Sin(sum) => pair(sum).0,
+            Input::Cos(sum) => pair(sum).1,
+            Input::Position(joint) => finite(state.q[joint]),
+            Input::Velocity(joint) => finite(state.qd[joint]),
+            Input::Acceleration(joint) => finite(state.qdd[joint]),
+        });
+        let recursion = Formulation::NewtonEulerLink;
+        Some(evaluate(function, recursion, &self.arm, &motion))
+    }
+}
+
+fn number(constant: &Exact) -> Big {
+    let value = constant.map(&mut |x| Some(Big::from_rational(x)), &mut |angle| {
+        let (sin, cos) = match angle {
+            Angle::PiTimes(multiple) => Big::sin_cos_pi(multiple),
+            Angle::Radians(radians) => Big::sin_cos_of(radians),
+        };
+        Rotor { sin, cos }
+    });
+    // Every rational has its big float.
+    value.unwrap_or_else(Big::zero)
+}
