@@ -12,7 +12,7 @@ use crate::verify::states::JointState;
 pub const STATES: usize = 1000;
 
 /// The seed of the torque scales.
-const SEED: u64 = 0x7a11;
+pub const SEED: u64 = 0x7a11;
 
 /// For each joint the bounds of |q|, |q̇| and |q̈|: the largest that occur in
 /// the state at a joint of its kind.
@@ -57,25 +57,32 @@ pub fn draw(bounds: &JointState, count: usize, seed: u64) -> Vec<JointState> {
         .collect()
 }
 
-/// T_i: the largest |τ_i| over [`STATES`] seeded states within bounds.
+/// T_i: the largest |τ_i| over states, [`STATES`] of them as a rule.
 ///
 /// An arm that stands still may load a joint with nothing at all, whatever its
 /// position: a vertical axis feels no gravity. What is computed there is the
 /// dust of a cancellation, and so would be its scale. Such a joint is measured
 /// against what it meets at unit rates.
-pub fn torques(robot: &Robot, bounds: &JointState) -> Vec<f64> {
-    let largest = largest(robot, bounds);
-    if bounds.qd.iter().chain(&bounds.qdd).any(|rate| *rate != 0.0) {
+pub fn torques(robot: &Robot, states: &[JointState]) -> Vec<f64> {
+    let largest = largest(robot, states.iter());
+    let mut rates = states.iter().flat_map(|s| s.qd.iter().chain(&s.qdd));
+    if rates.any(|rate| *rate != 0.0) {
         return largest;
     }
-    let unit = vec![1.0; robot.joints.len()];
-    let moving = JointState {
-        q: bounds.q.clone(),
-        qd: unit.clone(),
-        qdd: unit,
-    };
+    let mut random = Random::new(SEED);
+    let moving: Vec<JointState> = states
+        .iter()
+        .map(|state| {
+            let mut rates = || state.q.iter().map(|_| 2.0 * random.unit() - 1.0).collect();
+            JointState {
+                q: state.q.clone(),
+                qd: rates(),
+                qdd: rates(),
+            }
+        })
+        .collect();
     let dust = DUST * largest.iter().copied().fold(0.0, f64::max);
-    let moving = self::largest(robot, &moving);
+    let moving = self::largest(robot, moving.iter());
     let pairs = largest.iter().zip(moving);
     pairs
         .map(|(&still, moving)| if still > dust { still } else { moving })
@@ -85,11 +92,11 @@ pub fn torques(robot: &Robot, bounds: &JointState) -> Vec<f64> {
 /// Below this part of the largest torque a torque may be nothing but rounding.
 const DUST: f64 = 1e-13;
 
-fn largest(robot: &Robot, bounds: &JointState) -> Vec<f64> {
+fn largest<'a>(robot: &Robot, states: impl Iterator<Item = &'a JointState>) -> Vec<f64> {
     let runtime = Reference::<f64>::from_robot(robot);
     let mut largest = vec![0.0f64; robot.joints.len()];
-    for state in draw(bounds, STATES, SEED) {
-        let [q, qd, qdd] = [state.q, state.qd, state.qdd].map(DVector::from_vec);
+    for state in states {
+        let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_column_slice(x));
         // The lengths are the robot's.
         let Ok(tau) = runtime.inverse_dynamics(&q, &qd, &qdd) else {
             continue;
