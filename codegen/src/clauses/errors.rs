@@ -26,6 +26,12 @@ impl Errors {
             .push(syn::Error::new_spanned(at, format!("{text}{help}")));
     }
 
+    /// A name that is there already.
+    pub(super) fn twice(&mut self, name: impl ToTokens) {
+        let text = format!("`{}` is given twice", name.to_token_stream());
+        self.say(name, &text, "");
+    }
+
     /// What the parser of the grammar's head says.
     pub(super) fn syntax(&mut self, error: syn::Error) {
         self.0.push(error);

@@ -10,7 +10,7 @@ use dalembert_model::robot::{Robot, Severity};
 
 use super::errors::Errors;
 use super::invocation::{self, Invocation, RobotSource};
-use super::{RobotFile, module, stub, table};
+use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::emit::MathPath;
 use crate::generate::{GenerateError, Generated, Request, generate};
 
@@ -89,8 +89,14 @@ fn file(literal: &LitStr, base: &Path, errors: &mut Errors) -> Source {
             watch,
         },
         Err(error) => {
+            let help = match &error {
+                RobotFileError::Missing { meant: None, .. } => {
+                    "the path is relative to the folder of Cargo.toml"
+                }
+                _ => "",
+            };
             for message in error.messages() {
-                errors.say(literal, &message, "");
+                errors.say(literal, &message, help);
             }
             Source {
                 joints: error.joints(),

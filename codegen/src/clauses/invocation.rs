@@ -71,8 +71,9 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
     };
     let mut asked = false;
     for pair in clauses(rest, errors) {
-        asked |= pair.key == "outputs";
-        invocation.clause(&pair, errors);
+        let key = clause_name(&pair.key, errors);
+        asked |= key == Some("outputs");
+        invocation.clause(key, &pair.value, errors);
     }
     if !asked {
         errors.push(&invocation.name, &m::NO_OUTPUTS);
@@ -141,43 +142,52 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
 }
 
 impl Invocation {
-    fn clause(&mut self, pair: &Pair, errors: &mut Errors) {
-        let value = &pair.value;
-        match pair.key.to_string().as_str() {
-            "outputs" => {
+    fn clause(&mut self, key: Option<&str>, value: &[TokenTree], errors: &mut Errors) {
+        match key {
+            Some("outputs") => {
                 for (output, at) in words::<Function>(value, errors) {
                     if self.outputs.iter().any(|(earlier, _)| *earlier == output) {
-                        errors.push(&at, &m::TWICE);
+                        errors.twice(&at);
                     } else {
                         self.outputs.push((output, at));
                     }
                 }
             }
-            "scalar" => {
+            Some("scalar") => {
                 for (scalar, at) in words::<ScalarType>(value, errors) {
                     if self.scalars.contains(&scalar) {
-                        errors.push(&at, &m::TWICE);
+                        errors.twice(&at);
                     } else {
                         self.scalars.push(scalar);
                     }
                 }
             }
-            "formulation" => self.start = word(value, errors).unwrap_or(self.start),
-            "effort" => self.effort = word(value, errors).unwrap_or(self.effort),
-            "crate" => {
+            Some("formulation") => self.start = word(value, errors).unwrap_or(self.start),
+            Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
+            Some("crate") => {
                 if let Some(path) = facade(value, errors) {
                     self.facade = path;
                 }
             }
-            other => {
-                let help = match closest(other, &CLAUSES) {
-                    Some(meant) => format!("did you mean `{meant}`?"),
-                    None => format!("there is: {}", CLAUSES.join(", ")),
-                };
-                errors.say(&pair.key, &format!("unknown clause `{other}`"), &help);
-            }
+            _ => {}
         }
     }
+}
+
+/// The name of a clause; an unknown one counts as the one that was probably
+/// meant, so that it is not missing as well.
+fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
+    let word = key.to_string();
+    if let Some(known) = CLAUSES.into_iter().find(|known| *known == word) {
+        return Some(known);
+    }
+    let meant = closest(&word, &CLAUSES);
+    let help = match meant {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => format!("there is: {}", CLAUSES.join(", ")),
+    };
+    errors.say(key, &format!("unknown clause `{word}`"), &help);
+    meant
 }
 
 /// Words with commas between; an unknown one counts as the one that was

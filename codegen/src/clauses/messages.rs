@@ -35,7 +35,6 @@ pub(super) const NO_COLON: Message = message(
 );
 pub(super) const NO_KEY_COLON: Message =
     message("expected `:` after the key", "a key is `name: value`");
-pub(super) const TWICE: Message = message("this is given twice", "once is enough");
 pub(super) const NO_VALUE: Message = message("expected a value", "");
 pub(super) const NO_OUTPUTS: Message = message(
     "there is no clause `outputs`",
@@ -65,8 +64,8 @@ pub(super) const JOINT_BRACES: Message = message(
     "joint { kind: revolute, mass: 1, com: [0, 0, 0], inertia: [0, 0, 1, 0, 0, 0] }",
 );
 pub(super) const SUFFIX: Message = message(
-    "a number of a robot has no type",
-    "it is exact: write the digits alone",
+    "a number has no suffix here, but `deg`",
+    "numbers are exact and have no type: write the digits alone",
 );
 pub(super) const NO_NUMBER: Message = message(
     "this is not a decimal number",

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
 use dalembert_model::robot::Robot;
@@ -73,8 +73,6 @@ pub enum RobotFileError {
     Missing {
         /// The path as messages show it.
         shown: String,
-        /// Where it was looked for.
-        directory: PathBuf,
         /// The file there that was probably meant.
         meant: Option<String>,
     },
@@ -100,16 +98,12 @@ impl RobotFileError {
     /// Every error by itself; those of the text with their line. Never empty.
     pub fn messages(&self) -> Vec<String> {
         match self {
-            RobotFileError::Missing {
-                shown,
-                directory,
-                meant,
-            } => {
+            RobotFileError::Missing { shown, meant } => {
                 let help = match meant {
-                    Some(meant) => format!("did you mean `{meant}`?"),
-                    None => format!("paths are relative to {}", directory.display()),
+                    Some(meant) => format!("\n  = help: did you mean `{meant}`?"),
+                    None => String::new(),
                 };
-                vec![format!("there is no file `{shown}`\n  = help: {help}")]
+                vec![format!("there is no file `{shown}`{help}")]
             }
             RobotFileError::Unreadable { shown, error } => {
                 vec![format!("cannot read `{shown}`: {error}")]
@@ -173,12 +167,8 @@ fn missing(path: &Path, shown: &str) -> RobotFileError {
         Some(start) => format!("{start}{meant}"),
         None => meant.to_owned(),
     });
-    // What the shown path is relative to.
-    let up = Path::new(shown).components().count();
-    let directory = path.ancestors().nth(up).unwrap_or(folder);
     RobotFileError::Missing {
         shown: shown.to_owned(),
-        directory: directory.to_owned(),
         meant,
     }
 }

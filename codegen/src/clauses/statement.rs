@@ -42,7 +42,7 @@ pub(super) fn pairs(trees: &[TokenTree], separator: char, errors: &mut Errors) -
         }
         rest = next;
         if pairs.iter().any(|pair| pair.key == *key) {
-            errors.push(key, &m::TWICE);
+            errors.twice(key);
             continue;
         }
         pairs.push(Pair {

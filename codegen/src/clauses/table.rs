@@ -268,7 +268,8 @@ fn join(value: &[TokenTree]) -> String {
 }
 
 /// How the reader's messages about a file read in the macro.
-const DIALECT: [(&str, &str); 6] = [
+const DIALECT: [(&str, &str); 7] = [
+    ("the robot has: name, ", "the robot has: "),
     ("[[joint]] tables", "`joint { … }` blocks"),
     ("[[joint]] table", "`joint { … }` block"),
     ("[[joint]]", "`joint { … }`"),

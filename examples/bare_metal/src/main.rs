@@ -1,0 +1,48 @@
+//! Dynamics in f32 without std, allocator and unwinding.
+//!
+//! On a microcontroller `main` would be the entry of the board's runtime;
+//! here it is that of the C library, so that the program can be run.
+#![no_std]
+#![no_main]
+
+use core::ffi::{c_char, c_int};
+use core::panic::PanicInfo;
+
+dalembert::dynamics! {
+    /// A pendulum on a turntable.
+    mod arm {
+        convention: standard;
+        gravity: [0, 0, -9.81];
+        joint { kind: revolute, alpha: pi/2, mass: 0, inertia: [0, 0.5, 0, 0, 0, 0] }
+        joint { kind: revolute, a: 1/2, mass: 2, com: [0, 0, 0], inertia: [0, 0, 0, 0, 0, 0] }
+    }
+    outputs: inverse_dynamics, inertia;
+    scalar: f32;
+}
+
+/// 0 if the torques are right.
+///
+/// The symbol is the one that the C library calls, and there is no other: that
+/// is what the attribute's promise is about.
+#[unsafe(no_mangle)]
+pub extern "C" fn main(_count: c_int, _arguments: *const *const c_char) -> c_int {
+    let upright = core::f32::consts::FRAC_PI_2;
+    let swinging = arm::inverse_dynamics(&[0.3, 0.0], &[0.0, 2.0], &[1.0, 3.0]);
+    let inertia = arm::inertia(&[0.3, upright]);
+    // The table alone, the pendulum's m g a + m a² q̈, and nothing coupled.
+    let good = close(inertia[0][0], 0.5)
+        && close(inertia[0][1], 0.0)
+        && close(swinging[0], 0.5 + 0.5)
+        && close(swinging[1], 9.81 + 0.5 * 3.0);
+    c_int::from(!good)
+}
+
+fn close(value: f32, expected: f32) -> bool {
+    let off = value - expected;
+    off < 1e-5 && off > -1e-5
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    loop {}
+}

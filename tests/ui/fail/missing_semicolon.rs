@@ -1,0 +1,10 @@
+//! The next clause begins.
+dalembert::dynamics! {
+    mod arm = "robots/planar2r.toml";
+    outputs: gravity
+    scalar: f64;
+}
+
+fn main() {
+    let _: [f64; 2] = arm::gravity(&[0.0, 0.0]);
+}

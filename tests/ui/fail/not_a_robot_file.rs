@@ -1,0 +1,7 @@
+//! The file is no TOML.
+dalembert::dynamics! {
+    mod arm = "robots/notes.txt";
+    outputs: gravity;
+}
+
+fn main() {}
