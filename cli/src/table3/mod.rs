@@ -56,47 +56,69 @@ pub fn run(args: &Table3Args) -> Outcome {
     }
 }
 
+/// One number of joints: a cell a formulation, and what is generated from the
+/// best start.
+struct Row {
+    n: usize,
+    cells: Vec<Cell>,
+    auto: Counts,
+}
+
 fn table(as_json: bool) -> Outcome {
-    let mut rows = Vec::new();
-    for n in JOINTS {
-        let robot = generic::robot(n);
-        let mut cells = Vec::new();
-        for (formulation, _) in FORMULATIONS {
-            let stages = stages(&robot, Start::Only(formulation))?;
-            let generated = stages.last().map(|stage| stage.counts).unwrap_or_default();
-            cells.push(Cell {
-                paper: paper::counts(formulation, n as u64),
-                written: written::generic(formulation, n),
-                generated,
-            });
-        }
-        rows.push((n, cells));
-    }
+    let rows: Vec<Row> = JOINTS.map(row).collect::<Result<_, _>>()?;
     if as_json {
-        let rows: Vec<Value> = rows.iter().map(|(n, cells)| row_json(*n, cells)).collect();
+        let rows: Vec<Value> = rows.iter().map(row_json).collect();
         return output::print_json(&json!({ "table3": rows }));
     }
     let mut text = String::from(
         "Table 3: inverse dynamics of n revolute joints, mul add.\n\
          paper: its polynomials. as written: the formula, no number special.\n\
-         generated: for an arm of random numbers, quick search.\n",
+         generated: for an arm of random numbers, quick search; auto: from regrouped chains.\n",
     );
     for (index, (_, name)) in FORMULATIONS.into_iter().enumerate() {
-        text += &format!("\n{name}\n");
         let head = ["n", "paper", "as written", "generated"];
         let mut lines = vec![head.map(String::from).to_vec()];
-        for (n, cells) in &rows {
-            let cell = &cells[index];
+        for row in &rows {
+            let cell = &row.cells[index];
             lines.push(vec![
-                n.to_string(),
+                row.n.to_string(),
                 pair_text(cell.paper),
                 pair_text(cell.written),
-                format!("{} {}", cell.generated.mul, cell.generated.add),
+                counts_text(&cell.generated),
             ]);
         }
-        text += &output::table(&lines, 0);
+        text += &format!("\n{name}\n{}", output::table(&lines, 0));
     }
+    let lines: Vec<_> = rows
+        .iter()
+        .map(|row| vec![row.n.to_string(), counts_text(&row.auto)])
+        .collect();
+    text += &format!("\nauto\n{}", output::table(&lines, 0));
     output::print(&text)
+}
+
+fn row(n: usize) -> Result<Row, Failure> {
+    let robot = generic::robot(n);
+    let cell = |(formulation, _): (Formulation, &str)| -> Result<Cell, Failure> {
+        Ok(Cell {
+            paper: paper::counts(formulation, n as u64),
+            written: written::generic(formulation, n),
+            generated: generated(&robot, Start::Only(formulation))?,
+        })
+    };
+    Ok(Row {
+        n,
+        cells: FORMULATIONS
+            .into_iter()
+            .map(cell)
+            .collect::<Result<_, Failure>>()?,
+        auto: generated(&robot, Start::Auto)?,
+    })
+}
+
+fn generated(robot: &Robot, start: Start) -> Result<Counts, Failure> {
+    let stages = stages(robot, start)?;
+    Ok(stages.last().map(|stage| stage.counts).unwrap_or_default())
 }
 
 /// For one robot: the paper at its n, the formula with its numbers, and the
@@ -111,7 +133,12 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
         let key = Source::Textbook(formulation).name();
         starts.push((key, name, Some((paper, written)), stages));
     }
-    starts.push(("auto", "all of them", None, stages(robot, Start::Auto)?));
+    starts.push((
+        "auto",
+        "the best start (auto)",
+        None,
+        stages(robot, Start::Auto)?,
+    ));
     if as_json {
         let formulations: Map<String, Value> = starts
             .iter()
@@ -146,10 +173,7 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
             lines.push(vec!["formula as written".to_owned(), pair_text(*written)]);
         }
         for Stage { name, counts } in stages {
-            lines.push(vec![
-                (*name).to_owned(),
-                format!("{} {}", counts.mul, counts.add),
-            ]);
+            lines.push(vec![(*name).to_owned(), counts_text(counts)]);
         }
         text += &output::table(&lines, 0);
     }
@@ -167,16 +191,17 @@ fn stages(robot: &Robot, start: Start) -> Result<Vec<Stage>, Failure> {
     Ok(functions.into_iter().flat_map(|f| f.stages).collect())
 }
 
-fn row_json(n: usize, cells: &[Cell]) -> Value {
-    let mut row = json!({ "n": n });
-    for ((formulation, _), cell) in FORMULATIONS.into_iter().zip(cells) {
-        row[Source::Textbook(formulation).name()] = json!({
+fn row_json(row: &Row) -> Value {
+    let mut value = json!({ "n": row.n });
+    for ((formulation, _), cell) in FORMULATIONS.into_iter().zip(&row.cells) {
+        value[Source::Textbook(formulation).name()] = json!({
             "paper": pair_json(cell.paper),
             "as_written": pair_json(cell.written),
             "generated": count::counts(&cell.generated),
         });
     }
-    row
+    value["auto"] = json!({ "generated": count::counts(&row.auto) });
+    value
 }
 
 fn stage_json(stage: &Stage) -> Value {
@@ -195,4 +220,8 @@ fn pair_json(pair: Pair) -> Value {
 
 fn pair_text(pair: Pair) -> String {
     format!("{} {}", pair.mul, pair.add)
+}
+
+fn counts_text(counts: &Counts) -> String {
+    format!("{} {}", counts.mul, counts.add)
 }
