@@ -209,9 +209,25 @@ pub fn textbook(robot: &Robot, function: Function, formulation: Formulation) -> 
 pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Variant> {
     let arm = exact_arm(robot);
     let forms = Form::of(function);
-    let tuned = tune::tune(&arm, &forms, effort.gauge_rounds(), |chain, form| {
-        simplify::cost(&trace_chain(robot, function, chain, form, Folding::Semantic).0)
-    });
+    let merged = |chain: &Chain<Exact>, form: Form| {
+        trace_chain(robot, function, chain, form, Folding::Semantic).0
+    };
+    let mut tuned = tune::tune(
+        &arm,
+        tune::start(&arm),
+        &forms,
+        effort.gauge_rounds(),
+        |chain, form| simplify::cost(&merged(chain, form)),
+    );
+    if effort == Effort::Thorough {
+        // What the search makes of a gauge is not what the gauge costs at
+        // first: descend once more by the price after a short search.
+        let helpers = [angle_sums(robot)];
+        let price = |chain: &Chain<Exact>, form: Form| {
+            simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers))
+        };
+        tuned = tune::tune(&arm, tuned.gauge, &[tuned.form], 2, price);
+    }
     let chain = Chain::new(&arm, &tuned.gauge);
     forms
         .iter()

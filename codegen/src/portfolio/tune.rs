@@ -30,9 +30,21 @@ pub struct Tuned {
     pub price: u64,
 }
 
-/// Descends from base parameters; `price` must not depend on anything else.
+/// Where a descent starts: base parameters, or the parameters as they are if
+/// regrouping makes their constants too large.
+pub fn start(arm: &Arm<Exact>) -> Gauge<Exact> {
+    let base = Gauge::base(arm);
+    if is_large(&Chain::new(arm, &base)) {
+        plain(arm)
+    } else {
+        base
+    }
+}
+
+/// Descends from a gauge; `price` must not depend on anything else.
 pub fn tune(
     arm: &Arm<Exact>,
+    from: Gauge<Exact>,
     forms: &[Form],
     rounds: usize,
     price: impl Fn(&Chain<Exact>, Form) -> u64,
@@ -41,14 +53,11 @@ pub fn tune(
         arm,
         price,
         best: Tuned {
-            gauge: Gauge::base(arm),
+            gauge: from,
             form: forms[0],
             price: u64::MAX,
         },
     };
-    if is_large(&Chain::new(arm, &descent.best.gauge)) {
-        descent.best.gauge = plain(arm);
-    }
     descent.forms(forms);
     for _ in 0..rounds {
         let before = descent.best.price;

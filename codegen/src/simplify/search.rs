@@ -56,6 +56,22 @@ pub fn round(
     }
 }
 
+/// A round without annealing: what a program is about worth.
+pub fn glance(program: &Graph, helpers: &[Graph]) -> Graph {
+    let settings = Settings {
+        rounds: 1,
+        patience: 0,
+        pairs: 1_000,
+        substitutes: 1_000,
+        schedule: Schedule {
+            moves: 0,
+            hot: 0.2,
+            cold: 0.04,
+        },
+    };
+    round(program, &[], helpers, &settings, &mut Random::new(1))
+}
+
 /// Climbs, anneals and climbs again from a choice.
 pub fn extract(
     classes: &Classes,
