@@ -31,6 +31,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Say which coefficients of the dynamics vanish or repeat, and why
     Couplings(CouplingsArgs),
+    /// Measure errors where robots are not: huge angles and speeds, odd masses
+    Stress(StressArgs),
     /// Compare with Table 3: the paper's counts, the formulas', the generator's
     Table3(Table3Args),
 }
@@ -121,6 +123,26 @@ pub struct CouplingsArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `stress`.
+#[derive(Debug, clap::Args)]
+pub struct StressArgs {
+    /// The robot file
+    #[arg(required_unless_present = "growth")]
+    pub robot: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Write charts (SVG) to this folder
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// States of each category
+    #[arg(long, value_name = "N", default_value_t = 50)]
+    pub states: usize,
+    /// Measure chains of 1 to 60 joints instead of a robot
+    #[arg(long, conflicts_with = "robot")]
+    pub growth: bool,
 }
 
 /// Arguments of `table3`.

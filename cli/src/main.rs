@@ -6,6 +6,8 @@
 //! - [`verify`]: the exact proof and what rounding costs
 //! - [`couplings`]: which coefficients vanish or repeat, and why
 //! - [`table3`]: the paper's counts beside the formulas' and the generator's
+//! - [`stress`]: numerical stability at the extremes, and growth
+//! - [`plot`]: charts as SVG
 //! - [`input`]: robot and state files
 //! - [`output`]: standard output, files, tables
 //! - [`outcome`]: exit codes
@@ -18,6 +20,8 @@ mod generate;
 mod input;
 mod outcome;
 mod output;
+mod plot;
+mod stress;
 mod table3;
 mod verify;
 
@@ -33,6 +37,7 @@ fn main() -> ExitCode {
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Couplings(args) => couplings::run(&args),
+        Command::Stress(args) => stress::run(&args),
         Command::Table3(args) => table3::run(&args),
     };
     outcome::exit(outcome)

@@ -10,7 +10,9 @@ fn robot(name: &str) -> Robot {
     let folder = env!("CARGO_MANIFEST_DIR");
     let file = format!("{folder}/../generated/robots/{name}.toml");
     let source = std::fs::read_to_string(file).unwrap();
-    read::parse(&source, &read::Options::default()).unwrap().robot
+    read::parse(&source, &read::Options::default())
+        .unwrap()
+        .robot
 }
 
 fn few() -> Options {
@@ -43,7 +45,10 @@ fn every_robot_passes() {
                 println!("{name} {row:?}");
             }
         }
-        assert!(rows.iter().all(|row| row.verdict != Verdict::Fail), "{name}");
+        assert!(
+            rows.iter().all(|row| row.verdict != Verdict::Fail),
+            "{name}"
+        );
     }
 }
 

@@ -1,0 +1,189 @@
+//! `dalembert stress`: the matrix of extremes on the user's robot.
+//!
+//! - this file: the table and the charts
+//! - [`growth`]: chains of 1 to 60 joints
+
+mod growth;
+
+use std::fs;
+use std::path::Path;
+
+use dalembert_codegen::generate::Request;
+use dalembert_codegen::stress::category::{Criterion, NORMWISE, PER_JOINT};
+use dalembert_codegen::stress::report::{self, Options, Row, Verdict};
+use dalembert_codegen::stress::sweep::{self, Axis, Curve};
+use dalembert_model::robot::Robot;
+use serde_json::{Value, json};
+
+use crate::args::StressArgs;
+use crate::outcome::{Failure, Outcome};
+use crate::plot::Chart;
+use crate::{input, output};
+
+/// Runs the subcommand.
+pub fn run(args: &StressArgs) -> Outcome {
+    if let Some(folder) = &args.output {
+        make(folder)?;
+    }
+    let Some(file) = &args.robot else {
+        return growth::run(args);
+    };
+    let robot = input::robot(file)?;
+    let options = Options {
+        states: args.states.max(1),
+        request: Request::default(),
+        ..Options::default()
+    };
+    let rows = report::run(&robot, &options, |name| output::note(&format!("… {name}")))?;
+    if args.json {
+        output::print_json(&json(&robot, &rows))?;
+    } else {
+        output::print(&text(&robot, &rows))?;
+    }
+    if let Some(folder) = &args.output {
+        output::note("… charts");
+        for (name, chart) in charts(&robot, &sweep::run(&robot, &options)?) {
+            output::write_file(&folder.join(name), &chart.svg())?;
+        }
+    }
+    match rows
+        .iter()
+        .filter(|row| row.verdict == Verdict::Fail)
+        .count()
+    {
+        0 => Ok(()),
+        failed => Err(Failure::Check(format!(
+            "error: {failed} of {} checks failed",
+            rows.len()
+        ))),
+    }
+}
+
+fn make(folder: &Path) -> Outcome {
+    fs::create_dir_all(folder).map_err(|error| {
+        let folder = folder.display();
+        Failure::Input(format!("error: `{folder}` cannot be made: {error}"))
+    })
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "ok",
+        Verdict::Fail => "FAILED",
+        Verdict::OutOfRange => "out of range",
+    }
+}
+
+/// An error that no criterion asks for stands in brackets.
+fn cell(error: f64, asked: bool) -> String {
+    if asked {
+        format!("{error:.1}")
+    } else {
+        format!("({error:.1})")
+    }
+}
+
+fn text(robot: &Robot, rows: &[Row]) -> String {
+    let mut text = format!("robot {}, input {}\n\n", robot.name, robot.short_hash());
+    text +=
+        &format!("worst error of τ in u; bounds: {NORMWISE} normwise, {PER_JOINT} of a joint\n");
+    let head = [
+        "category", "scalar", "normwise", "joint", "no.", "cond D", "scaled", "code", "",
+    ];
+    let mut table = vec![head.map(String::from).to_vec()];
+    for row in rows {
+        let singular = if row.condition.singular {
+            ", D singular"
+        } else {
+            ""
+        };
+        table.push(vec![
+            row.category.to_owned(),
+            row.scalar.to_string(),
+            cell(row.worst.normwise, row.criterion != Criterion::PerJoint),
+            cell(row.worst.per_joint, row.criterion != Criterion::Normwise),
+            (row.worst.joint + 1).to_string(),
+            format!("{:.1e}", row.condition.raw),
+            format!("{:.1e}", row.condition.scaled),
+            row.subject.to_string(),
+            format!("{}{singular}", word(row.verdict)),
+        ]);
+    }
+    text += &output::table(&table, 2);
+    for row in rows {
+        let place = format!("{} in {}, {}", row.category, row.scalar, row.subject);
+        match row.verdict {
+            Verdict::Pass => {}
+            Verdict::Fail => {
+                let state = &row.state;
+                text += &format!(
+                    "\nFAILED: {place}, at\n  q   {:?}\n  qd  {:?}\n  qdd {:?}\n",
+                    state.q, state.qd, state.qdd
+                );
+            }
+            Verdict::OutOfRange => {
+                let reason = row.reason.as_deref().unwrap_or_default();
+                text += &format!("\nout of range: {place}: {reason}\n");
+            }
+        }
+    }
+    if rows.iter().any(|row| row.condition.singular) {
+        text += "\nwarning: where D is singular to rounding (a pivot below n·u·max D_ii), \
+                 forward dynamics cannot be solved; τ is not affected\n";
+    }
+    text
+}
+
+fn json(robot: &Robot, rows: &[Row]) -> Value {
+    let rows_json = rows.iter().map(|row| {
+        json!({
+            "category": row.category,
+            "scalar": row.scalar.name(),
+            "code": row.subject.to_string(),
+            "criterion": match row.criterion {
+                Criterion::Both => "normwise and per joint",
+                Criterion::Normwise => "normwise",
+                Criterion::PerJoint => "per joint",
+            },
+            // What is infinite has no JSON: null.
+            "normwise_in_u": row.worst.normwise,
+            "per_joint_in_u": row.worst.per_joint,
+            "joint": row.worst.joint + 1,
+            "state": { "q": row.state.q, "qd": row.state.qd, "qdd": row.state.qdd },
+            "condition": row.condition.raw,
+            "condition_scaled": row.condition.scaled,
+            "singular": row.condition.singular,
+            "verdict": word(row.verdict).to_lowercase(),
+            "reason": row.reason,
+        })
+    });
+    json!({
+        "robot": robot.name,
+        "input": robot.short_hash(),
+        "bounds_in_u": { "normwise": NORMWISE, "per_joint": PER_JOINT },
+        "rows": rows_json.collect::<Vec<_>>(),
+        "passed": rows.iter().all(|row| row.verdict != Verdict::Fail),
+    })
+}
+
+fn charts(robot: &Robot, curves: &[Curve]) -> Vec<(&'static str, Chart)> {
+    let chart = |axis: Axis| {
+        let (file, x) = match axis {
+            Axis::Angle => ("angles.svg", "bound of |q|, rad"),
+            Axis::Velocity => ("velocities.svg", "|q̇| over its limit"),
+            Axis::MassRatio => ("mass_ratio.svg", "masses of the last link over the first's"),
+        };
+        let curves = curves.iter().filter(|curve| curve.axis == axis);
+        let chart = Chart {
+            title: format!("{}: worst error of τ", robot.name),
+            x: x.into(),
+            y: "normwise error, u".into(),
+            bound: Some((NORMWISE, "bound".into())),
+            curves: curves
+                .map(|c| (format!("{} {}", c.subject, c.scalar), c.points.clone()))
+                .collect(),
+        };
+        (file, chart)
+    };
+    Axis::ALL.map(chart).to_vec()
+}
