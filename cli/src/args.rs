@@ -52,6 +52,9 @@ pub struct Choice {
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
+    /// Search anew even if a plan is kept beside the robot file
+    #[arg(long)]
+    pub no_plan: bool,
 }
 
 impl Choice {
@@ -83,6 +86,10 @@ pub struct GenerateArgs {
     /// Write nothing: compare with FILE and exit with 1 if it differs
     #[arg(long, requires = "output")]
     pub check: bool,
+    /// Search anew and keep the programs in a plan beside the robot file:
+    /// every later run, macro and build script replays them
+    #[arg(long, conflicts_with = "check")]
+    pub save_plan: bool,
     #[command(flatten)]
     pub choice: Choice,
 }

@@ -12,7 +12,7 @@ use crate::{generate as report, input, output};
 /// Runs the subcommand.
 pub fn run(args: &CountArgs) -> Outcome {
     let robot = input::robot(&args.robot)?;
-    let mut request = args.choice.request();
+    let mut request = input::request(&args.robot, &args.choice)?;
     // Both scalars run the same program: one is enough to count it, and a
     // constant that f32 cannot hold is no reason not to.
     request.scalars = vec![args.choice.scalar.unwrap_or(ScalarType::F64)];

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use dalembert_codegen::generate::{Generated, generate};
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::plan::{self, Entry, Plan};
 use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
@@ -12,8 +13,13 @@ use crate::{input, output};
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let robot = input::robot(&args.robot)?;
-    let generated = generate(&robot, &args.choice.request())?;
+    let mut request = input::request(&args.robot, &args.choice)?;
+    let kept = request.plan.take_if(|_| args.save_plan);
+    let generated = generate(&robot, &request)?;
     output::note(&report(&robot, &generated));
+    if args.save_plan {
+        save_plan(args, &robot, &request, &generated, kept)?;
+    }
     let Some(file) = &args.output else {
         return output::print(&generated.text);
     };
@@ -38,6 +44,37 @@ pub fn run(args: &GenerateArgs) -> Outcome {
             "\nerror: {name} cannot be compared: {error}"
         ))),
     }
+}
+
+/// Keeps the programs; those of other requests for the same robot stay.
+fn save_plan(
+    args: &GenerateArgs,
+    robot: &Robot,
+    request: &Request,
+    generated: &Generated,
+    kept: Option<Plan>,
+) -> Result<(), Failure> {
+    let input = plan::input_hash(robot);
+    let mut plan = kept.filter(|plan| plan.input == input).unwrap_or(Plan {
+        robot: robot.name.clone(),
+        input,
+        entries: Vec::new(),
+    });
+    for function in &generated.functions {
+        for &scalar in &request.scalars {
+            plan.insert(Entry {
+                start: request.start,
+                scalar,
+                source: function.source,
+                stages: function.stages.clone(),
+                program: function.program.clone(),
+            });
+        }
+    }
+    let path = plan::file::path(&args.robot);
+    output::write_file(&path, &plan.write())?;
+    output::note(&format!("\nkept the programs in {}", path.display()));
+    Ok(())
 }
 
 /// What a person wants to know about the code.

@@ -6,12 +6,15 @@ use std::io::Read;
 use std::path::Path;
 
 use dalembert_codegen::function::Quantity;
+use dalembert_codegen::generate::Request;
+use dalembert_codegen::plan;
 use dalembert_codegen::verify::floating::GivenState;
 use dalembert_codegen::verify::states::JointState;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
 
+use crate::args::Choice;
 use crate::outcome::Failure;
 use crate::output;
 
@@ -33,6 +36,17 @@ pub fn robot(path: &Path) -> Result<Robot, Failure> {
         }
         Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
     }
+}
+
+/// The request of a choice, with the plan beside the robot file unless the
+/// choice does without.
+pub fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
+    let mut request = choice.request();
+    if !choice.no_plan {
+        request.plan = plan::file::beside(robot_file)
+            .map_err(|message| Failure::Input(format!("error: {message}")))?;
+    }
+    Ok(request)
 }
 
 /// Reads the states of a golden file for a robot of n joints.

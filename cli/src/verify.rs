@@ -34,7 +34,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
         None => Vec::new(),
     };
     // What cannot be proved is not generated: this ends with the reason.
-    let generated = generate(&robot, &args.choice.request())?;
+    let generated = generate(&robot, &input::request(&args.robot, &args.choice)?)?;
     let runtime = Runtime::new(&robot);
     let states = seeded(&robot, STATES, SEED);
     let mut checks = Vec::new();

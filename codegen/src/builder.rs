@@ -33,6 +33,7 @@ use crate::clauses::RobotFile;
 use crate::emit::{MathPath, ScalarType};
 use crate::function::Function;
 use crate::generate::{Request, Start, generate};
+use crate::plan;
 use crate::simplify::Effort;
 use dalembert_model::robot::Severity;
 
@@ -128,8 +129,14 @@ impl Generator {
         let robot = self.robot.as_deref().ok_or(BuildError::NoRobot)?;
         tell(&format!("rerun-if-changed={}", robot.display()));
         let file = RobotFile::read(robot).map_err(BuildError::Robot)?;
+        let plan = plan::file::path(robot);
+        if plan.is_file() {
+            tell(&format!("rerun-if-changed={}", plan.display()));
+        }
+        let mut request = self.request.clone();
+        request.plan = file.plan.clone();
         let path = path.as_ref();
-        let key = output::key(&file.source, &self.request);
+        let key = output::key(&file.source, &request);
         if output::is_current(path, &key) {
             return Ok(());
         }
@@ -139,7 +146,7 @@ impl Generator {
                 tell(&format!("warning={place}: {}", note.message));
             }
         }
-        let generated = generate(&file.robot, &self.request)
+        let generated = generate(&file.robot, &request)
             .map_err(|error| BuildError::Generate(robot.to_owned(), error))?;
         for warning in &generated.warnings {
             tell(&format!("warning={}: {warning}", robot.display()));

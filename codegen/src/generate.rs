@@ -11,6 +11,7 @@ use crate::emit::module::{self, ModuleOptions};
 use crate::emit::{MathPath, ScalarType};
 use crate::function::{Function, Quantity};
 use crate::graph::{Counts, Graph};
+use crate::plan::{self, Entry, Plan};
 use crate::portfolio::{self, Source, Variant};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{Effort, Stage, simplify};
@@ -31,6 +32,14 @@ pub enum Start {
 impl Start {
     /// The choices of the command line and the macro.
     pub const NAMES: [&'static str; 4] = ["auto", "lagrange_euler", "dalembert", "newton_euler"];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Start::Auto => "auto",
+            Start::Only(formulation) => Source::Textbook(formulation).name(),
+        }
+    }
 
     /// The choice of a name.
     pub fn from_name(name: &str) -> Option<Start> {
@@ -70,8 +79,11 @@ pub struct Request {
     pub scalars: Vec<ScalarType>,
     /// The formulation to start from.
     pub start: Start,
-    /// How much work the simplifier may do.
+    /// How much work the simplifier may do for functions that are not in the
+    /// plan.
     pub effort: Effort,
+    /// Programs to replay instead of searching.
+    pub plan: Option<Plan>,
     /// Where emitted code finds sine and cosine.
     pub math: MathPath,
     /// The module's name; the robot's if `None`. The f32 module of a pair
@@ -86,6 +98,7 @@ impl Default for Request {
             scalars: ScalarType::ALL.to_vec(),
             start: Start::Auto,
             effort: Effort::Quick,
+            plan: None,
             math: MathPath::default(),
             module: None,
         }
@@ -127,6 +140,11 @@ pub struct Generated {
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,
+    /// The plan is for another robot.
+    StalePlan {
+        /// The robot that the plan names.
+        robot: String,
+    },
     /// A constant is beyond the scalar's range, or rounds to zero.
     Constant {
         /// The function that needs it.
@@ -154,6 +172,11 @@ impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
+            GenerateError::StalePlan { robot } => write!(
+                f,
+                "the plan of `{robot}` no longer fits the robot: its parameters changed; \
+                 make it anew with `dalembert generate --effort thorough --save-plan`, or delete it"
+            ),
             GenerateError::Constant {
                 function,
                 scalar,
@@ -186,6 +209,12 @@ pub const MOST_OUTPUTS: usize = 20_000;
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::Empty);
+    }
+    if let Some(plan) = &request.plan
+        && plan.input != plan::input_hash(robot)
+    {
+        let robot = plan.robot.clone();
+        return Err(GenerateError::StalePlan { robot });
     }
     let mut functions = Vec::new();
     for function in Function::ALL {
@@ -232,6 +261,34 @@ fn one(
     if outputs > MOST_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
+    let (source, stages, program) = match replay(function, request) {
+        Some(entry) => (entry.source, entry.stages.clone(), entry.program.clone()),
+        None => found(robot, function, request)?,
+    };
+    let proof = prove(robot, &program).map_err(|d| GenerateError::Disproved(function, d))?;
+    Ok(GeneratedFunction {
+        function,
+        source,
+        counts: program.counts(),
+        program,
+        stages,
+        proof,
+    })
+}
+
+/// The plan's program, the first requested scalar's that it has.
+fn replay(function: Function, request: &Request) -> Option<&Entry> {
+    let plan = request.plan.as_ref()?;
+    let mut scalars = request.scalars.iter();
+    scalars.find_map(|&scalar| plan.find(function, request.start, scalar))
+}
+
+/// Searches for a program.
+fn found(
+    robot: &Robot,
+    function: Function,
+    request: &Request,
+) -> Result<(Source, Vec<Stage>, Program), GenerateError> {
     let variants = request.start.variants(robot, function, request.effort);
     let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
     let helpers = match request.start {
@@ -246,21 +303,12 @@ fn one(
         counts: variants[simplified.seed].traced,
     }];
     stages.extend(simplified.stages);
-    let program = Program::new(function, n, &simplified.graph);
-    let proof = prove(robot, &program).map_err(|d| GenerateError::Disproved(function, d))?;
-    let counts = program.counts();
+    let program = Program::new(function, robot.joints.len(), &simplified.graph);
     stages.push(Stage {
         name: "final",
-        counts,
+        counts: program.counts(),
     });
-    Ok(GeneratedFunction {
-        function,
-        source: variants[simplified.seed].source,
-        counts,
-        program,
-        stages,
-        proof,
-    })
+    Ok((variants[simplified.seed].source, stages, program))
 }
 
 /// A constant that becomes infinite or zero is an error, a subnormal one a

@@ -6,6 +6,7 @@
 //! - [`portfolio`]: the formulations to start from, tuned to the robot
 //! - [`graph`]: the graph with exact constants and fingerprints
 //! - [`simplify`]: fewer operations, same function
+//! - [`plan`]: programs kept from a long search
 //! - [`schedule`]: straight-line code
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
@@ -24,6 +25,7 @@ pub mod emit;
 pub mod function;
 pub mod generate;
 pub mod graph;
+pub mod plan;
 pub mod portfolio;
 pub mod schedule;
 pub mod simplify;

@@ -13,6 +13,7 @@ use super::invocation::{self, Invocation, RobotSource};
 use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::emit::MathPath;
 use crate::generate::{GenerateError, Generated, Request, generate};
+use crate::plan::{self, Plan};
 
 /// The modules that an invocation asks for, or everything that is wrong with
 /// it next to modules whose functions have no bodies.
@@ -25,7 +26,9 @@ pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
     };
     let source = source(&invocation, base, &mut errors);
     let generated = match &source.robot {
-        Some(robot) if errors.is_empty() => functions(robot, &invocation, &mut errors),
+        Some(robot) if errors.is_empty() => {
+            functions(robot, source.plan.clone(), &invocation, &mut errors)
+        }
         _ => None,
     };
     let (text, notes) = match generated {
@@ -50,7 +53,8 @@ struct Source {
     robot: Option<Robot>,
     joints: Option<usize>,
     notes: Vec<String>,
-    /// Makes an edit of the robot file expand the macro again.
+    plan: Option<Plan>,
+    /// Makes an edit of the robot file, or its plan, expand the macro again.
     watch: TokenStream,
 }
 
@@ -64,6 +68,7 @@ fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
                 robot: read.robot,
                 joints: in_range.then_some(read.joints),
                 notes: read.notes,
+                plan: None,
                 watch: TokenStream::new(),
             }
         }
@@ -73,19 +78,21 @@ fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
 fn file(literal: &LitStr, base: &Path, errors: &mut Errors) -> Source {
     let shown = literal.value();
     let path = base.join(&shown);
-    let watch = match path.to_str() {
-        Some(path) if path_exists(path) => {
-            quote!(
-                const _: &[::core::primitive::u8] = ::core::include_bytes!(#path);
-            )
-        }
-        _ => TokenStream::new(),
-    };
+    // Both the robot file and its plan, if it has one.
+    let watch = [path.clone(), plan::file::path(&path)];
+    let watch = watch.iter().filter_map(|path| path.to_str());
+    let watch = watch.filter(|path| path_exists(path)).map(|path| {
+        quote!(
+            const _: &[::core::primitive::u8] = ::core::include_bytes!(#path);
+        )
+    });
+    let watch: TokenStream = watch.collect();
     match RobotFile::read_as(&path, &shown) {
         Ok(file) => Source {
             joints: Some(file.robot.joints.len()),
             notes: notes(&file, &shown),
             robot: Some(file.robot),
+            plan: file.plan,
             watch,
         },
         Err(error) => {
@@ -123,19 +130,25 @@ fn notes(file: &RobotFile, shown: &str) -> Vec<String> {
         .collect()
 }
 
-fn functions(robot: &Robot, invocation: &Invocation, errors: &mut Errors) -> Option<Generated> {
+fn functions(
+    robot: &Robot,
+    plan: Option<Plan>,
+    invocation: &Invocation,
+    errors: &mut Errors,
+) -> Option<Generated> {
     let request = Request {
         functions: invocation.outputs.iter().map(|(f, _)| *f).collect(),
         scalars: invocation.scalars.clone(),
         start: invocation.start,
         effort: invocation.effort,
+        plan,
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
     };
     generate(robot, &request)
         .map_err(|error| {
             let function = match &error {
-                GenerateError::Empty => None,
+                GenerateError::Empty | GenerateError::StalePlan { .. } => None,
                 GenerateError::Constant { function, .. }
                 | GenerateError::TooLarge { function, .. }
                 | GenerateError::Disproved(function, _)

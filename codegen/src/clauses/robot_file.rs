@@ -8,6 +8,8 @@ use std::path::Path;
 use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
 use dalembert_model::robot::Robot;
 
+use crate::plan::{self, Plan};
+
 /// A robot file that was read.
 #[derive(Clone, Debug)]
 pub struct RobotFile {
@@ -17,6 +19,8 @@ pub struct RobotFile {
     pub notes: Vec<Diagnostic>,
     /// The text, which the notes' spans are about.
     pub source: String,
+    /// The plan beside the file, if there is one.
+    pub plan: Option<Plan>,
 }
 
 impl RobotFile {
@@ -41,11 +45,13 @@ impl RobotFile {
             },
         })?;
         let source = String::from_utf8_lossy(&bytes).into_owned();
+        let plan = plan::file::beside(path).map_err(RobotFileError::Plan)?;
         match read::parse_bytes(&bytes, &Options::default()) {
             Ok(reading) => Ok(RobotFile {
                 robot: reading.robot,
                 notes: reading.notes,
                 source,
+                plan,
             }),
             Err(diagnostics) => Err(RobotFileError::Wrong {
                 shown: shown.to_owned(),
@@ -83,6 +89,8 @@ pub enum RobotFileError {
         /// What the system says.
         error: String,
     },
+    /// The plan beside it cannot be read; the message names the file.
+    Plan(String),
     /// It is not a robot.
     Wrong {
         /// The path as messages show it.
@@ -105,6 +113,7 @@ impl RobotFileError {
                 };
                 vec![format!("there is no file `{shown}`{help}")]
             }
+            RobotFileError::Plan(message) => vec![message.clone()],
             RobotFileError::Unreadable { shown, error } => {
                 vec![format!("cannot read `{shown}`: {error}")]
             }

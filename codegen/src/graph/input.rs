@@ -62,6 +62,33 @@ impl fmt::Display for AngleSum {
     }
 }
 
+impl core::str::FromStr for AngleSum {
+    type Err = ();
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let mut sum: Option<AngleSum> = None;
+        let mut rest = text;
+        while !rest.is_empty() {
+            let (negative, digits) = match (&sum, rest.as_bytes()[0]) {
+                (None, _) => (false, rest),
+                (Some(_), b'p') => (false, &rest[1..]),
+                (Some(_), b'm') => (true, &rest[1..]),
+                _ => return Err(()),
+            };
+            let end = digits.find(['p', 'm']).unwrap_or(digits.len());
+            let joint: usize = digits[..end].parse().map_err(|_| ())?;
+            let joint = joint.checked_sub(1).filter(|&joint| joint < 64).ok_or(())?;
+            sum = Some(match sum {
+                None => AngleSum::joint(joint),
+                Some(sum) => sum.with(joint, negative).ok_or(())?,
+            });
+            rest = &digits[end..];
+        }
+        sum.ok_or(())
+    }
+}
+
 /// An input of a program. Joints are zero-based.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Input {

@@ -184,6 +184,20 @@ impl Source {
     }
 }
 
+impl Source {
+    /// The source of a name.
+    pub fn from_name(name: &str) -> Option<Source> {
+        [
+            Source::Regrouped,
+            Source::Textbook(Formulation::LagrangeEuler),
+            Source::Textbook(Formulation::Dalembert),
+            Source::Textbook(Formulation::NewtonEulerLink),
+        ]
+        .into_iter()
+        .find(|source| source.name() == name)
+    }
+}
+
 /// One graph of a function to start from.
 #[derive(Clone, Debug)]
 pub struct Variant {

@@ -9,7 +9,7 @@ use crate::function::Function;
 use crate::graph::{AngleSum, Counts, Edge, Graph, Input, Node, NodeId};
 
 /// Straight-line code with exact constants: what is proved and emitted.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// What it computes.
     pub function: Function,
@@ -92,12 +92,10 @@ impl Program {
     pub fn new(function: Function, joints: usize, graph: &Graph) -> Program {
         let order = evaluation_order(graph);
         let mut place: Vec<Option<usize>> = vec![None; graph.nodes.len()];
-        let mut trig: BTreeMap<AngleSum, Trig> = BTreeMap::new();
         let mut steps = Vec::new();
         for id in order {
             match graph.node(id) {
-                Node::Input(input) => note_trig(&mut trig, input),
-                Node::Constant(_) => {}
+                Node::Input(_) | Node::Constant(_) => {}
                 Node::Sum(a, b) => steps.push(step(graph, &place, Operation::Add, a, b)),
                 Node::Difference(a, b) => steps.push(step(graph, &place, Operation::Sub, a, b)),
                 Node::Product(a, b) => steps.push(step(graph, &place, Operation::Mul, a, b)),
@@ -111,13 +109,27 @@ impl Program {
             .iter()
             .map(|&edge| output(graph, &place, edge))
             .collect();
-        Program {
+        let mut program = Program {
             function,
             joints,
-            trig: trig.into_values().collect(),
+            trig: Vec::new(),
             steps,
             outputs,
+        };
+        program.collect_trig();
+        program
+    }
+
+    /// Lists the sines and cosines that steps and outputs read.
+    pub(crate) fn collect_trig(&mut self) {
+        let mut trig: BTreeMap<AngleSum, Trig> = BTreeMap::new();
+        let operands = self.steps.iter().flat_map(|step| [&step.left, &step.right]);
+        for operand in operands.chain(self.outputs.iter().map(|output| &output.value)) {
+            if let Operand::Input(input) = operand {
+                note_trig(&mut trig, *input);
+            }
         }
+        self.trig = trig.into_values().collect();
     }
 
     /// What it costs.

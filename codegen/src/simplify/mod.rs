@@ -35,6 +35,16 @@ pub struct Stage {
 }
 
 impl Stage {
+    /// Every step's name, in order.
+    pub const NAMES: [&'static str; 6] = [
+        "traced",
+        "folded",
+        "fingerprints",
+        "e-graph",
+        "search",
+        "final",
+    ];
+
     fn of(name: &'static str, graph: &Graph) -> Self {
         Stage {
             name,

@@ -156,7 +156,7 @@ impl Exact {
         }
     }
 
-    fn from_terms(mut terms: BTreeMap<Monomial, Rational>) -> Exact {
+    pub(super) fn from_terms(mut terms: BTreeMap<Monomial, Rational>) -> Exact {
         terms.retain(|_, coefficient| !coefficient.is_zero());
         if terms.is_empty() {
             return Exact::zero();

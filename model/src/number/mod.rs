@@ -9,11 +9,13 @@ mod angle;
 mod exact;
 pub mod parse;
 mod round;
+mod text;
 mod trig;
 
 pub use angle::{Angle, Snap, Snapped};
 pub use exact::Exact;
 pub use round::Rounded;
+pub use text::NotExact;
 
 /// An exact rational number.
 pub type Rational = num_rational::BigRational;

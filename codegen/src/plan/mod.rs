@@ -1,0 +1,77 @@
+//! Plans: final programs as text, beside the robot file they belong to.
+//!
+//! A long search is run once; its programs, with exact constants, are kept
+//! in `<robot>.plan` and replayed: read, proved again, printed. A plan says
+//! which robot it is for by the hash of that robot, so an edited robot does
+//! not get the program of another.
+//!
+//! - this file: [`Plan`]: its entries and how one is found
+//! - [`file`]: where it is kept
+//! - [`parse`], [`write`](Plan::write): the text
+
+pub mod file;
+pub mod parse;
+mod write;
+
+pub use parse::PlanError;
+
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::generate::Start;
+use crate::portfolio::Source;
+use crate::schedule::Program;
+use crate::simplify::Stage;
+
+/// The programs kept for a robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The robot's name, for readers.
+    pub robot: String,
+    /// The robot's [`input_hash`](dalembert_model::robot::Robot::input_hash)
+    /// in hexadecimal.
+    pub input: String,
+    /// One entry a function, formulation and scalar.
+    pub entries: Vec<Entry>,
+}
+
+/// One kept program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The formulation that was asked for.
+    pub start: Start,
+    /// The scalar that it was made for.
+    pub scalar: ScalarType,
+    /// Where the search started.
+    pub source: Source,
+    /// Counts after each step of the search.
+    pub stages: Vec<Stage>,
+    /// The program.
+    pub program: Program,
+}
+
+impl Entry {
+    fn key(&self) -> (Function, &'static str, ScalarType) {
+        (self.program.function, self.start.name(), self.scalar)
+    }
+}
+
+impl Plan {
+    /// The entry for a function, formulation and scalar.
+    pub fn find(&self, function: Function, start: Start, scalar: ScalarType) -> Option<&Entry> {
+        let key = (function, start.name(), scalar);
+        self.entries.iter().find(|entry| entry.key() == key)
+    }
+
+    /// Puts an entry in its place, instead of the one with the same key.
+    pub fn insert(&mut self, entry: Entry) {
+        self.entries.retain(|other| other.key() != entry.key());
+        self.entries.push(entry);
+        self.entries.sort_by_key(Entry::key);
+    }
+}
+
+/// The hash of a robot as plans write it.
+pub fn input_hash(robot: &dalembert_model::robot::Robot) -> String {
+    let hash = robot.input_hash();
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,241 @@
+//! Reads a plan. Whatever the text says, the program is proved before use;
+//! reading only makes sure that it is one.
+
+use std::fmt;
+
+use dalembert_model::number::Exact;
+use dalembert_model::robot::Robot;
+
+use super::{Entry, Plan};
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::generate::Start;
+use crate::graph::{AngleSum, Counts, Input};
+use crate::portfolio::Source;
+use crate::schedule::{Operand, Operation, Output, Program, Step};
+use crate::simplify::Stage;
+
+/// What is wrong with a plan's text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanError {
+    /// One-based line.
+    pub line: usize,
+    /// What is wrong and what was expected.
+    pub message: String,
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.message)
+    }
+}
+
+impl std::error::Error for PlanError {}
+
+/// The longest plan that is read.
+pub const MOST_BYTES: usize = 64 << 20;
+
+impl Plan {
+    /// Reads a plan.
+    ///
+    /// # Errors
+    /// The first line that is not as [`Plan::write`] writes it.
+    pub fn parse(text: &str) -> Result<Plan, PlanError> {
+        if text.len() > MOST_BYTES {
+            let message = format!("the plan is longer than {MOST_BYTES} bytes");
+            return Err(PlanError { line: 1, message });
+        }
+        let mut reader = Reader::default();
+        for (index, line) in text.lines().enumerate() {
+            reader.line(line.trim()).map_err(|message| PlanError {
+                line: index + 1,
+                message,
+            })?;
+        }
+        let end = text.lines().count().max(1);
+        reader
+            .finish()
+            .map_err(|message| PlanError { line: end, message })
+    }
+}
+
+#[derive(Default)]
+struct Reader {
+    versioned: bool,
+    robot: Option<String>,
+    input: Option<String>,
+    entries: Vec<Entry>,
+    /// The program that is being read: not returned yet.
+    open: Option<Entry>,
+}
+
+impl Reader {
+    fn line(&mut self, line: &str) -> Result<(), String> {
+        if line.is_empty() || line.starts_with('#') && !line.contains(' ') {
+            return Ok(());
+        }
+        if line.starts_with("# ") {
+            return Ok(());
+        }
+        let words: Vec<&str> = line.split(' ').collect();
+        match (words[0], &mut self.open) {
+            ("plan", None) => {
+                if words[1..] != ["1"] {
+                    return Err("this version reads plans of version 1".into());
+                }
+                self.versioned = true;
+            }
+            _ if !self.versioned => return Err("expected `plan 1`".into()),
+            ("robot", None) => self.robot = words.get(1).map(|&w| w.to_owned()),
+            ("input", None) => self.input = words.get(1).map(|&w| w.to_owned()),
+            ("program", None) => self.open = Some(program(&words[1..])?),
+            ("stage", Some(entry)) => entry.stages.push(stage(&words[1..])?),
+            ("return", Some(entry)) => {
+                for word in &words[1..] {
+                    let (negative, word) = match word.strip_prefix('~') {
+                        Some(rest) => (true, rest),
+                        None => (false, *word),
+                    };
+                    let value = operand(word, &entry.program)?;
+                    entry.program.outputs.push(Output { negative, value });
+                }
+                let program = &mut entry.program;
+                let expected = program.function.outputs(program.joints);
+                if program.outputs.len() != expected {
+                    let found = program.outputs.len();
+                    return Err(format!("expected {expected} results, found {found}"));
+                }
+                program.collect_trig();
+                self.entries.extend(self.open.take());
+            }
+            (_, Some(entry)) => {
+                let step = step(&words, &entry.program)?;
+                entry.program.steps.push(step);
+            }
+            (word, None) => return Err(format!("expected `program`, found `{word}`")),
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Plan, String> {
+        if self.open.is_some() {
+            return Err("the last program has no `return`".into());
+        }
+        Ok(Plan {
+            robot: self.robot.ok_or("there is no line `robot`")?,
+            input: self.input.ok_or("there is no line `input`")?,
+            entries: self.entries,
+        })
+    }
+}
+
+fn program(words: &[&str]) -> Result<Entry, String> {
+    let &[function, start, scalar, source, joints] = words else {
+        return Err("expected a function, formulation, scalar, source and n".into());
+    };
+    let unknown = |what: &str, word: &str| format!("`{word}` is no {what}");
+    let joints = joints
+        .parse()
+        .ok()
+        .filter(|n| (1..=Robot::MAX_JOINTS).contains(n))
+        .ok_or_else(|| unknown("number of joints", joints))?;
+    Ok(Entry {
+        start: Start::from_name(start).ok_or_else(|| unknown("formulation", start))?,
+        scalar: ScalarType::from_name(scalar).ok_or_else(|| unknown("scalar", scalar))?,
+        source: Source::from_name(source).ok_or_else(|| unknown("source", source))?,
+        stages: Vec::new(),
+        program: Program {
+            function: Function::from_name(function).ok_or_else(|| unknown("function", function))?,
+            joints,
+            trig: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        },
+    })
+}
+
+fn stage(words: &[&str]) -> Result<Stage, String> {
+    let expected = || "expected a stage and four counts".to_owned();
+    let (name, counts) = words.split_first().ok_or_else(expected)?;
+    let counts: Vec<usize> = counts.iter().filter_map(|word| word.parse().ok()).collect();
+    let &[mul, add, div, sincos] = counts.as_slice() else {
+        return Err(expected());
+    };
+    let name = Stage::NAMES
+        .into_iter()
+        .find(|known| known == name)
+        .ok_or_else(|| format!("`{name}` is no stage"))?;
+    Ok(Stage {
+        name,
+        counts: Counts {
+            mul,
+            add,
+            div,
+            sincos,
+        },
+    })
+}
+
+fn step(words: &[&str], program: &Program) -> Result<Step, String> {
+    let &[left, symbol, right] = words else {
+        return Err("expected an operation such as `t1 + s2`".into());
+    };
+    let operation = [Operation::Add, Operation::Sub, Operation::Mul]
+        .into_iter()
+        .find(|op| symbol.chars().eq([op.symbol()]))
+        .ok_or_else(|| format!("`{symbol}` is no operation"))?;
+    Ok(Step {
+        operation,
+        left: operand(left, program)?,
+        right: operand(right, program)?,
+    })
+}
+
+fn operand(word: &str, program: &Program) -> Result<Operand, String> {
+    if let Some(constant) = word.strip_prefix('#') {
+        return constant
+            .parse::<Exact>()
+            .map(Operand::Constant)
+            .map_err(|error| error.to_string());
+    }
+    if let Some(index) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
+        return match index {
+            1.. if index <= program.steps.len() => Ok(Operand::Step(index - 1)),
+            _ => Err(format!("`{word}` is not computed yet")),
+        };
+    }
+    input(word)
+        .filter(|input| input_fits(*input, program.joints))
+        .map(Operand::Input)
+        .ok_or_else(|| format!("`{word}` is neither an input, a step nor a constant"))
+}
+
+fn input(word: &str) -> Option<Input> {
+    for (array, input) in [
+        ("qdd", Input::Acceleration as fn(usize) -> Input),
+        ("qd", Input::Velocity),
+        ("q", Input::Position),
+    ] {
+        let index = word
+            .strip_prefix(array)
+            .and_then(|rest| rest.strip_prefix('['));
+        if let Some(index) = index {
+            return Some(input(index.strip_suffix(']')?.parse().ok()?));
+        }
+    }
+    let angle = |digits: &str| digits.parse::<AngleSum>().ok();
+    match word.split_at_checked(1)? {
+        ("s", digits) => angle(digits).map(Input::Sin),
+        ("c", digits) => angle(digits).map(Input::Cos),
+        _ => None,
+    }
+}
+
+fn input_fits(input: Input, joints: usize) -> bool {
+    match input {
+        Input::Sin(angle) | Input::Cos(angle) => angle.terms().all(|(joint, _)| joint < joints),
+        Input::Position(joint) | Input::Velocity(joint) | Input::Acceleration(joint) => {
+            joint < joints
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! The text of a plan.
+
+use std::fmt::Write;
+
+use super::Plan;
+use crate::emit::function::input_name;
+use crate::schedule::Operand;
+
+impl Plan {
+    /// The text; [`Plan::parse`] reads it back.
+    pub fn write(&self) -> String {
+        let mut text = String::from(
+            "# Programs found by a long search, kept by `dalembert generate --save-plan`.\n\
+             # They are proved again whenever they are used.\n",
+        );
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "plan 1\nrobot {}\ninput {}", self.robot, self.input);
+        for entry in &self.entries {
+            let program = &entry.program;
+            let _ = writeln!(
+                text,
+                "\nprogram {} {} {} {} {}",
+                program.function,
+                entry.start.name(),
+                entry.scalar,
+                entry.source.name(),
+                program.joints
+            );
+            for stage in &entry.stages {
+                let c = stage.counts;
+                let name = stage.name;
+                let _ = writeln!(
+                    text,
+                    "stage {name} {} {} {} {}",
+                    c.mul, c.add, c.div, c.sincos
+                );
+            }
+            for step in &program.steps {
+                let (left, right) = (operand(&step.left), operand(&step.right));
+                let _ = writeln!(text, "{left} {} {right}", step.operation.symbol());
+            }
+            text.push_str("return");
+            for output in &program.outputs {
+                let sign = if output.negative { "~" } else { "" };
+                let _ = write!(text, " {sign}{}", operand(&output.value));
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// Inputs as emitted code names them, `t1` for the first step, `#` before a
+/// constant.
+fn operand(operand: &Operand) -> String {
+    match operand {
+        Operand::Input(input) => input_name(*input),
+        Operand::Constant(constant) => format!("#{constant}"),
+        Operand::Step(index) => format!("t{}", index + 1),
+    }
+}

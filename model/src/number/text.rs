@@ -1,0 +1,193 @@
+//! Exact constants as text: `-3/4`, `1/2*cos(pi/5)^2+3*sin(3/10)*cos(3/10)`.
+
+use alloc::collections::BTreeMap;
+use alloc::string::{String, ToString};
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
+
+use super::exact::{Monomial, Power};
+use super::{Angle, Exact, Rational};
+use crate::scalar::Scalar;
+
+impl fmt::Display for Exact {
+    /// No blanks; angles are in radians, or multiples of `pi`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(terms) = self.polynomial() else {
+            return match self.as_rational() {
+                Some(value) => write!(f, "{value}"),
+                None => Ok(()),
+            };
+        };
+        for (index, (monomial, coefficient)) in terms.iter().enumerate() {
+            if index > 0 {
+                f.write_str("+")?;
+            }
+            write!(f, "{coefficient}")?;
+            for power in monomial {
+                let angle = angle_text(&power.angle);
+                if power.sin > 0 {
+                    write!(f, "*sin({angle})")?;
+                }
+                match power.cos {
+                    0 => {}
+                    1 => write!(f, "*cos({angle})")?,
+                    n => write!(f, "*cos({angle})^{n}")?,
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn angle_text(angle: &Angle) -> String {
+    match angle {
+        Angle::PiTimes(multiple) => alloc::format!("{}*pi/{}", multiple.numer(), multiple.denom()),
+        Angle::Radians(value) => value.to_string(),
+    }
+}
+
+/// The text is no exact constant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotExact;
+
+impl fmt::Display for NotExact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("expected a constant such as `3/4` or `1/2*cos(1*pi/5)^2`")
+    }
+}
+
+impl core::error::Error for NotExact {}
+
+/// Longer texts are refused: no plan needs them.
+const MOST_BYTES: usize = 1 << 16;
+
+impl FromStr for Exact {
+    type Err = NotExact;
+
+    /// Reads what [`fmt::Display`] writes.
+    fn from_str(text: &str) -> Result<Self, NotExact> {
+        if text.len() > MOST_BYTES {
+            return Err(NotExact);
+        }
+        let mut sum = Exact::zero();
+        for term in text.split('+') {
+            sum = sum.add(&parse_term(term)?);
+        }
+        Ok(sum)
+    }
+}
+
+fn parse_term(text: &str) -> Result<Exact, NotExact> {
+    // `sin(1*pi/5)` holds a `*` of its own.
+    let (coefficient, factors) = match text.split_once("*sin(") {
+        Some((coefficient, _)) if !coefficient.contains("cos(") => split_at(text, coefficient),
+        _ => match text.split_once("*cos(") {
+            Some((coefficient, _)) => split_at(text, coefficient),
+            None => (text, ""),
+        },
+    };
+    let mut product = Exact::from(rational(coefficient)?);
+    let mut rest = factors;
+    while !rest.is_empty() {
+        rest = rest.strip_prefix('*').ok_or(NotExact)?;
+        let (is_sin, after) = match rest.strip_prefix("sin(") {
+            Some(after) => (true, after),
+            None => (false, rest.strip_prefix("cos(").ok_or(NotExact)?),
+        };
+        let (angle, after) = after.split_once(')').ok_or(NotExact)?;
+        let (exponent, after) = match after.strip_prefix('^') {
+            Some(after) => {
+                let end = after.find('*').unwrap_or(after.len());
+                (
+                    after[..end].parse::<u32>().map_err(|_| NotExact)?,
+                    &after[end..],
+                )
+            }
+            None => (1, after),
+        };
+        // Powers come from at most 64 joints.
+        if exponent > 1024 {
+            return Err(NotExact);
+        }
+        let angle = Arc::new(parse_angle(angle)?);
+        let power = Power {
+            angle,
+            sin: u32::from(is_sin),
+            cos: u32::from(!is_sin),
+        };
+        let factor = Exact::from_terms(BTreeMap::from([(
+            Monomial::from(Vec::from([power])),
+            Rational::from_integer(1.into()),
+        )]));
+        for _ in 0..exponent {
+            product = product.mul(&factor);
+        }
+        rest = after;
+    }
+    Ok(product)
+}
+
+fn split_at<'a>(text: &'a str, head: &'a str) -> (&'a str, &'a str) {
+    (head, &text[head.len()..])
+}
+
+fn parse_angle(text: &str) -> Result<Angle, NotExact> {
+    match text.split_once("*pi/") {
+        Some((numerator, denominator)) => {
+            let value = rational(&alloc::format!("{numerator}/{denominator}"))?;
+            Ok(Angle::PiTimes(value))
+        }
+        None => rational(text).map(Angle::Radians),
+    }
+}
+
+fn rational(text: &str) -> Result<Rational, NotExact> {
+    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
+    let integer = |digits: &str| {
+        let plain = digits.strip_prefix('-').unwrap_or(digits);
+        let fine = !plain.is_empty() && plain.bytes().all(|b| b.is_ascii_digit());
+        fine.then(|| digits.parse::<num_bigint::BigInt>().ok())
+            .flatten()
+            .ok_or(NotExact)
+    };
+    let (numerator, denominator) = (integer(numerator)?, integer(denominator)?);
+    if denominator <= num_bigint::BigInt::from(0) {
+        return Err(NotExact);
+    }
+    Ok(Rational::new(numerator, denominator))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_read_back() {
+        let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
+        let a = Exact::rotor(&Angle::PiTimes(ratio(1, 5)));
+        let b = Exact::rotor(&Angle::Radians(ratio(3, 10)));
+        let three = Exact::from(ratio(-3, 4));
+        for constant in [
+            three.clone(),
+            Exact::zero(),
+            a.sin.mul(&a.cos).mul(&a.cos).add(&three),
+            a.cos.mul(&b.sin).sub(&b.cos.mul(&b.cos).mul(&three)),
+        ] {
+            assert_eq!(constant.to_string().parse(), Ok(constant));
+        }
+        for wrong in [
+            "",
+            "1/0",
+            "x",
+            "1*sin(",
+            "1*cos(1)^",
+            "1/-2",
+            "1*tan(1)",
+            "1*cos(1)^9999",
+        ] {
+            assert_eq!(wrong.parse::<Exact>(), Err(NotExact), "{wrong}");
+        }
+    }
+}
