@@ -1,7 +1,7 @@
 //! The generic runtime: the dynamics of any arm, without generated code.
 //!
-//! It evaluates the recursion of Table 2 (rotate-first) in f64 or f32, with
-//! nalgebra vectors at its surface. Generated code is checked against it.
+//! It evaluates the recursion of Table 2 in its most accurate form
+//! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface. Generated code is checked against it.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -9,7 +9,7 @@ use core::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use crate::equations::newton_euler::table2::{self, Moment};
-use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor};
+use crate::equations::{Arm, DhVariables, JointPosition, Rotor, from_torques};
 use crate::number::{Exact, Rounded};
 use crate::robot::{JointKind, Robot};
 use crate::scalar::Scalar;
@@ -144,30 +144,28 @@ impl<T: Float> Reference<T> {
     ) -> Result<DVector<T>, WrongLength> {
         let at = self.at(q)?;
         let [qd, qdd] = [self.values("qd", qd)?, self.values("qdd", qdd)?];
-        let tau = table2::inverse_dynamics(&self.arm, &at, qd, qdd, Moment::RotateFirst, None);
+        let tau = torques(&self.arm, &at, qd, qdd);
         Ok(DVector::from_vec(tau))
     }
 
     /// D, n×n, symmetric, armature on its diagonal.
     pub fn inertia(&self, q: &DVector<T>) -> Result<DMatrix<T>, WrongLength> {
         let at = self.at(q)?;
-        Ok(matrix(
-            &Formulation::NewtonEulerLink.inertia(&self.arm, &at),
-        ))
+        Ok(matrix(&from_torques::inertia(torques, &self.arm, &at)))
     }
 
     /// h: Coriolis and centrifugal torques, without damping.
     pub fn coriolis(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, WrongLength> {
         let at = self.at(q)?;
         let qd = self.values("qd", qd)?;
-        let h = Formulation::NewtonEulerLink.velocity_terms(&self.arm, &at, qd);
+        let h = from_torques::velocity_terms(torques, &self.arm, &at, qd);
         Ok(DVector::from_vec(h))
     }
 
     /// c: what holds the arm against gravity.
     pub fn gravity(&self, q: &DVector<T>) -> Result<DVector<T>, WrongLength> {
         let at = self.at(q)?;
-        let c = Formulation::NewtonEulerLink.gravity(&self.arm, &at);
+        let c = from_torques::gravity(torques, &self.arm, &at);
         Ok(DVector::from_vec(c))
     }
 
@@ -175,7 +173,7 @@ impl<T: Float> Reference<T> {
     /// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
     pub fn christoffel(&self, q: &DVector<T>) -> Result<Vec<DMatrix<T>>, WrongLength> {
         let at = self.at(q)?;
-        let h = Formulation::NewtonEulerLink.christoffel(&self.arm, &at);
+        let h = from_torques::christoffel(torques, &self.arm, &at);
         Ok(h.iter().map(|h| matrix(h)).collect())
     }
 
@@ -207,6 +205,10 @@ impl<T: Float> Reference<T> {
         }
         Ok(vector.as_slice())
     }
+}
+
+fn torques<T: Float>(arm: &Arm<T>, at: &[DhVariables<T>], qd: &[T], qdd: &[T]) -> Vec<T> {
+    table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences, None)
 }
 
 fn matrix<T: Float>(rows: &[Vec<T>]) -> DMatrix<T> {

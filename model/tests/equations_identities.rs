@@ -91,7 +91,8 @@ fn tip_wrenches_agree() {
         let held = terms.tip_torques(&base);
         let tau: Vec<_> = free.iter().zip(&held).map(|(a, b)| a.add(b)).collect();
         assert_eq!(table1::inverse_dynamics(arm, at, qd, qdd, Some(&base)), tau);
-        for moment in [table2::Moment::AsPrinted, table2::Moment::RotateFirst] {
+        use table2::Moment::{AsPrinted, Differences, RotateFirst};
+        for moment in [AsPrinted, RotateFirst, Differences] {
             assert_eq!(
                 table2::inverse_dynamics(arm, at, qd, qdd, moment, Some(&hand)),
                 tau

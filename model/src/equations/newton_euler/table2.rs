@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 
 use super::{Wrench, newton, with_drive};
 use crate::equations::matrix::{
-    Vector, centripetal, cross, cross_z, dot, negative, opposite, plus, scaled, sum, tensor_times,
-    times, twice, zero_vector,
+    Vector, centripetal, cross, cross_z, dot, minus, negative, opposite, plus, scaled, sum,
+    tensor_times, times, twice, zero_vector,
 };
 use crate::equations::{Arm, DhVariables, Link};
-use crate::robot::{Convention, JointKind};
+use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::Scalar;
 
 /// How the moment of the next link's force is taken about frame i
@@ -22,6 +22,10 @@ pub enum Moment {
     /// ⁱR_{i+1} n_{i+1} + p_i* × (ⁱR_{i+1} f_{i+1}): uses the force that is
     /// turned anyway. Fewer operations, and never less accurate.
     RotateFirst,
+    /// As [`Moment::RotateFirst`], and ω × (I ω) from the differences of the
+    /// moments of inertia: about the axis of a round link it is nothing, where
+    /// the products as printed leave I_xx/I_zz times their rounding.
+    Differences,
 }
 
 /// Motion of one link.
@@ -34,10 +38,27 @@ struct Motion<S> {
 
 impl<S: Scalar> Motion<S> {
     /// N_i = I_i ω̇_i + ω_i × (I_i ω_i)
-    fn euler(&self, link: &Link<S>) -> Vector<S> {
-        let spin = cross(&self.omega, &tensor_times(&link.inertia, &self.omega));
+    fn euler(&self, link: &Link<S>, moment: Moment) -> Vector<S> {
+        let spin = match moment {
+            Moment::Differences => gyroscopic(&link.inertia, &self.omega),
+            _ => cross(&self.omega, &tensor_times(&link.inertia, &self.omega)),
+        };
         sum(&tensor_times(&link.inertia, &self.omega_dot), &spin)
     }
+}
+
+/// ω × (I ω): its x component is
+/// (I_zz − I_yy) yz + I_yz (y + z)(y − z) + x (I_xz y − I_xy z), and so on.
+fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
+    let rows = tensor.rows();
+    core::array::from_fn(|x| {
+        let [y, z] = [(x + 1) % 3, (x + 2) % 3];
+        let [a, b, c] = [&omega[x], &omega[y], &omega[z]];
+        let diagonal = times(&minus(&rows[z][z], &rows[y][y]), &times(b, c));
+        let squares = times(&rows[y][z], &times(&plus(b, c), &minus(b, c)));
+        let mixed = minus(&times(&rows[x][z], b), &times(&rows[x][y], c));
+        plus(&plus(&diagonal, &squares), &times(a, &mixed))
+    })
 }
 
 /// τ by the recursion of Table 2.
@@ -75,7 +96,7 @@ pub fn inverse_dynamics<S: Scalar>(
             ),
         );
         let inertial_force = newton(link, &centre);
-        let inertial_moment = motion.euler(link);
+        let inertial_moment = motion.euler(link, moment);
 
         let (carried, arm_of_centre) = match arm.convention {
             Convention::Standard => {
@@ -85,7 +106,7 @@ pub fn inverse_dynamics<S: Scalar>(
                         let moment = cross(&next.to_link(&lever), &force);
                         next.to_previous(&sum(&torque, &moment))
                     }
-                    (Some(next), Moment::RotateFirst) => {
+                    (Some(next), Moment::RotateFirst | Moment::Differences) => {
                         sum(&next.to_previous(&torque), &cross(&lever, &force_here))
                     }
                     (None, _) => sum(&torque, &cross(&lever, &force_here)),
