@@ -159,7 +159,10 @@ fn functions(
                 .filter(|(output, _)| Some(*output) == function)
                 .map(|(_, tokens)| tokens.clone())
                 .next();
-            let at = at.unwrap_or_else(|| invocation.name.to_token_stream());
+            let at = at.unwrap_or_else(|| match &invocation.robot {
+                RobotSource::File(path) => path.to_token_stream(),
+                RobotSource::Table(_) => invocation.name.to_token_stream(),
+            });
             errors.say(at, &error.to_string(), "");
         })
         .ok()
