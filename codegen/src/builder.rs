@@ -17,7 +17,7 @@
 //!
 //! and in the crate, with `libm` among its dependencies:
 //!
-//! ```ignore
+//! ```text
 //! include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
 //! ```
 
