@@ -161,7 +161,7 @@ impl Emitted {
     /// The errors against given states, a known quantity each. The symbols
     /// h_ikm are compared as the load h that they give.
     pub fn against_given(&self, states: &[GivenState]) -> Vec<Measure> {
-        let mut pairs: BTreeMap<Quantity, Vec<(Vec<f64>, Vec<f64>)>> = BTreeMap::new();
+        let mut pairs: BTreeMap<Quantity, Vec<Pair>> = BTreeMap::new();
         for given in states {
             let results = self.run(&given.state);
             let n = given.state.q.len();
@@ -181,7 +181,7 @@ impl Emitted {
                 }
             }
         }
-        let measure = |(quantity, pairs): (Quantity, Vec<_>)| {
+        let measure = |(quantity, pairs): (Quantity, Vec<Pair>)| {
             // Given states are taken as they are, each by its own size.
             self.measure(quantity, worst(&pairs, 0.0))
         };
@@ -197,6 +197,9 @@ impl Emitted {
         }
     }
 }
+
+/// Actual and expected values.
+type Pair = (Vec<f64>, Vec<f64>);
 
 fn state_len(states: &[JointState]) -> usize {
     states.first().map_or(0, |state| state.q.len())
@@ -218,7 +221,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// max|a − b| / max|b| of the worst pair; absolute where b vanishes.
-fn worst(pairs: &[(Vec<f64>, Vec<f64>)], least: f64) -> f64 {
+fn worst(pairs: &[Pair], least: f64) -> f64 {
     let mut worst = 0.0f64;
     for (actual, expected) in pairs {
         let size = largest(expected).max(least);
