@@ -59,7 +59,8 @@ impl Truth {
     }
 }
 
-fn number(constant: &Exact) -> Big {
+/// An exact constant, rounded to 448 bits.
+pub fn number(constant: &Exact) -> Big {
     let value = constant.map(&mut |x| Some(Big::from_rational(x)), &mut |angle| {
         let (sin, cos) = match angle {
             Angle::PiTimes(multiple) => Big::sin_cos_pi(multiple),

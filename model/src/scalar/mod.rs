@@ -6,12 +6,14 @@
 //!
 //! - floats (this file): the generic runtime
 //! - [`field`]: integers modulo 2⁶¹ − 1, for exact identity checks
+//! - [`dual`]: a value with its rate of change, for derivatives
 //! - [`count`]: counts the operations of a formula as written
 //! - `big`: a big float, the reference of tests and reports (feature `bigfloat`)
 
 #[cfg(feature = "bigfloat")]
 pub mod big;
 pub mod count;
+pub mod dual;
 pub mod field;
 
 /// A commutative ring with a half, enough for every dynamics formula.

@@ -1,0 +1,122 @@
+//! A value with its rate of change: the derivative of a formula from the same
+//! text as the formula.
+
+use super::Scalar;
+use crate::equations::Rotor;
+
+/// x and ẋ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<S> {
+    /// x
+    pub value: S,
+    /// ẋ
+    pub rate: S,
+}
+
+impl<S: Scalar> Dual<S> {
+    /// A number that does not change.
+    pub fn constant(value: S) -> Self {
+        Dual {
+            value,
+            rate: S::zero(),
+        }
+    }
+}
+
+impl<S: Scalar> Rotor<S> {
+    /// The pair of an angle that changes at a rate.
+    pub fn turning(self, rate: &S) -> Rotor<Dual<S>> {
+        let Rotor { sin, cos } = self;
+        Rotor {
+            sin: Dual {
+                rate: cos.mul(rate),
+                value: sin.clone(),
+            },
+            cos: Dual {
+                rate: sin.mul(rate).neg(),
+                value: cos,
+            },
+        }
+    }
+}
+
+impl<S: Scalar> Scalar for Dual<S> {
+    fn zero() -> Self {
+        Dual::constant(S::zero())
+    }
+    fn one() -> Self {
+        Dual::constant(S::one())
+    }
+    fn add(&self, other: &Self) -> Self {
+        Dual {
+            value: self.value.add(&other.value),
+            rate: self.rate.add(&other.rate),
+        }
+    }
+    fn sub(&self, other: &Self) -> Self {
+        Dual {
+            value: self.value.sub(&other.value),
+            rate: self.rate.sub(&other.rate),
+        }
+    }
+    fn mul(&self, other: &Self) -> Self {
+        let [left, right] = [self.rate.mul(&other.value), self.value.mul(&other.rate)];
+        Dual {
+            value: self.value.mul(&other.value),
+            rate: left.add(&right),
+        }
+    }
+    fn neg(&self) -> Self {
+        Dual {
+            value: self.value.neg(),
+            rate: self.rate.neg(),
+        }
+    }
+    fn half(&self) -> Self {
+        Dual {
+            value: self.value.half(),
+            rate: self.rate.half(),
+        }
+    }
+    fn is_zero(&self) -> bool {
+        self.value.is_zero() && self.rate.is_zero()
+    }
+    fn is_one(&self) -> bool {
+        self.value.is_one() && self.rate.is_zero()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pair_stays_on_the_circle() {
+        let pair = Rotor { sin: 0.6, cos: 0.8 }.turning(&3.0);
+        let [s, c] = [pair.sin, pair.cos];
+        let one = s.mul(&s).add(&c.mul(&c));
+        assert_eq!(one.value, 1.0);
+        assert!(one.rate.abs() < 1e-15);
+        assert_eq!(s.rate, 2.4000000000000004);
+    }
+
+    #[test]
+    fn products_change_by_both_factors() {
+        let x = Dual {
+            value: 2.0,
+            rate: 1.0,
+        };
+        let y = Dual {
+            value: 5.0,
+            rate: -3.0,
+        };
+        assert_eq!(
+            x.mul(&y),
+            Dual {
+                value: 10.0,
+                rate: -1.0
+            }
+        );
+        assert_eq!(x.sub(&x), Dual::zero());
+    }
+}
