@@ -7,6 +7,10 @@ use dalembert_model::scalar::Scalar;
 
 use super::{Counts, Edge, Graph, Input, Node, NodeId, Points, Print};
 
+/// Products of constants with more monomials stay two operations: long
+/// polynomials in odd angles would grow without end.
+const MOST_FOLDED: usize = 1_000;
+
 /// How much a builder recognises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Folding {
@@ -164,7 +168,11 @@ impl Builder {
         if let Node::Product(a, b) = self.graph.node(edge.node()) {
             for (factor, rest) in [(a, b), (b, a)] {
                 if let Node::Constant(inner) = self.graph.node(factor) {
-                    let folded = constant.mul(&self.graph.constants[inner as usize]);
+                    let inner = &self.graph.constants[inner as usize];
+                    if constant.terms() * inner.terms() > MOST_FOLDED {
+                        break;
+                    }
+                    let folded = constant.mul(inner);
                     return self.scale(&folded, rest.signed(edge.is_negative()));
                 }
             }

@@ -219,6 +219,9 @@ pub fn textbook(robot: &Robot, function: Function, formulation: Formulation) -> 
     }
 }
 
+/// Longer chains are tuned by the price before the search alone.
+const MOST_GLANCES: usize = 10;
+
 /// A function in every chain form, in the gauge that is cheapest for it.
 pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Variant> {
     let arm = exact_arm(robot);
@@ -233,7 +236,7 @@ pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Varia
         effort.gauge_rounds(),
         |chain, form| simplify::cost(&merged(chain, form)),
     );
-    if effort == Effort::Thorough {
+    if effort == Effort::Thorough && robot.joints.len() <= MOST_GLANCES {
         // What the search makes of a gauge is not what the gauge costs at
         // first: descend once more by the price after a short search.
         let helpers = [angle_sums(robot)];

@@ -7,7 +7,7 @@
 
 use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::body::entry;
-use dalembert_model::equations::chain::{Body, Chain, Gauge, LinkGauge};
+use dalembert_model::equations::chain::{Body, Chain, ChainLink, Gauge, LinkGauge};
 use dalembert_model::equations::matrix::{Vector, zero_vector};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
@@ -17,7 +17,11 @@ use super::Form;
 
 /// Constants of a tuned chain with more monomials than this are not formed:
 /// regrouping through many different odd angles would multiply them.
-const MOST_TERMS: usize = 200;
+const MOST_TERMS: usize = 100;
+
+/// The links of longer chains are not tuned one by one: a price takes time in
+/// proportion to their number, and so does the number of prices.
+const MOST_TUNED: usize = 16;
 
 /// What the descent found.
 #[derive(Clone, Debug)]
@@ -30,15 +34,29 @@ pub struct Tuned {
     pub price: u64,
 }
 
-/// Where a descent starts: base parameters, or the parameters as they are if
-/// regrouping makes their constants too large.
+/// Where a descent starts: base parameters; where regrouping through odd
+/// angles would make the constants too large, a link keeps what it has.
 pub fn start(arm: &Arm<Exact>) -> Gauge<Exact> {
-    let base = Gauge::base(arm);
-    if is_large(&Chain::new(arm, &base)) {
-        plain(arm)
-    } else {
-        base
+    let mut gauge = Gauge::base(arm);
+    for i in (1..arm.links.len()).rev() {
+        // The chain from the parent on: what lies before does not matter, and
+        // must not be reached by constants that may be too large.
+        let part = Arm {
+            convention: arm.convention,
+            gravity: arm.gravity.clone(),
+            links: arm.links[i - 1..].to_vec(),
+        };
+        let mut choice = gauge.clone();
+        choice.links.drain(..i - 1);
+        let chain = Chain::new(&part, &choice);
+        if terms(&chain.links[0]) > MOST_TERMS {
+            let [mass, first, second] = chain.links[1].free.clone();
+            let link = &mut gauge.links[i];
+            (link.mass, link.first, link.second) = (mass, first, second);
+            link.keep_seconds = true;
+        }
     }
+    gauge
 }
 
 /// Descends from a gauge; `price` must not depend on anything else.
@@ -62,8 +80,10 @@ pub fn tune(
     for _ in 0..rounds {
         let before = descent.best.price;
         descent.units();
-        for i in (0..arm.links.len()).rev() {
-            descent.link(i);
+        if arm.links.len() <= MOST_TUNED {
+            for i in (0..arm.links.len()).rev() {
+                descent.link(i);
+            }
         }
         descent.forms(forms);
         if descent.best.price >= before {
@@ -146,30 +166,16 @@ impl<P: Fn(&Chain<Exact>, Form) -> u64> Descent<'_, P> {
     }
 }
 
-/// The gauge that moves nothing.
-fn plain(arm: &Arm<Exact>) -> Gauge<Exact> {
-    let mut gauge = Gauge::base(arm);
-    // From the hand inward, so that nothing has arrived that could be kept.
-    for i in (0..arm.links.len()).rev() {
-        let free = Chain::new(arm, &gauge).links[i].free.clone();
-        let [mass, first, second] = free;
-        let link = &mut gauge.links[i];
-        (link.mass, link.first, link.second) = (mass, first, second);
-        link.keep_seconds = true;
-    }
-    gauge
+fn is_large(chain: &Chain<Exact>) -> bool {
+    chain.links.iter().any(|link| terms(link) > MOST_TERMS)
 }
 
-fn is_large(chain: &Chain<Exact>) -> bool {
-    chain.links.iter().any(|link| {
-        let body = &link.body;
-        let seconds = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-        seconds
-            .iter()
-            .map(|&(i, j)| entry(&body.second, i, j))
-            .chain(&body.first)
-            .any(|constant| constant.terms() > MOST_TERMS)
-    })
+/// The most monomials of a constant of the link.
+fn terms(link: &ChainLink<Exact>) -> usize {
+    let second = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+    let second = second.map(|(i, j)| entry(&link.body.second, i, j));
+    let constants = second.into_iter().chain(&link.body.first).chain(&link.free);
+    constants.map(Exact::terms).max().unwrap_or(0)
 }
 
 /// a / b for rational b.
