@@ -1,0 +1,212 @@
+//! Robots that nobody chose: any number of joints, both kinds, both
+//! conventions, full inertias, tilted gravity, odd angles.
+//!
+//! What is generated for them is proved (or `generate` fails), the emitted text
+//! stays within the floating bound, and the formulations agree.
+
+mod support;
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, Start, generate};
+use dalembert_codegen::graph::Points;
+use dalembert_codegen::simplify::random::Random;
+use dalembert_codegen::trace::{Motion, evaluate};
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::verify::states::{SEED, seeded};
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot, Severity};
+
+/// Draws the parts of a robot.
+struct Draw(Random);
+
+impl Draw {
+    fn chance(&mut self, one_in: usize) -> bool {
+        self.0.below(one_in) == 0
+    }
+
+    /// A number of thousandths in [low, high).
+    fn milli(&mut self, low: i64, high: i64) -> Rational {
+        let value = low + self.0.below((high - low) as usize) as i64;
+        Rational::new(value.into(), 1000.into())
+    }
+
+    /// A length; now and then none.
+    fn length(&mut self) -> Rational {
+        if self.chance(4) {
+            Rational::default()
+        } else {
+            self.milli(-600, 600)
+        }
+    }
+
+    /// A right angle as often as not; else a fraction of π, or radians.
+    fn angle(&mut self) -> Angle {
+        let turns =
+            |over: i64, under: i64| Angle::PiTimes(Rational::new(over.into(), under.into()));
+        let over = self.0.below(9) as i64 - 4;
+        match self.0.below(8) {
+            0..4 => turns(over, 2),
+            4 => turns(over, 3),
+            5 => turns(over, 5),
+            _ => Angle::Radians(self.milli(-3000, 3000)),
+        }
+    }
+
+    fn joint(&mut self) -> Joint {
+        Joint {
+            name: None,
+            kind: if self.chance(3) {
+                JointKind::Prismatic
+            } else {
+                JointKind::Revolute
+            },
+            alpha: self.angle(),
+            a: self.length(),
+            d: self.length(),
+            theta: if self.chance(2) {
+                Angle::default()
+            } else {
+                self.angle()
+            },
+            mass: self.milli(500, 9000),
+            com: [self.length(), self.length(), self.length()],
+            // Diagonally dominant and within the triangle inequality: a body.
+            inertia: Inertia {
+                xx: self.milli(400, 500),
+                yy: self.milli(400, 500),
+                zz: self.milli(400, 500),
+                xy: self.milli(-60, 60),
+                yz: self.milli(-60, 60),
+                xz: self.milli(-60, 60),
+            },
+            viscous: if self.chance(2) {
+                Rational::default()
+            } else {
+                self.milli(0, 900)
+            },
+            armature: if self.chance(2) {
+                Rational::default()
+            } else {
+                self.milli(0, 900)
+            },
+            limits: Limits::default(),
+        }
+    }
+
+    fn robot(&mut self, n: usize) -> Robot {
+        let convention = if self.chance(2) {
+            Convention::Standard
+        } else {
+            Convention::Modified
+        };
+        Robot {
+            name: "random".to_owned(),
+            convention,
+            gravity: [
+                self.milli(-3000, 3000),
+                self.milli(-3000, 3000),
+                self.milli(-9800, -9000),
+            ],
+            joints: (0..n).map(|_| self.joint()).collect(),
+        }
+    }
+}
+
+/// Robots of 1 to 8 joints, in turn, each with its seed.
+fn robots(count: usize, seed: u64) -> impl Iterator<Item = (u64, Robot, Draw)> {
+    (0..count).map(move |index| {
+        let seed = seed + index as u64;
+        let mut draw = Draw(Random::new(seed));
+        let robot = draw.robot(1 + index % 8);
+        let findings = robot.validate();
+        let wrong = findings.iter().find(|f| f.severity == Severity::Error);
+        assert!(wrong.is_none(), "seed {seed}: {wrong:?}");
+        (seed, robot, draw)
+    })
+}
+
+/// A function whose code stays small enough for a test.
+fn function(n: usize, draw: &mut Draw) -> Function {
+    let few = match n {
+        0..=3 => 6,
+        4..=5 => 5,
+        _ => 4,
+    };
+    Function::ALL[draw.0.below(few)]
+}
+
+#[test]
+fn proved_and_accurate() {
+    for (seed, robot, mut draw) in robots(24, 0x5eed) {
+        let n = robot.joints.len();
+        let function = function(n, &mut draw);
+        let what = format!("seed {seed}, {n} joints, {function}");
+        let request = Request {
+            functions: vec![function],
+            ..Request::default()
+        };
+        // No proof, no code.
+        let generated = match generate(&robot, &request) {
+            Ok(generated) => generated,
+            Err(error) => panic!("{what}: {error}"),
+        };
+        let runtime = Runtime::new(&robot);
+        let states = seeded(&robot, 50, SEED ^ seed);
+        assert_eq!(generated.emitted.len(), 2, "{what}");
+        for emitted in &generated.emitted {
+            for measure in emitted.against_runtime(&runtime, &states) {
+                let (quantity, error) = (measure.quantity.symbol(), measure.in_units());
+                let scalar = measure.scalar;
+                assert!(error <= BOUND, "{what}, {quantity} in {scalar}: {error} u");
+            }
+        }
+    }
+}
+
+/// Each formulation alone leads to a program that is proved.
+#[test]
+fn every_start_leads_to_the_same_function() {
+    for (seed, robot, mut draw) in robots(16, 0xa9ee) {
+        let n = robot.joints.len();
+        if n > 3 {
+            continue;
+        }
+        let function = function(n, &mut draw);
+        for name in Start::NAMES {
+            let request = Request {
+                functions: vec![function],
+                start: Start::from_name(name).unwrap(),
+                ..Request::default()
+            };
+            if let Err(error) = generate(&robot, &request) {
+                panic!("seed {seed}, {n} joints, {function} from {name}: {error}");
+            }
+        }
+    }
+}
+
+/// The formulas themselves, in the prime field: equal numbers, not close ones.
+#[test]
+fn formulations_agree() {
+    let points = Points::independent(7);
+    for (seed, robot, _) in robots(40, 0xf1e1d) {
+        let constant = &mut |constant: &_| points.constant(constant).unwrap().0[0];
+        let arm = Arm::from_robot(&robot, constant);
+        let motion = Motion::of(&robot, |input| points.input(input).0[0]);
+        let few = if robot.joints.len() > 5 { 5 } else { 6 };
+        for function in &Function::ALL[..few] {
+            let of = |formulation| evaluate(*function, formulation, &arm, &motion);
+            let [first, rest @ ..] = Formulation::ALL;
+            let expected = of(first);
+            for formulation in rest {
+                let found = of(formulation);
+                let n = robot.joints.len();
+                assert!(
+                    found == expected,
+                    "seed {seed}, {n} joints: {function} by {formulation:?} is not by {first:?}"
+                );
+            }
+        }
+    }
+}
