@@ -67,17 +67,11 @@ impl Robots {
     }
 }
 
-/// Lagrange–Euler with many different angles is written out in no reasonable
-/// size: it is left out there.
+/// Both ways to long chains: what is searched, and the recursion as it is.
 fn start(robot: &Robot) -> Start {
-    let angles = robot.joints.iter().flat_map(|j| [&j.alpha, &j.theta]);
-    let mut angles: Vec<_> = angles.filter(|a| a.quarter_turns().is_none()).collect();
-    angles.sort();
-    angles.dedup();
-    if robot.joints.len() <= 10 && angles.len() <= 6 {
-        Start::Auto
-    } else {
-        Start::Only(Formulation::NewtonEulerLink)
+    match robot.joints.len() {
+        0..=12 => Start::Auto,
+        _ => Start::Only(Formulation::NewtonEulerLink),
     }
 }
 

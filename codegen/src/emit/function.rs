@@ -2,11 +2,12 @@
 //!
 //! One operation a line, so that the printed text can be read back and
 //! compared with the program operation by operation. Long functions are cut
-//! into blocks (see [`BLOCK`]); their names stay unique.
+//! into blocks (see [`BLOCK`]), very long ones into functions ([`parts`]);
+//! names stay unique.
 
 use std::fmt::Write;
 
-use super::{MathPath, ScalarType};
+use super::{MathPath, ScalarType, parts};
 use crate::function::{Argument, Function, Quantity};
 use crate::graph::Input;
 use crate::schedule::{Operand, Output, Program, Step, Trig};
@@ -46,6 +47,10 @@ fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
         }
         return;
     }
+    if program.steps.len() > parts::LONG {
+        parts::write(text, program, scalar);
+        return;
+    }
     let last_use = last_uses(program);
     for (block, steps) in program.steps.chunks(BLOCK).enumerate() {
         let start = block * BLOCK;
@@ -67,14 +72,14 @@ fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
     }
 }
 
-fn statement(index: usize, step: &Step, scalar: ScalarType) -> String {
+pub(super) fn statement(index: usize, step: &Step, scalar: ScalarType) -> String {
     let (left, right) = (operand(&step.left, scalar), operand(&step.right, scalar));
     let symbol = step.operation.symbol();
     format!("let t{} = {left} {symbol} {right};", index + 1)
 }
 
 /// The last step that reads each step; past the end for results.
-fn last_uses(program: &Program) -> Vec<usize> {
+pub(super) fn last_uses(program: &Program) -> Vec<usize> {
     let mut last = vec![0; program.steps.len()];
     for (index, step) in program.steps.iter().enumerate() {
         for operand in [&step.left, &step.right] {
@@ -94,8 +99,8 @@ fn last_uses(program: &Program) -> Vec<usize> {
 /// The signature, without a brace.
 pub fn signature(program: &Program, scalar: ScalarType) -> String {
     let (n, function) = (program.joints, program.function);
-    let arguments: Vec<String> = function
-        .arguments()
+    let arguments: Vec<String> = program
+        .arguments
         .iter()
         .map(|&argument| {
             // An argument that this robot's function does not depend on.
@@ -105,7 +110,7 @@ pub fn signature(program: &Program, scalar: ScalarType) -> String {
         .collect();
     let result = match (function.structure(), function.quantities()) {
         (Some(name), _) => name.to_owned(),
-        (None, quantities) => array_type(quantities[0], n, scalar),
+        (None, quantities) => array_type(quantities[0], program.rows.len(), scalar),
     };
     format!(
         "pub fn {}({}) -> {result}",
@@ -208,7 +213,7 @@ fn result_item(output: &Output, scalar: ScalarType) -> String {
 }
 
 fn write_result(text: &mut String, program: &Program, scalar: ScalarType) {
-    let n = program.joints;
+    let n = program.rows.len();
     let mut items = program.outputs.iter().map(|o| result_item(o, scalar));
     let function = program.function;
     match function.structure() {

@@ -2,11 +2,14 @@
 //!
 //! - [`literal`]: scalar types and their literals, each rounded once
 //! - [`function`]: one program as one function
+//! - [`parts`]: very long functions, cut into functions of their own
 //! - [`module`]: the module of a robot with its header
 
 pub mod function;
 pub mod literal;
 pub mod module;
+pub mod parts;
+mod scene;
 
 pub use literal::ScalarType;
 

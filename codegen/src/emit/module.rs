@@ -5,7 +5,9 @@ use std::fmt::Write;
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
 use super::{MathPath, ScalarType, function};
+use super::scene::describe;
 use crate::generate::GeneratedFunction;
+use crate::scene::Setting;
 
 /// How a robot's modules are printed.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +41,7 @@ pub fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
 /// The whole file.
 pub fn write(
     robot: &Robot,
+    setting: &Setting,
     functions: &[GeneratedFunction],
     options: &ModuleOptions<'_>,
 ) -> String {
@@ -50,20 +53,21 @@ pub fn write(
     );
     for &scalar in options.scalars {
         text.push('\n');
-        text.push_str(&module(robot, functions, scalar, options));
+        text.push_str(&module(robot, setting, functions, scalar, options));
     }
     text
 }
 
 fn module(
     robot: &Robot,
+    setting: &Setting,
     functions: &[GeneratedFunction],
     scalar: ScalarType,
     options: &ModuleOptions<'_>,
 ) -> String {
     let n = robot.joints.len();
     let mut text = String::new();
-    for line in header(robot, functions, scalar) {
+    for line in header(robot, setting, functions, scalar) {
         let space = if line.is_empty() { "" } else { " " };
         let _ = writeln!(text, "///{space}{line}");
     }
@@ -73,9 +77,18 @@ fn module(
     let name = name(options.name, scalar, options.scalars);
     let _ = writeln!(text, "pub mod {name} {{");
     let _ = writeln!(text, "/// The number of joints.\npub const N: usize = {n};");
+    let rows = setting.rows();
+    if setting.scene().is_some() {
+        let _ = writeln!(
+            text,
+            "/// The joints that results are over, in their order, from zero.\n\
+             pub const JOINTS: [usize; {}] = {rows:?};",
+            rows.len()
+        );
+    }
     for generated in functions {
         text.push('\n');
-        if let Some(structure) = function::structure(generated.function, n, scalar) {
+        if let Some(structure) = function::structure(generated.function, rows.len(), scalar) {
             text.push_str(&structure);
             text.push('\n');
         }
@@ -92,7 +105,12 @@ fn module(
 }
 
 /// Robot, conventions, DH table, counts and proof.
-fn header(robot: &Robot, functions: &[GeneratedFunction], scalar: ScalarType) -> Vec<String> {
+fn header(
+    robot: &Robot,
+    setting: &Setting,
+    functions: &[GeneratedFunction],
+    scalar: ScalarType,
+) -> Vec<String> {
     let convention = match robot.convention {
         Convention::Standard => "standard",
         Convention::Modified => "modified (Craig)",
@@ -140,6 +158,10 @@ fn header(robot: &Robot, functions: &[GeneratedFunction], scalar: ScalarType) ->
             decimal(&joint.mass)
         ));
     }
+    if let Some(scene) = setting.scene() {
+        lines.push(String::new());
+        lines.extend(describe(scene, robot));
+    }
     lines.extend([
         String::new(),
         "| function | mul | add | sincos | from |".into(),
@@ -175,6 +197,6 @@ fn function_doc(generated: &GeneratedFunction) -> Vec<String> {
 }
 
 /// A decimal as the robot file would have it; a fraction if it is none.
-fn decimal(value: &dalembert_model::number::Rational) -> String {
+pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
     dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }

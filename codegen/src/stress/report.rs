@@ -10,7 +10,7 @@ use super::subject::{Code, Subject};
 use super::truth::Truth;
 use crate::emit::ScalarType;
 use crate::function::Function;
-use crate::generate::{GenerateError, Request, Start};
+use crate::generate::{GenerateError, Request};
 use crate::verify::states::JointState;
 
 /// How thorough a run is.
@@ -84,7 +84,6 @@ impl Programs {
             let request = Request {
                 functions: vec![Function::InverseDynamics],
                 scalars: vec![scalar],
-                start: start(&robot, options.request.start),
                 ..options.request.clone()
             };
             let emitted = match Code::emitted(&robot, &request) {
@@ -99,14 +98,6 @@ impl Programs {
             robot,
             codes,
         })
-    }
-}
-
-/// Long chains are written by the recursion: the other forms grow faster.
-pub(super) fn start(robot: &Robot, asked: Start) -> Start {
-    match robot.joints.len() {
-        0..=10 => asked,
-        _ => Start::from_name("newton_euler").unwrap_or(asked),
     }
 }
 

@@ -3,7 +3,7 @@
 use dalembert_model::robot::Robot;
 
 use super::deviation::Measure;
-use super::report::{Options, start};
+use super::report::Options;
 use super::subject::{Code, Subject};
 use super::truth::Truth;
 use super::{robots, states};
@@ -104,7 +104,6 @@ impl Codes {
             let request = Request {
                 functions: vec![Function::InverseDynamics],
                 scalars: vec![scalar],
-                start: start(robot, options.request.start),
                 ..options.request.clone()
             };
             codes.push((scalar, Some(Code::runtime(robot, scalar))));

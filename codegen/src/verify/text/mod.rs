@@ -2,8 +2,10 @@
 //!
 //! - this file: what a text says, and whether it is the program
 //! - `reader`: the statements, line by line
+//! - `part`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
 
+mod part;
 mod reader;
 mod result;
 

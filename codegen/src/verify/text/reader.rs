@@ -1,5 +1,6 @@
 //! The statements of an emitted function, line by line.
 
+use super::part::Wrap;
 use super::{TextOperand, TextProgram, TextStep, TextTrig};
 use crate::emit::ScalarType;
 use crate::emit::function::input_name;
@@ -12,8 +13,8 @@ pub(super) struct Reader {
     program: TextProgram,
     /// The sum of angles that the line before formed.
     sum: Option<AngleSum>,
-    /// What the block that is open hands on, and whether it has done so.
-    block: Option<(String, bool)>,
+    /// The block or part that is open.
+    wrap: Wrap,
 }
 
 impl Reader {
@@ -26,33 +27,13 @@ impl Reader {
                 outputs: Vec::new(),
             },
             sum: None,
-            block: None,
+            wrap: Wrap::default(),
         }
     }
 
-    /// Whether the line begins or ends a block, which hands on values under
-    /// the names that they have inside.
+    /// Whether the line wraps statements and is none.
     pub(super) fn block(&mut self, line: &str) -> Result<bool, String> {
-        let begins = line
-            .strip_prefix("let ")
-            .and_then(|l| l.strip_suffix(" = {"));
-        match (begins, self.block.take()) {
-            (Some(names), None) => self.block = Some((names.to_owned(), false)),
-            (Some(_), Some(_)) => return Err("a block in a block".into()),
-            (None, Some((names, false))) if line.starts_with('(') => {
-                if line != names {
-                    return Err(format!("the block hands on {line} as {names}"));
-                }
-                self.block = Some((names, true));
-            }
-            (None, Some((_, true))) if line == "};" => {}
-            (None, Some((_, true))) => return Err("the block does not end".into()),
-            (None, open) => {
-                self.block = open;
-                return Ok(false);
-            }
-        }
-        Ok(true)
+        self.wrap.line(line)
     }
 
     /// A line without `let `.
@@ -173,7 +154,7 @@ impl Reader {
 
     /// The program with these results.
     pub(super) fn finish(mut self, items: &[&str]) -> Result<TextProgram, String> {
-        if self.block.is_some() {
+        if !self.wrap.is_none() {
             return Err("a block does not end".into());
         }
         for word in items {
