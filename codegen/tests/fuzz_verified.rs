@@ -11,10 +11,11 @@ use dalembert_codegen::verify::states::seeded;
 use dalembert_model::read::{Options, parse};
 use dalembert_model::robot::write;
 
-/// Runs: `FUZZ_RUNS` for more.
-fn runs(default: usize) -> usize {
-    let set = std::env::var("FUZZ_RUNS").ok();
-    set.and_then(|runs| runs.parse().ok()).unwrap_or(default)
+/// A dose for every day; `FUZZ_TIMES` multiplies it.
+fn dose(runs: usize) -> usize {
+    let times = std::env::var("FUZZ_TIMES").ok();
+    let times: Option<usize> = times.and_then(|times| times.parse().ok());
+    runs * times.unwrap_or(1)
 }
 
 const NUMBERS: [&str; 22] = [
@@ -110,7 +111,7 @@ fn file(random: &mut Random) -> String {
 fn accepted_robots_give_verified_code() {
     let mut random = Random::new(31);
     let (mut accepted, mut verified) = (0, 0);
-    let runs = runs(60);
+    let runs = dose(60);
     for _ in 0..runs {
         let source = file(&mut random);
         let Ok(reading) = parse(&source, &Options::default()) else {

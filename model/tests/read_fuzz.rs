@@ -23,6 +23,13 @@ impl Random {
     }
 }
 
+/// A dose for every day; `FUZZ_TIMES` multiplies it.
+fn dose(runs: usize) -> usize {
+    let times = std::env::var("FUZZ_TIMES").ok();
+    let times: Option<usize> = times.and_then(|times| times.parse().ok());
+    runs * times.unwrap_or(1)
+}
+
 /// Pieces that mean something to a TOML parser or to the reader.
 const PIECES: [&str; 58] = [
     "[",
@@ -116,7 +123,7 @@ fn check(bytes: &[u8]) {
 #[test]
 fn arbitrary_bytes() {
     let mut random = Random(1);
-    for _ in 0..4000 {
+    for _ in 0..dose(4000) {
         let length = random.below(200);
         let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
         check(&bytes);
@@ -131,7 +138,7 @@ fn arbitrary_bytes() {
 fn tables_in_any_order() {
     const PARTS: [&str; 4] = ["a", "b", "joint", "\"\""];
     let mut random = Random(5);
-    for _ in 0..8000 {
+    for _ in 0..dose(8000) {
         let mut text = String::new();
         for _ in 0..random.below(9) {
             let parts: Vec<&str> = (0..=random.below(3))
@@ -152,7 +159,7 @@ fn tables_in_any_order() {
 #[test]
 fn pieces_of_toml() {
     let mut random = Random(2);
-    for _ in 0..8000 {
+    for _ in 0..dose(8000) {
         let count = random.below(30);
         let text: String = (0..count)
             .map(|_| PIECES[random.below(PIECES.len())])
@@ -171,7 +178,7 @@ fn mutated_robots() {
     }
     seeds.sort();
     let mut random = Random(3);
-    for _ in 0..8000 {
+    for _ in 0..dose(8000) {
         let mut bytes = seeds[random.below(seeds.len())].clone();
         for _ in 0..=random.below(6) {
             mutate(&mut bytes, &mut random);
@@ -221,7 +228,7 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
 fn numbers_and_angles() {
     const LETTERS: &[u8] = b"0123456789.+-_eEpi*/deg nxab ";
     let mut random = Random(4);
-    for _ in 0..20_000 {
+    for _ in 0..dose(20_000) {
         let length = random.below(12);
         let text: String = (0..length)
             .map(|_| LETTERS[random.below(LETTERS.len())] as char)

@@ -1,0 +1,188 @@
+//! Tokens of `dynamics!` at random: modules or errors, never a panic.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use dalembert_codegen::clauses::expand;
+use dalembert_codegen::simplify::random::Random;
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+
+/// A dose for every day; `FUZZ_TIMES` multiplies it.
+fn dose(runs: usize) -> usize {
+    let times = std::env::var("FUZZ_TIMES").ok();
+    let times: Option<usize> = times.and_then(|times| times.parse().ok());
+    runs * times.unwrap_or(1)
+}
+
+const WHOLE: &str = r#"
+    /// An arm.
+    pub(crate) mod arm {
+        convention: modified;
+        gravity: [0, 0, -9_810e-3];
+        joint {
+            name: "slide 1", kind: prismatic, theta: -90deg, offset: 0.25,
+            mass: 2.5, com: [0, 0.1, 0], inertia: [[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.05]],
+            limits: { position: [-0.5, 1/2], velocity: 2, },
+        }
+        joint {
+            name: swing, kind: revolute, alpha: -pi/2, a: 0.3, offset: 3*pi/4,
+            viscous: 0.1, armature: 1e-3, mass: 0, inertia: [0, 0, 0, 0, 0, 0]
+        }
+    }
+    outputs: gravity;
+    scalar: f32, f64;
+    formulation: newton_euler;
+"#;
+
+const PIECES: [&str; 44] = [
+    "mod",
+    "pub",
+    "arm",
+    "joint",
+    "outputs",
+    "scalar",
+    "formulation",
+    "gravity",
+    "inertia",
+    "f64",
+    "f32",
+    "auto",
+    "revolute",
+    "prismatic",
+    "kind",
+    "mass",
+    "limits",
+    "position",
+    "pi",
+    "deg",
+    "90deg",
+    "0",
+    "1",
+    "-1",
+    "0.5",
+    "1e400",
+    "1e-400",
+    "0x1f",
+    "1f32",
+    "1_0",
+    "99999999999999999999",
+    "\"pi/2\"",
+    "\"robots/none.toml\"",
+    "b\"x\"",
+    "'c'",
+    ":",
+    ";",
+    ",",
+    "=",
+    "/",
+    "*",
+    "-",
+    "#",
+    "'a",
+];
+
+fn piece(random: &mut Random) -> TokenStream {
+    TokenStream::from_str(PIECES[random.below(PIECES.len())]).expect("pieces are tokens")
+}
+
+/// The tokens with a few cut out, doubled, moved, put in or wrapped.
+fn mutate(tokens: TokenStream, random: &mut Random, rate: usize) -> TokenStream {
+    let mut out: Vec<TokenTree> = Vec::new();
+    for tree in tokens {
+        let tree = match tree {
+            TokenTree::Group(group) => {
+                let inner = mutate(group.stream(), random, rate);
+                let delimiter = match random.below(20 * rate) {
+                    0 => Delimiter::Parenthesis,
+                    1 => Delimiter::None,
+                    2 => Delimiter::Bracket,
+                    _ => group.delimiter(),
+                };
+                TokenTree::Group(Group::new(delimiter, inner))
+            }
+            other => other,
+        };
+        match random.below(12 * rate) {
+            0 => {}
+            1 => out.extend([tree.clone(), tree]),
+            2 => {
+                out.push(tree);
+                out.extend(piece(random));
+            }
+            3 => out.extend(piece(random)),
+            4 => {
+                let at = random.below(out.len() + 1);
+                out.insert(at, tree);
+            }
+            _ => out.push(tree),
+        }
+    }
+    out.into_iter().collect()
+}
+
+/// Something comes back, and it is tokens that print and read again.
+fn check(tokens: TokenStream) -> bool {
+    let said = tokens.to_string();
+    let text = expand(tokens, Path::new(env!("CARGO_MANIFEST_DIR"))).to_string();
+    assert!(TokenStream::from_str(&text).is_ok(), "{said}");
+    text.contains("compile_error")
+}
+
+#[test]
+fn mutated_invocations() {
+    let whole = TokenStream::from_str(WHOLE).unwrap();
+    assert!(!check(whole.clone()), "the invocation itself is right");
+    let mut random = Random::new(41);
+    let (mut wrong, runs) = (0, dose(300));
+    for _ in 0..runs {
+        let rate = 1 + random.below(40);
+        wrong += usize::from(check(mutate(whole.clone(), &mut random, rate)));
+    }
+    println!("{runs} invocations, {wrong} with errors");
+    assert!(wrong > 0 && wrong < runs, "{wrong} of {runs}");
+}
+
+#[test]
+fn tokens_in_any_order() {
+    let mut random = Random::new(42);
+    for _ in 0..dose(2000) {
+        let mut tokens = TokenStream::new();
+        for _ in 0..random.below(25) {
+            let inner = if random.below(5) == 0 {
+                let inner: TokenStream = (0..random.below(8)).map(|_| piece(&mut random)).collect();
+                let delimiters = [Delimiter::Brace, Delimiter::Bracket, Delimiter::Parenthesis];
+                let group = Group::new(delimiters[random.below(3)], inner);
+                TokenTree::Group(group).into()
+            } else {
+                piece(&mut random)
+            };
+            tokens.extend(inner);
+        }
+        check(tokens);
+    }
+}
+
+#[test]
+fn text_in_any_order() {
+    let mut random = Random::new(43);
+    for _ in 0..dose(2000) {
+        let mut bytes = WHOLE.as_bytes().to_vec();
+        for _ in 0..1 + random.below(4) {
+            let at = random.below(bytes.len());
+            match random.below(3) {
+                0 => bytes[at] = (random.bits() & 0x7f) as u8,
+                1 => drop(bytes.drain(at..(at + random.below(30)).min(bytes.len()))),
+                _ => {
+                    let to = (at + random.below(30)).min(bytes.len());
+                    let copy = bytes[at..to].to_vec();
+                    let at = random.below(bytes.len());
+                    drop(bytes.splice(at..at, copy));
+                }
+            }
+        }
+        // What is no Rust never reaches the macro.
+        if let Ok(tokens) = TokenStream::from_str(&String::from_utf8_lossy(&bytes)) {
+            check(tokens);
+        }
+    }
+}
