@@ -3,7 +3,7 @@
 use std::fs;
 
 use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::plan::{self, Entry, Plan};
+use dalembert_codegen::plan::{self, Entry, Plan, SceneKey};
 use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
@@ -67,6 +67,7 @@ fn save_plan(
                 scalar,
                 source: function.source,
                 stages: function.stages.clone(),
+                scene: request.scene.as_ref().map(SceneKey::of),
                 program: function.program.clone(),
             });
         }

@@ -189,13 +189,20 @@ impl Quantity {
     /// The name of one entry, one-based: `D_12`, `h_123`, with separators
     /// where a robot has more than nine joints.
     pub fn entry(self, index: usize, n: usize) -> String {
+        let rows: Vec<usize> = (0..n).collect();
+        self.entry_over(index, &rows, n)
+    }
+
+    /// The name of one entry of a quantity that is over these joints of n.
+    pub fn entry_over(self, index: usize, rows: &[usize], n: usize) -> String {
         let letter = self.letter();
+        let width = rows.len().max(1);
         let mut rest = index;
         let mut digits: Vec<String> = (0..self.rank())
             .map(|_| {
-                let digit = (rest % n + 1).to_string();
-                rest /= n;
-                digit
+                let joint = rows.get(rest % width).map_or(0, |joint| joint + 1);
+                rest /= width;
+                joint.to_string()
             })
             .collect();
         digits.reverse();

@@ -6,6 +6,7 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
+use dalembert_model::scene::Scene;
 
 use crate::emit::module::{self, ModuleOptions};
 use crate::emit::{MathPath, ScalarType};
@@ -13,9 +14,10 @@ use crate::function::{Function, Quantity};
 use crate::graph::{Counts, Graph};
 use crate::plan::{self, Entry, Plan};
 use crate::portfolio::{self, Source, Variant};
+use crate::scene::{Setting, SettingError};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{Effort, Stage, simplify};
-use crate::verify::exact::{Disproof, Proof, prove};
+use crate::verify::exact::{Disproof, Proof, prove_in};
 use crate::verify::floating::Emitted;
 use crate::verify::text::{TextError, TextProgram};
 
@@ -53,16 +55,16 @@ impl Start {
     }
 
     /// The graphs to start from.
-    fn variants(self, robot: &Robot, function: Function, effort: Effort) -> Vec<Variant> {
+    fn variants(self, setting: &Setting, function: Function, effort: Effort) -> Vec<Variant> {
         match self {
-            Start::Only(formulation) => vec![portfolio::textbook(robot, function, formulation)],
+            Start::Only(formulation) => vec![portfolio::textbook(setting, function, formulation)],
             Start::Auto => {
-                let mut variants = portfolio::regrouped(robot, function, effort);
+                let mut variants = portfolio::regrouped(setting, function, effort);
                 // The textbook recursion gives D column by column and h_ikm
                 // by polarisation, with n² of work a link or more: no match.
                 if function.quantities() == [Quantity::Torque] {
                     let recursion = Formulation::NewtonEulerLink;
-                    variants.push(portfolio::textbook(robot, function, recursion));
+                    variants.push(portfolio::textbook(setting, function, recursion));
                 }
                 variants
             }
@@ -86,9 +88,23 @@ pub struct Request {
     pub plan: Option<Plan>,
     /// Where emitted code finds sine and cosine.
     pub math: MathPath,
-    /// The module's name; the robot's if `None`. The f32 module of a pair
-    /// has `_f32` appended.
+    /// The module's name; the robot's and the scene's if `None`. The f32
+    /// module of a pair has `_f32` appended.
     pub module: Option<String>,
+    /// What the robot is used for; everything if `None`. Its outputs and
+    /// scalar are defaults that the ways in apply ([`Request::in_scene`]).
+    pub scene: Option<Scene>,
+}
+
+impl Request {
+    /// The module's name.
+    pub fn module_name(&self, robot: &Robot) -> String {
+        match (&self.module, &self.scene) {
+            (Some(name), _) => name.clone(),
+            (None, Some(scene)) => format!("{}_{}", robot.name, scene.name),
+            (None, None) => robot.name.clone(),
+        }
+    }
 }
 
 impl Default for Request {
@@ -101,6 +117,7 @@ impl Default for Request {
             plan: None,
             math: MathPath::default(),
             module: None,
+            scene: None,
         }
     }
 }
@@ -140,11 +157,13 @@ pub struct Generated {
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,
-    /// The plan is for another robot.
+    /// The plan is for another robot, or for a scene that has changed.
     StalePlan {
-        /// The robot that the plan names.
+        /// The robot that the plan names, or the scene.
         robot: String,
     },
+    /// The scene is none of this robot.
+    Scene(SettingError),
     /// A constant is beyond the scalar's range, or rounds to zero.
     Constant {
         /// The function that needs it.
@@ -177,6 +196,7 @@ impl fmt::Display for GenerateError {
                 "the plan of `{robot}` no longer fits the robot: its parameters changed; \
                  make it anew with `dalembert generate --effort thorough --save-plan`, or delete it"
             ),
+            GenerateError::Scene(error) => error.fmt(f),
             GenerateError::Constant {
                 function,
                 scalar,
@@ -216,10 +236,11 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });
     }
+    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let mut functions = Vec::new();
     for function in Function::ALL {
         if request.functions.contains(&function) {
-            functions.push(one(robot, function, request)?);
+            functions.push(one(&setting, function, request)?);
         }
     }
     let mut warnings = Vec::new();
@@ -228,19 +249,21 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             check_constants(&generated.program, scalar, &mut warnings)?;
         }
     }
+    let name = request.module_name(robot);
     let text = module::write(
         robot,
+        &setting,
         &functions,
         &ModuleOptions {
             scalars: &request.scalars,
             math: &request.math,
-            name: request.module.as_deref().unwrap_or(&robot.name),
+            name: &name,
         },
     );
     let mut emitted = Vec::new();
     for &scalar in &request.scalars {
         for generated in &functions {
-            emitted.push(read_back(&text, generated, scalar, robot, request)?);
+            emitted.push(read_back(&text, generated, scalar, &name, request)?);
         }
     }
     Ok(Generated {
@@ -252,20 +275,19 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
 }
 
 fn one(
-    robot: &Robot,
+    setting: &Setting,
     function: Function,
     request: &Request,
 ) -> Result<GeneratedFunction, GenerateError> {
-    let n = robot.joints.len();
-    let outputs = function.outputs(n);
+    let outputs = function.outputs(setting.rows().len());
     if outputs > MOST_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
-    let (source, stages, program) = match replay(function, request) {
+    let (source, stages, program) = match replay(setting, function, request)? {
         Some(entry) => (entry.source, entry.stages.clone(), entry.program.clone()),
-        None => found(robot, function, request)?,
+        None => found(setting, function, request)?,
     };
-    let proof = prove(robot, &program).map_err(|d| GenerateError::Disproved(function, d))?;
+    let proof = prove_in(setting, &program).map_err(|d| GenerateError::Disproved(function, d))?;
     Ok(GeneratedFunction {
         function,
         source,
@@ -277,22 +299,38 @@ fn one(
 }
 
 /// The plan's program, the first requested scalar's that it has.
-fn replay(function: Function, request: &Request) -> Option<&Entry> {
-    let plan = request.plan.as_ref()?;
+fn replay<'r>(
+    setting: &Setting,
+    function: Function,
+    request: &'r Request,
+) -> Result<Option<&'r Entry>, GenerateError> {
+    let Some(plan) = &request.plan else {
+        return Ok(None);
+    };
+    let scene = setting.scene();
     let mut scalars = request.scalars.iter();
-    scalars.find_map(|&scalar| plan.find(function, request.start, scalar))
+    let found = scalars.find_map(|&scalar| plan.find(function, request.start, scalar, scene));
+    match (found, scene) {
+        // A program of the scene as it was is a program of another scene.
+        (Some(entry), Some(scene)) if entry.scene != Some(plan::SceneKey::of(scene)) => {
+            Err(GenerateError::StalePlan {
+                robot: scene.name.clone(),
+            })
+        }
+        _ => Ok(found),
+    }
 }
 
 /// Searches for a program.
 fn found(
-    robot: &Robot,
+    setting: &Setting,
     function: Function,
     request: &Request,
 ) -> Result<(Source, Vec<Stage>, Program), GenerateError> {
-    let variants = request.start.variants(robot, function, request.effort);
+    let variants = request.start.variants(setting, function, request.effort);
     let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
     let helpers = match request.start {
-        Start::Auto => vec![portfolio::angle_sums(robot)],
+        Start::Auto => vec![portfolio::angle_sums(setting)],
         Start::Only(_) => Vec::new(),
     };
     let Some(simplified) = simplify(&graphs, &helpers, request.effort) else {
@@ -303,7 +341,7 @@ fn found(
         counts: variants[simplified.seed].traced,
     }];
     stages.extend(simplified.stages);
-    let program = Program::new(function, robot.joints.len(), &simplified.graph);
+    let program = Program::in_setting(setting, function, &simplified.graph);
     stages.push(Stage {
         name: "final",
         counts: program.counts(),
@@ -351,11 +389,10 @@ fn read_back(
     text: &str,
     generated: &GeneratedFunction,
     scalar: ScalarType,
-    robot: &Robot,
+    name: &str,
     request: &Request,
 ) -> Result<Emitted, GenerateError> {
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
-    let name = request.module.as_deref().unwrap_or(&robot.name);
     let module = module::name(name, scalar, &request.scalars);
     let section = module::section(text, &module)
         .ok_or_else(|| fail(format!("there is no module `{module}`")))?;

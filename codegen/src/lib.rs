@@ -2,6 +2,7 @@
 //!
 //! - [`generate`]: the one function that macro, build script and command call
 //! - [`function`]: the functions that can be generated
+//! - [`scene`]: the robot in its setting: locked joints, results asked for
 //! - [`trace`]: the equations as a graph
 //! - [`portfolio`]: the formulations to start from, tuned to the robot
 //! - [`graph`]: the graph with exact constants and fingerprints
@@ -27,6 +28,7 @@ pub mod generate;
 pub mod graph;
 pub mod plan;
 pub mod portfolio;
+pub mod scene;
 pub mod schedule;
 pub mod simplify;
 #[cfg(feature = "stress")]

@@ -1,16 +1,19 @@
 //! From a robot to the graph of one function: the equations run once with
 //! symbols.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use dalembert_model::equations::{Arm, Formulation, JointPosition, Rotor};
+use dalembert_model::number::Exact;
 use dalembert_model::robot::{JointKind, Robot};
 use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Field;
 
 use crate::function::{Function, Quantity};
 use crate::graph::symbol::Symbol;
 use crate::graph::{AngleSum, Builder, Counts, Folding, Graph, Input, Points};
+use crate::scene::Setting;
 
 /// q, q̇ and q̈ in the scalar of a computation.
 #[derive(Clone, Debug)]
@@ -41,6 +44,18 @@ impl<S> Motion<S> {
             q: q.collect(),
             qd: (0..n).map(|i| input(Input::Velocity(i))).collect(),
             qdd: (0..n).map(|i| input(Input::Acceleration(i))).collect(),
+        }
+    }
+}
+
+impl<S: Clone> Motion<S> {
+    /// The motion of these joints alone.
+    pub fn of_joints(&self, joints: &[usize]) -> Motion<S> {
+        let pick = |values: &[S]| joints.iter().map(|&joint| values[joint].clone()).collect();
+        Motion {
+            q: joints.iter().map(|&joint| self.q[joint].clone()).collect(),
+            qd: pick(&self.qd),
+            qdd: pick(&self.qdd),
         }
     }
 }
@@ -87,10 +102,18 @@ pub struct Trace {
 
 /// Runs a formulation with symbols.
 pub fn trace(robot: &Robot, function: Function, formulation: Formulation) -> Trace {
+    trace_in(&Setting::whole(robot), function, formulation)
+}
+
+/// Runs a formulation with symbols in a setting.
+pub fn trace_in(setting: &Setting, function: Function, formulation: Formulation) -> Trace {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-    let arm = Arm::from_robot(robot, &mut |constant| Symbol::from(constant.clone()));
-    let motion = Motion::of(robot, |input| Symbol::input(&builder, input));
-    let outputs: Vec<_> = evaluate(function, formulation, &arm, &motion)
+    let constant = |constant: &Exact| Symbol::from(constant.clone());
+    let arm = Arm::from_robot(setting.robot(), &mut { constant });
+    let motion = setting.motion(|input| Symbol::input(&builder, input), constant);
+    let outputs = evaluate(function, formulation, &arm, &motion);
+    let outputs: Vec<_> = setting
+        .select(function, setting.joints(), outputs)
         .iter()
         .map(Symbol::value)
         .collect();
@@ -102,24 +125,33 @@ pub fn trace(robot: &Robot, function: Function, formulation: Formulation) -> Tra
 }
 
 impl Points {
-    /// The outputs of a function at a robot's point, by a formulation in the
-    /// field; `None` if a parameter's denominator is divisible by the prime.
+    /// The outputs of a function at a point of a setting, by a formulation in
+    /// the field; `None` if a parameter's denominator is divisible by the
+    /// prime.
+    ///
+    /// The formulation runs on the whole arm: a locked joint is one whose
+    /// pair or position is constant and whose rates are zero.
     pub fn evaluate(
         &self,
-        robot: &Robot,
+        setting: &Setting,
         function: Function,
         formulation: Formulation,
         point: usize,
-    ) -> Option<Vec<dalembert_model::scalar::field::Field>> {
-        let mut failed = false;
-        let arm = Arm::from_robot(robot, &mut |constant| match self.constant(constant) {
+    ) -> Option<Vec<Field>> {
+        let failed = Cell::new(false);
+        let constant = |constant: &Exact| match self.constant(constant) {
             Some(print) => print.0[point],
             None => {
-                failed = true;
-                Scalar::zero()
+                failed.set(true);
+                Field::zero()
             }
-        });
-        let motion = Motion::of(robot, |input| self.input(input).0[point]);
-        (!failed).then(|| evaluate(function, formulation, &arm, &motion))
+        };
+        let arm = Arm::from_robot(setting.robot(), &mut { constant });
+        let motion = setting.motion(|input| self.input(input).0[point], constant);
+        let evaluate = || {
+            let outputs = evaluate(function, formulation, &arm, &motion);
+            setting.select(function, setting.joints(), outputs)
+        };
+        (!failed.get()).then(evaluate)
     }
 }

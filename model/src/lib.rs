@@ -2,6 +2,7 @@
 //!
 //! - [`number`]: exact rationals, angles and the constants made of them
 //! - [`robot`]: the description: DH rows, masses, centres of mass, inertias, limits
+//! - [`scene`]: what a robot is used for: locked joints, payload, box, tolerance
 //! - [`read`]: robot files and what is wrong with them (feature `std`)
 //! - [`scalar`]: the arithmetic that every formula is generic over
 //! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
@@ -20,3 +21,4 @@ pub mod read;
 pub mod reference;
 pub mod robot;
 pub mod scalar;
+pub mod scene;

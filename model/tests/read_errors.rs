@@ -261,13 +261,6 @@ fn warnings_and_notes() {
             17,
             "from pi/2",
         ),
-        (
-            "[[joint]]",
-            "[scene.lab]\nbox = 1\n[[joint]]",
-            Severity::Note,
-            4,
-            "scenes are not yet used",
-        ),
     ] {
         let source = GOOD.replacen(what, by, 1);
         let notes = parse(&source, &Options::default()).expect("reads").notes;

@@ -144,11 +144,14 @@ fn functions(
         plan,
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
+        scene: None,
     };
     generate(robot, &request)
         .map_err(|error| {
             let function = match &error {
-                GenerateError::Empty | GenerateError::StalePlan { .. } => None,
+                GenerateError::Empty
+                | GenerateError::StalePlan { .. }
+                | GenerateError::Scene(_) => None,
                 GenerateError::Constant { function, .. }
                 | GenerateError::TooLarge { function, .. }
                 | GenerateError::Disproved(function, _)

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
-use super::{MathPath, ScalarType, function};
 use super::scene::describe;
+use super::{MathPath, ScalarType, function};
 use crate::generate::GeneratedFunction;
 use crate::scene::Setting;
 

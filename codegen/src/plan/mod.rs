@@ -21,6 +21,7 @@ use crate::generate::Start;
 use crate::portfolio::Source;
 use crate::schedule::Program;
 use crate::simplify::Stage;
+use dalembert_model::scene::Scene;
 
 /// The programs kept for a robot.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +31,7 @@ pub struct Plan {
     /// The robot's [`input_hash`](dalembert_model::robot::Robot::input_hash)
     /// in hexadecimal.
     pub input: String,
-    /// One entry a function, formulation and scalar.
+    /// One entry a scene, function, formulation and scalar.
     pub entries: Vec<Entry>,
 }
 
@@ -45,20 +46,54 @@ pub struct Entry {
     pub source: Source,
     /// Counts after each step of the search.
     pub stages: Vec<Stage>,
+    /// The scene that it is for, unless it is for the whole robot.
+    pub scene: Option<SceneKey>,
     /// The program.
     pub program: Program,
 }
 
+/// Which scene an entry is for. The hash of a plan is the robot's alone, so
+/// that a scene can be added; an edited scene shows in its own.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SceneKey {
+    /// Its name.
+    pub name: String,
+    /// Its [`short_hash`](Scene::short_hash).
+    pub hash: String,
+}
+
+impl SceneKey {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> SceneKey {
+        SceneKey {
+            name: scene.name.clone(),
+            hash: scene.short_hash(),
+        }
+    }
+}
+
+/// What tells the entries of a plan apart.
+type Key<'e> = (Option<&'e str>, Function, &'static str, ScalarType);
+
 impl Entry {
-    fn key(&self) -> (Function, &'static str, ScalarType) {
-        (self.program.function, self.start.name(), self.scalar)
+    fn key(&self) -> Key<'_> {
+        let scene = self.scene.as_ref().map(|scene| scene.name.as_str());
+        (scene, self.program.function, self.start.name(), self.scalar)
     }
 }
 
 impl Plan {
-    /// The entry for a function, formulation and scalar.
-    pub fn find(&self, function: Function, start: Start, scalar: ScalarType) -> Option<&Entry> {
-        let key = (function, start.name(), scalar);
+    /// The entry for a function, formulation and scalar, in a scene of this
+    /// name. Whether the scene is still the same, its hash says.
+    pub fn find(
+        &self,
+        function: Function,
+        start: Start,
+        scalar: ScalarType,
+        scene: Option<&Scene>,
+    ) -> Option<&Entry> {
+        let scene = scene.map(|scene| scene.name.as_str());
+        let key = (scene, function, start.name(), scalar);
         self.entries.iter().find(|entry| entry.key() == key)
     }
 
@@ -66,7 +101,7 @@ impl Plan {
     pub fn insert(&mut self, entry: Entry) {
         self.entries.retain(|other| other.key() != entry.key());
         self.entries.push(entry);
-        self.entries.sort_by_key(Entry::key);
+        self.entries.sort_by(|a, b| a.key().cmp(&b.key()));
     }
 }
 

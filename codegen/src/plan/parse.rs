@@ -6,7 +6,7 @@ use std::fmt;
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 
-use super::{Entry, Plan};
+use super::{Entry, Plan, SceneKey};
 use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::generate::Start;
@@ -89,6 +89,7 @@ impl Reader {
             ("robot", None) => self.robot = words.get(1).map(|&w| w.to_owned()),
             ("input", None) => self.input = words.get(1).map(|&w| w.to_owned()),
             ("program", None) => self.open = Some(program(&words[1..])?),
+            ("scene", Some(entry)) => scene(&words[1..], entry)?,
             ("stage", Some(entry)) => entry.stages.push(stage(&words[1..])?),
             ("return", Some(entry)) => {
                 for word in &words[1..] {
@@ -100,7 +101,7 @@ impl Reader {
                     entry.program.outputs.push(Output { negative, value });
                 }
                 let program = &mut entry.program;
-                let expected = program.function.outputs(program.joints);
+                let expected = program.function.outputs(program.rows.len());
                 if program.outputs.len() != expected {
                     let found = program.outputs.len();
                     return Err(format!("expected {expected} results, found {found}"));
@@ -139,19 +140,50 @@ fn program(words: &[&str]) -> Result<Entry, String> {
         .ok()
         .filter(|n| (1..=Robot::MAX_JOINTS).contains(n))
         .ok_or_else(|| unknown("number of joints", joints))?;
+    let function = Function::from_name(function).ok_or_else(|| unknown("function", function))?;
     Ok(Entry {
+        scene: None,
         start: Start::from_name(start).ok_or_else(|| unknown("formulation", start))?,
         scalar: ScalarType::from_name(scalar).ok_or_else(|| unknown("scalar", scalar))?,
         source: Source::from_name(source).ok_or_else(|| unknown("source", source))?,
         stages: Vec::new(),
         program: Program {
-            function: Function::from_name(function).ok_or_else(|| unknown("function", function))?,
+            function,
             joints,
+            rows: (0..joints).collect(),
+            arguments: function.arguments().to_vec(),
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
         },
     })
+}
+
+/// `scene NAME HASH ROWS ARGUMENTS`: what a scene leaves of the program.
+fn scene(words: &[&str], entry: &mut Entry) -> Result<(), String> {
+    let &[name, hash, rows, arguments] = words else {
+        return Err("expected a scene's name, hash, rows and arguments".into());
+    };
+    let program = &mut entry.program;
+    if !program.steps.is_empty() {
+        return Err("the scene comes before the steps".into());
+    }
+    let row = |word: &str| {
+        let number = word.parse::<usize>().ok()?.checked_sub(1)?;
+        (number < program.joints).then_some(number)
+    };
+    let rows: Option<Vec<usize>> = rows.split(',').map(row).collect();
+    program.rows = rows
+        .filter(|rows| rows.len() <= program.joints)
+        .ok_or("expected joints such as `1,2,3`")?;
+    program
+        .arguments
+        .retain(|a| arguments.split(',').any(|word| word == a.name()));
+    entry.scene = Some(SceneKey {
+        name: name.to_owned(),
+        hash: hash.to_owned(),
+    });
+    Ok(())
 }
 
 fn stage(words: &[&str]) -> Result<Stage, String> {

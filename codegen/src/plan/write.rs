@@ -26,6 +26,18 @@ impl Plan {
                 entry.source.name(),
                 program.joints
             );
+            if let Some(scene) = &entry.scene {
+                let rows: Vec<String> = program.rows.iter().map(|r| (r + 1).to_string()).collect();
+                let arguments: Vec<&str> = program.arguments.iter().map(|a| a.name()).collect();
+                let _ = writeln!(
+                    text,
+                    "scene {} {} {} {}",
+                    scene.name,
+                    scene.hash,
+                    rows.join(","),
+                    arguments.join(",")
+                );
+            }
             for stage in &entry.stages {
                 let c = stage.counts;
                 let name = stage.name;

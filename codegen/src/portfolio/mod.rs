@@ -11,18 +11,18 @@ use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::{Composite, Travel};
 use dalembert_model::equations::chain::recursion::{Couple, Spin};
-use dalembert_model::equations::chain::{Chain, Displacement, Gauge};
+use dalembert_model::equations::chain::{Chain, Displacement, Gauge, Skeleton};
 use dalembert_model::equations::matrix::{plus, times, zero_vector, zeros};
 use dalembert_model::equations::{Arm, Formulation, Rotor};
 use dalembert_model::number::Exact;
-use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use crate::function::{Function, Quantity};
 use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Counts, Folding, Graph, Input};
+use crate::scene::Setting;
 use crate::simplify::{self, Effort};
-use crate::trace::{Motion, trace};
+use crate::trace::{Motion, trace_in};
 
 /// One association of the chain formulas; all give the same values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,9 +138,17 @@ fn evaluate<S: Scalar>(
     outputs
 }
 
+/// The motion of a setting in symbols.
+fn symbols(setting: &Setting, builder: &Rc<RefCell<Builder>>) -> Motion<Symbol> {
+    setting.motion(
+        |input: Input| Symbol::input(builder, input),
+        |constant| Symbol::from(constant.clone()),
+    )
+}
+
 /// Traces a function by the chain formulas; also the operations as executed.
 pub fn trace_chain(
-    robot: &Robot,
+    setting: &Setting,
     function: Function,
     chain: &Chain<Exact>,
     form: Form,
@@ -148,8 +156,10 @@ pub fn trace_chain(
 ) -> (Graph, Counts) {
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let motion = Motion::of(robot, |input: Input| Symbol::input(&builder, input));
-    let outputs: Vec<_> = evaluate(function, &chain, form, &motion)
+    let motion = symbols(setting, &builder).of_joints(setting.chained());
+    let outputs = evaluate(function, &chain, form, &motion);
+    let outputs: Vec<_> = setting
+        .select(function, setting.chained(), outputs)
         .iter()
         .map(Symbol::value)
         .collect();
@@ -158,9 +168,10 @@ pub fn trace_chain(
     (graph.finish(&outputs), traced)
 }
 
-/// The robot's arm with exact parameters, the base folded.
-pub fn exact_arm(robot: &Robot) -> Arm<Exact> {
-    Arm::from_robot(robot, &mut Exact::clone).fold_base()
+/// What moves, with exact parameters, the base folded.
+pub fn skeleton(setting: &Setting) -> Skeleton<Exact> {
+    let arm = Arm::from_robot(setting.robot(), &mut Exact::clone).fold_base();
+    Skeleton::new(&arm, &setting.merged())
 }
 
 /// Where a graph comes from.
@@ -210,8 +221,8 @@ pub struct Variant {
 }
 
 /// A textbook formulation.
-pub fn textbook(robot: &Robot, function: Function, formulation: Formulation) -> Variant {
-    let trace = trace(robot, function, formulation);
+pub fn textbook(setting: &Setting, function: Function, formulation: Formulation) -> Variant {
+    let trace = trace_in(setting, function, formulation);
     Variant {
         source: Source::Textbook(formulation),
         graph: trace.graph,
@@ -223,11 +234,11 @@ pub fn textbook(robot: &Robot, function: Function, formulation: Formulation) -> 
 const MOST_GLANCES: usize = 10;
 
 /// A function in every chain form, in the gauge that is cheapest for it.
-pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Variant> {
-    let arm = exact_arm(robot);
+pub fn regrouped(setting: &Setting, function: Function, effort: Effort) -> Vec<Variant> {
+    let arm = skeleton(setting);
     let forms = Form::of(function);
     let merged = |chain: &Chain<Exact>, form: Form| {
-        trace_chain(robot, function, chain, form, Folding::Semantic).0
+        trace_chain(setting, function, chain, form, Folding::Semantic).0
     };
     let mut tuned = tune::tune(
         &arm,
@@ -236,10 +247,10 @@ pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Varia
         effort.gauge_rounds(),
         |chain, form| simplify::cost(&merged(chain, form)),
     );
-    if effort == Effort::Thorough && robot.joints.len() <= MOST_GLANCES {
+    if effort == Effort::Thorough && arm.links.len() <= MOST_GLANCES {
         // What the search makes of a gauge is not what the gauge costs at
         // first: descend once more by the price after a short search.
-        let helpers = [angle_sums(robot)];
+        let helpers = [angle_sums(setting)];
         let price = |chain: &Chain<Exact>, form: Form| {
             simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers))
         };
@@ -249,7 +260,7 @@ pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Varia
     forms
         .iter()
         .map(|&form| {
-            let (graph, traced) = trace_chain(robot, function, &chain, form, Folding::Syntactic);
+            let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
             Variant {
                 source: Source::Regrouped,
                 graph,
@@ -262,12 +273,12 @@ pub fn regrouped(robot: &Robot, function: Function, effort: Effort) -> Vec<Varia
 /// Values that no recursion forms but that shorten it: the sine and cosine of
 /// the angle sums of parallel joints, by products, so that large angles lose
 /// nothing.
-pub fn angle_sums(robot: &Robot) -> Graph {
+pub fn angle_sums(setting: &Setting) -> Graph {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-    let arm = exact_arm(robot);
+    let arm = skeleton(setting);
     let chain = Chain::new(&arm, &Gauge::base(&arm));
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let motion = Motion::of(robot, |input: Input| Symbol::input(&builder, input));
+    let motion = symbols(setting, &builder).of_joints(setting.chained());
     let at = chain.at(&motion.q);
     let mut outputs = Vec::new();
     let mut sum: Option<Rotor<Symbol>> = None;

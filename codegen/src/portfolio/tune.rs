@@ -5,9 +5,8 @@
 //! would become: nothing kept, everything kept, or just as much as makes an
 //! entry vanish that would cost operations.
 
-use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::body::entry;
-use dalembert_model::equations::chain::{Body, Chain, ChainLink, Gauge, LinkGauge};
+use dalembert_model::equations::chain::{Body, Chain, ChainLink, Gauge, LinkGauge, Skeleton};
 use dalembert_model::equations::matrix::{Vector, zero_vector};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
@@ -36,13 +35,12 @@ pub struct Tuned {
 
 /// Where a descent starts: base parameters; where regrouping through odd
 /// angles would make the constants too large, a link keeps what it has.
-pub fn start(arm: &Arm<Exact>) -> Gauge<Exact> {
+pub fn start(arm: &Skeleton<Exact>) -> Gauge<Exact> {
     let mut gauge = Gauge::base(arm);
     for i in (1..arm.links.len()).rev() {
         // The chain from the parent on: what lies before does not matter, and
         // must not be reached by constants that may be too large.
-        let part = Arm {
-            convention: arm.convention,
+        let part = Skeleton {
             gravity: arm.gravity.clone(),
             links: arm.links[i - 1..].to_vec(),
         };
@@ -61,7 +59,7 @@ pub fn start(arm: &Arm<Exact>) -> Gauge<Exact> {
 
 /// Descends from a gauge; `price` must not depend on anything else.
 pub fn tune(
-    arm: &Arm<Exact>,
+    arm: &Skeleton<Exact>,
     from: Gauge<Exact>,
     forms: &[Form],
     rounds: usize,
@@ -94,7 +92,7 @@ pub fn tune(
 }
 
 struct Descent<'a, P> {
-    arm: &'a Arm<Exact>,
+    arm: &'a Skeleton<Exact>,
     price: P,
     best: Tuned,
 }
@@ -184,7 +182,7 @@ fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
 }
 
 fn revolute(
-    arm: &Arm<Exact>,
+    arm: &Skeleton<Exact>,
     chain: &Chain<Exact>,
     now: &LinkGauge<Exact>,
     i: usize,

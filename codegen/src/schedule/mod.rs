@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 
 use dalembert_model::number::Exact;
 
-use crate::function::Function;
+use crate::function::{Argument, Function};
 use crate::graph::{AngleSum, Counts, Edge, Graph, Input, Node, NodeId};
+use crate::scene::Setting;
 
 /// Straight-line code with exact constants: what is proved and emitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,10 @@ pub struct Program {
     pub function: Function,
     /// n: the length of every argument.
     pub joints: usize,
+    /// The joints that the results are over, zero-based, in their order.
+    pub rows: Vec<usize>,
+    /// The arguments there are, in order.
+    pub arguments: Vec<Argument>,
     /// The angles whose sine or cosine it needs, ascending.
     pub trig: Vec<Trig>,
     /// The arithmetic, operands before users.
@@ -88,8 +93,38 @@ impl Operation {
 }
 
 impl Program {
-    /// Straight-line code for a graph.
+    /// Straight-line code for the graph of a function of a whole robot.
     pub fn new(function: Function, joints: usize, graph: &Graph) -> Program {
+        let empty = Program {
+            function,
+            joints,
+            rows: (0..joints).collect(),
+            arguments: function.arguments().to_vec(),
+            trig: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        };
+        empty.with_graph(graph)
+    }
+
+    /// Straight-line code for the graph of a function in a setting.
+    pub fn in_setting(setting: &Setting, function: Function, graph: &Graph) -> Program {
+        let empty = Program {
+            function,
+            joints: setting.joints().len(),
+            rows: setting.rows().to_vec(),
+            arguments: setting.arguments(function),
+            trig: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        };
+        empty.with_graph(graph)
+    }
+
+    /// The same function with the same arguments and results, by another
+    /// graph.
+    #[must_use]
+    pub fn with_graph(&self, graph: &Graph) -> Program {
         let order = evaluation_order(graph);
         let mut place: Vec<Option<usize>> = vec![None; graph.nodes.len()];
         let mut steps = Vec::new();
@@ -110,8 +145,10 @@ impl Program {
             .map(|&edge| output(graph, &place, edge))
             .collect();
         let mut program = Program {
-            function,
-            joints,
+            function: self.function,
+            joints: self.joints,
+            rows: self.rows.clone(),
+            arguments: self.arguments.clone(),
             trig: Vec::new(),
             steps,
             outputs,

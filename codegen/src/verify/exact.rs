@@ -9,6 +9,7 @@
 use std::fmt;
 
 use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
@@ -16,8 +17,9 @@ use dalembert_model::scalar::field::Field;
 use super::degree::{Degree, failure_exponent};
 use crate::graph::Points;
 use crate::graph::print::POINTS;
+use crate::scene::Setting;
 use crate::schedule::{Operand, Operation, Program};
-use crate::trace::{Motion, evaluate};
+use crate::trace::evaluate;
 
 /// The most joints for which Lagrange–Euler itself is the yardstick: its cost
 /// grows with n⁴ to n⁵.
@@ -85,8 +87,18 @@ impl fmt::Display for Disproof {
 
 impl std::error::Error for Disproof {}
 
-/// Proves a program.
+/// Proves a program of a whole robot.
 pub fn prove(robot: &Robot, program: &Program) -> Result<Proof, Disproof> {
+    prove_in(&Setting::whole(robot), program)
+}
+
+/// Proves a program of a setting: against the full arm's formula with
+/// constants in place of what the setting fixes, whatever was merged.
+pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
+    if program.rows != setting.rows() {
+        return Err(Disproof::Shape);
+    }
+    let robot = setting.robot();
     let yardstick = if robot.joints.len() <= WRITTEN_LIMIT {
         Formulation::LagrangeEuler
     } else {
@@ -95,7 +107,7 @@ pub fn prove(robot: &Robot, program: &Program) -> Result<Proof, Disproof> {
     let points = Points::independent(SEED);
     for point in 0..POINTS {
         let expected = points
-            .evaluate(robot, program.function, yardstick, point)
+            .evaluate(setting, program.function, yardstick, point)
             .ok_or(Disproof::Denominator)?;
         let actual = run(program, &points, point).ok_or(Disproof::Denominator)?;
         if expected.len() != actual.len() {
@@ -106,15 +118,17 @@ pub fn prove(robot: &Robot, program: &Program) -> Result<Proof, Disproof> {
             return Err(Disproof::Output { index, entry });
         }
     }
-    let arm = Arm::from_robot(robot, &mut |constant| {
+    let constant = |constant: &Exact| {
         if constant.is_zero() {
             Degree::zero()
         } else {
             Degree::constant(constant)
         }
-    });
-    let motion = Motion::of(robot, Degree::input);
+    };
+    let arm = Arm::from_robot(robot, &mut { constant });
+    let motion = setting.motion(Degree::input, constant);
     let formula = evaluate(program.function, yardstick, &arm, &motion);
+    let formula = setting.select(program.function, setting.joints(), formula);
     let degree = formula
         .iter()
         .zip(&program.degrees())
@@ -159,9 +173,9 @@ impl Program {
     /// The name of an output: `D_12`, `h_346`.
     pub fn entry(&self, mut index: usize) -> String {
         for quantity in self.function.quantities() {
-            let len = quantity.len(self.joints);
+            let len = quantity.len(self.rows.len());
             if index < len {
-                return quantity.entry(index, self.joints);
+                return quantity.entry_over(index, &self.rows, self.joints);
             }
             index -= len;
         }

@@ -17,7 +17,8 @@ use super::text::{TextOperand, TextProgram};
 use crate::emit::ScalarType;
 use crate::function::{Function, Quantity};
 use crate::graph::Input;
-use crate::trace::{Motion, evaluate};
+use crate::scene::Setting;
+use crate::trace::evaluate;
 
 /// The bound on the normwise error against the runtime, in units of u.
 pub const BOUND: f64 = 100.0;
@@ -75,22 +76,28 @@ impl Measure {
 #[derive(Clone, Debug)]
 pub struct Runtime {
     arm: Arm<f64>,
-    robot: Robot,
+    setting: Setting,
 }
 
 impl Runtime {
     /// Of a robot; lengths without effect are folded away while exact.
     pub fn new(robot: &Robot) -> Runtime {
-        let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
+        Runtime::in_setting(Setting::whole(robot))
+    }
+
+    /// Of a robot in a setting: the same recursion over all its joints, with
+    /// the setting's constants in place of the state's.
+    pub fn in_setting(setting: Setting) -> Runtime {
+        let exact: Arm<Exact> = Arm::from_robot(setting.robot(), &mut Exact::clone);
         Runtime {
             arm: exact.fold_base().map(f64::nearest),
-            robot: robot.clone(),
+            setting,
         }
     }
 
     /// The results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
-        let motion = Motion::of(&self.robot, |input| {
+        let input = |input| {
             // A motion reads the angles of single joints only.
             let angle = |sum: crate::graph::AngleSum| {
                 sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>()
@@ -102,8 +109,11 @@ impl Runtime {
                 Input::Velocity(joint) => state.qd[joint],
                 Input::Acceleration(joint) => state.qdd[joint],
             }
-        });
-        evaluate(function, Formulation::NewtonEulerLink, &self.arm, &motion)
+        };
+        let motion = self.setting.motion(input, f64::nearest);
+        let results = evaluate(function, Formulation::NewtonEulerLink, &self.arm, &motion);
+        let joints = self.setting.joints();
+        self.setting.select(function, joints, results)
     }
 }
 
@@ -148,7 +158,7 @@ impl Emitted {
         let mut measures = Vec::new();
         let mut start = 0;
         for &quantity in self.function.quantities() {
-            let range = start..start + quantity.len(state_len(states));
+            let range = start..start + quantity.len(self.rows());
             start = range.end;
             let part = |values: &'_ [f64]| values[range.clone()].to_vec();
             let pairs: Vec<_> = cases.iter().map(|(a, b)| (part(a), part(b))).collect();
@@ -188,6 +198,14 @@ impl Emitted {
         pairs.into_iter().map(measure).collect()
     }
 
+    /// How many joints the results are over: all, or those of a scene.
+    fn rows(&self) -> usize {
+        let found = self.text.outputs.len();
+        let rows = 1..=Robot::MAX_JOINTS;
+        let mut rows = rows.filter(|&rows| self.function.outputs(rows) == found);
+        rows.next().unwrap_or(0)
+    }
+
     fn measure(&self, quantity: Quantity, error: f64) -> Measure {
         Measure {
             function: self.function,
@@ -200,10 +218,6 @@ impl Emitted {
 
 /// Actual and expected values.
 type Pair = (Vec<f64>, Vec<f64>);
-
-fn state_len(states: &[JointState]) -> usize {
-    states.first().map_or(0, |state| state.q.len())
-}
 
 /// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
 fn contract(symbols: &[f64], qd: &[f64]) -> Vec<f64> {

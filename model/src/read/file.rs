@@ -12,9 +12,10 @@ use toml_span::Value;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
-use super::{Options, Severity, guard, joint, syntax};
+use super::{Options, guard, joint, scene, syntax};
 use crate::number::Rational;
 use crate::robot::{Convention, Joint, Place, Robot};
+use crate::scene::Scene;
 
 /// Where each part of the robot is in the file.
 #[derive(Default)]
@@ -43,7 +44,11 @@ impl Places {
 }
 
 /// Reads a robot, reporting to the sink; `None` only after an error.
-pub(super) fn read<'s>(source: &'s str, options: &Options, sink: &mut Sink<'s>) -> Option<Robot> {
+pub(super) fn read<'s>(
+    source: &'s str,
+    options: &Options,
+    sink: &mut Sink<'s>,
+) -> Option<(Robot, Vec<Scene>)> {
     if !guard::admits(source, sink) {
         return None;
     }
@@ -69,7 +74,11 @@ pub(super) fn read<'s>(source: &'s str, options: &Options, sink: &mut Sink<'s>) 
         let help = finding.help.unwrap_or_default();
         cx.sink.push(finding.severity, span, finding.message, &help);
     }
-    Some(robot)
+    let scenes = root.as_table().and_then(|table| table.get("scene"));
+    // Without joints, every joint of a scene would be unknown as well.
+    let scenes = scenes.filter(|_| !robot.joints.is_empty());
+    let scenes = scenes.map_or_else(Vec::new, |scenes| scene::read(&mut cx, &robot, scenes));
+    Some((robot, scenes))
 }
 
 fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
@@ -108,9 +117,6 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
         [(); 3].map(|()| Rational::zero())
     });
 
-    if let Some(scenes) = keys.get("scene") {
-        scene(cx, scenes);
-    }
     let list = keys.require(
         "joint",
         "each joint is a [[joint]] table, from the base to the hand",
@@ -160,16 +166,4 @@ fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Joi
             })
             .collect(),
     )
-}
-
-/// Scenes may be there; so far nothing reads them.
-fn scene(cx: &mut Context, scenes: &Value) {
-    if cx
-        .table(scenes, "each scene is a [scene.NAME] table")
-        .is_some()
-    {
-        let span = first_line(cx.source, Context::span(scenes));
-        let message = "scenes are not yet used".to_string();
-        cx.sink.push(Severity::Note, span, message, "");
-    }
 }

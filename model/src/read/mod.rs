@@ -3,7 +3,8 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file` and `joint`: the keys of the file, through `table` and `value`
+//! - `file`, `joint` and `scene`: the keys of the file, through `table` and
+//!   `value`
 //! - [`Robot::validate`]: what is wrong whoever made the robot
 //!
 //! `report` collects and prints what was found; `suggest` finds the word that
@@ -13,6 +14,7 @@ mod file;
 mod guard;
 mod joint;
 mod report;
+mod scene;
 mod suggest;
 mod syntax;
 mod table;
@@ -22,6 +24,7 @@ use alloc::vec::Vec;
 
 use crate::number::Snap;
 use crate::robot::Robot;
+use crate::scene::Scene;
 
 pub use crate::robot::Severity;
 pub use guard::MAX_BYTES;
@@ -40,6 +43,8 @@ pub struct Options {
 pub struct Reading {
     /// The robot; [`Robot::validate`] finds no error in it.
     pub robot: Robot,
+    /// Its scenes, in the order of the file; [`Scene::validate`] finds nothing.
+    pub scenes: Vec<Scene>,
     /// Warnings and notes, in the order of the file.
     pub notes: Vec<Diagnostic>,
 }

@@ -8,6 +8,7 @@ use core::ops::Range;
 
 use super::{Reading, Severity};
 use crate::robot::Robot;
+use crate::scene::Scene;
 
 /// More errors than this are counted, not listed.
 const MAX_LISTED: usize = 200;
@@ -176,7 +177,10 @@ impl<'s> Sink<'s> {
 
     /// The robot with its notes, or the errors alone: with them, the rest is
     /// only in the way.
-    pub(super) fn finish(mut self, robot: Option<Robot>) -> Result<Reading, Diagnostics> {
+    pub(super) fn finish(
+        mut self,
+        read: Option<(Robot, Vec<Scene>)>,
+    ) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
         let (mut errors, notes): (Vec<_>, Vec<_>) = self
             .found
@@ -189,8 +193,12 @@ impl<'s> Sink<'s> {
                 last.message += &format!(" (and {more} more errors after this one)");
             }
         }
-        match robot {
-            Some(robot) if errors.is_empty() => Ok(Reading { robot, notes }),
+        match read {
+            Some((robot, scenes)) if errors.is_empty() => Ok(Reading {
+                robot,
+                scenes,
+                notes,
+            }),
             _ => Err(Diagnostics(errors)),
         }
     }

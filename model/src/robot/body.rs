@@ -11,7 +11,7 @@ use crate::number::Rational;
 
 /// What is wrong with a tensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Defect {
+pub(crate) enum Defect {
     /// A principal moment is negative.
     NegativeMoment,
     /// One principal moment exceeds the sum of the other two.
@@ -23,7 +23,7 @@ pub(super) enum Defect {
 impl Inertia<Rational> {
     /// The reason why no body of this mass can have this tensor, if there is
     /// one.
-    pub(super) fn defect(&self, mass: &Rational) -> Option<Defect> {
+    pub(crate) fn defect(&self, mass: &Rational) -> Option<Defect> {
         let tensor = self.rows();
         if !is_semidefinite(&tensor) {
             return Some(Defect::NegativeMoment);

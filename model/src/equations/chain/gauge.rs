@@ -9,8 +9,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Chain};
-use crate::equations::Arm;
+use super::{Body, Chain, Skeleton};
 use crate::equations::matrix::{Vector, scaled, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -46,8 +45,8 @@ pub struct Gauge<S> {
 impl<S: Scalar> Gauge<S> {
     /// Base parameters in metres: a revolute link keeps nothing that can
     /// move, and its origin lies after the constant step along the axis.
-    pub fn base(arm: &Arm<S>) -> Self {
-        let links = arm.links.iter().map(|link| LinkGauge {
+    pub fn base(skeleton: &Skeleton<S>) -> Self {
+        let links = skeleton.links.iter().map(|link| LinkGauge {
             origin: match link.kind {
                 JointKind::Revolute => [S::zero(), S::zero(), link.d.clone()],
                 JointKind::Prismatic => zero_vector(),

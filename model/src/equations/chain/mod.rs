@@ -1,6 +1,7 @@
 //! Both DH conventions as one kind of chain, with regrouped parameters.
 //!
 //! - this file: [`Chain`]: constant rotation, constant offset, then the joint
+//! - [`skeleton`]: what moves and what is constant, locked joints merged
 //! - [`body`]: mass, first and second moments about a frame's origin
 //! - [`gauge`]: the freedom that leaves the dynamics alone: where an origin
 //!   lies on its axis, which parameters a link keeps, the unit of length
@@ -13,15 +14,17 @@ pub mod body;
 pub mod composite;
 pub mod gauge;
 pub mod recursion;
+pub mod skeleton;
 
 use alloc::vec::Vec;
 
 pub use body::Body;
 pub use gauge::{Gauge, LinkGauge};
+pub use skeleton::{Segment, Skeleton};
 
-use super::matrix::{Vector, difference, dot, plus, scaled, sum, times, zero_vector};
-use super::{Arm, JointPosition, Rotor};
-use crate::robot::{Convention, JointKind};
+use super::matrix::{Vector, difference, dot, opposite, plus, scaled, sum, times, zero_vector};
+use super::{JointPosition, Rotor};
+use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
 /// A constant rotation, row by row.
@@ -77,72 +80,32 @@ pub enum Displacement<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// The chain of an arm in a gauge.
-    pub fn new(arm: &Arm<S>, gauge: &Gauge<S>) -> Chain<S> {
-        let mut links: Vec<ChainLink<S>> = Vec::with_capacity(arm.links.len());
-        // What is constant between the last frame and the next joint.
-        let mut turned = identity();
-        let mut moved: Vector<S> = zero_vector();
-        for (link, gauge) in arm.links.iter().zip(&gauge.links) {
-            let twist = turn_x(&link.alpha);
-            let along = [link.a.clone(), S::zero(), S::zero()];
-            let slide = [S::zero(), S::zero(), link.d.clone()];
-            if arm.convention == Convention::Modified {
-                moved = sum(&moved, &apply(&turned, &along));
-                turned = product(&turned, &twist);
-            }
-            // From the joint's moving frame on, before the link's own frame.
-            let (rest, reach) = match arm.convention {
-                Convention::Standard => (twist, along),
-                Convention::Modified => (identity(), zero_vector()),
+    /// The chain of a skeleton in a gauge.
+    pub fn new(skeleton: &Skeleton<S>, gauge: &Gauge<S>) -> Chain<S> {
+        let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
+        // How far the gauge moved the origin before.
+        let mut shift: Vector<S> = zero_vector();
+        for (segment, gauge) in skeleton.links.iter().zip(&gauge.links) {
+            let step = match segment.kind {
+                JointKind::Revolute => apply(&segment.rotation, &gauge.origin),
+                JointKind::Prismatic => gauge.origin.clone(),
             };
-            let body = Body::of(link);
-            match link.kind {
-                JointKind::Revolute => {
-                    let offset = sum(&moved, &apply(&turned, &gauge.origin));
-                    moved = sum(&difference(&slide, &gauge.origin), &reach);
-                    links.push(ChainLink {
-                        kind: link.kind,
-                        rotation: turned,
-                        offset,
-                        axis: unit_z(),
-                        theta: link.theta.clone(),
-                        body: body.carried(&rest, &moved),
-                        free: zero_vector(),
-                        armature: link.armature.clone(),
-                        viscous: link.viscous.clone(),
-                        spins_freely: false,
-                    });
-                    turned = rest;
-                }
-                JointKind::Prismatic => {
-                    let axis = apply(&turned, &unit_z());
-                    let turn = product(&turned, &turn_z(&link.theta));
-                    let before = sum(&moved, &apply(&turned, &slide));
-                    let offset = sum(&before, &gauge.origin);
-                    moved = difference(&apply(&turn, &reach), &gauge.origin);
-                    turned = product(&turn, &rest);
-                    let body = body.carried(&turned, &moved);
-                    links.push(ChainLink {
-                        kind: link.kind,
-                        rotation: identity(),
-                        offset,
-                        axis,
-                        theta: Rotor {
-                            sin: S::zero(),
-                            cos: S::one(),
-                        },
-                        body,
-                        free: zero_vector(),
-                        armature: link.armature.clone(),
-                        viscous: link.viscous.clone(),
-                        spins_freely: false,
-                    });
-                }
-            }
+            links.push(ChainLink {
+                kind: segment.kind,
+                rotation: segment.rotation.clone(),
+                offset: sum(&difference(&segment.offset, &shift), &step),
+                axis: segment.axis.clone(),
+                theta: segment.theta.clone(),
+                body: segment.body.moved(&opposite(&gauge.origin)),
+                free: zero_vector(),
+                armature: segment.armature.clone(),
+                viscous: segment.viscous.clone(),
+                spins_freely: false,
+            });
+            shift = gauge.origin.clone();
         }
         let mut chain = Chain {
-            gravity: arm.gravity.clone(),
+            gravity: skeleton.gravity.clone(),
             links,
             per_unit: S::one(),
         };

@@ -1,0 +1,238 @@
+//! A robot in its setting: what a scene fixes, and what it asks for.
+//!
+//! Every stage works on a [`Setting`]; without a scene it is the whole robot.
+//! Three things a scene changes, each in its own place:
+//!
+//! - payload and gravity are parameters: the setting's [`robot`](Setting::robot)
+//!   has them, exactly, before anything is traced;
+//! - locked joints and zero rates are inputs that are constants:
+//!   [`Setting::motion`] puts them in the place of the state's;
+//! - joints that nobody asks for are results that are left out
+//!   ([`Setting::select`]), and what only they needed is dead.
+//!
+//! Arguments keep an entry for every joint, so that callers need not repack
+//! their state; entries of locked joints are not read. Results are over the
+//! [`rows`](Setting::rows), in the order of the scene: τ, h and c have an
+//! entry a row, D is rows × rows (symmetric and, unlike rows × n,
+//! invertible), h_ikm rows × rows × rows.
+
+mod names;
+
+use std::fmt;
+
+use dalembert_model::equations::JointPosition;
+use dalembert_model::number::Exact;
+use dalembert_model::robot::{Position, Robot};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scene::{Scene, SceneFinding};
+
+pub use names::{UnknownScene, find};
+
+use crate::function::{Argument, Function};
+use crate::graph::Input;
+use crate::trace::Motion;
+
+/// A robot, whole or in a scene.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    robot: Robot,
+    scene: Option<Scene>,
+    /// 0 to n − 1.
+    joints: Vec<usize>,
+    rows: Vec<usize>,
+    chained: Vec<usize>,
+    /// An entry a joint.
+    locks: Vec<Option<JointPosition<Exact>>>,
+}
+
+/// Why there is no such setting.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SettingError {
+    /// The scene's name.
+    pub scene: String,
+    /// What is wrong with it; never empty.
+    pub findings: Vec<SceneFinding>,
+}
+
+impl fmt::Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "scene `{}`: ", self.scene)?;
+        for (index, finding) in self.findings.iter().enumerate() {
+            let gap = if index > 0 { "; " } else { "" };
+            write!(f, "{gap}{finding}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for SettingError {}
+
+impl Setting {
+    /// The whole robot.
+    pub fn whole(robot: &Robot) -> Setting {
+        let n = robot.joints.len();
+        let joints: Vec<usize> = (0..n).collect();
+        Setting {
+            robot: robot.clone(),
+            scene: None,
+            rows: joints.clone(),
+            chained: joints.clone(),
+            joints,
+            locks: vec![None; n],
+        }
+    }
+
+    /// A robot in a scene.
+    ///
+    /// # Errors
+    /// What [`Scene::validate`] finds.
+    pub fn new(robot: &Robot, scene: &Scene) -> Result<Setting, SettingError> {
+        let findings = scene.validate(robot);
+        if !findings.is_empty() {
+            let scene = scene.name.clone();
+            return Err(SettingError { scene, findings });
+        }
+        let n = robot.joints.len();
+        let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
+        let rows = scene.rows(n);
+        Ok(Setting {
+            robot: scene.apply(robot),
+            scene: Some(scene.clone()),
+            joints: (0..n).collect(),
+            chained: (0..n)
+                .filter(|i| locks[*i].is_none() || rows.contains(i))
+                .collect(),
+            rows,
+            locks,
+        })
+    }
+
+    /// A robot in a scene, if there is one.
+    ///
+    /// # Errors
+    /// As [`Setting::new`].
+    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Result<Setting, SettingError> {
+        scene.map_or_else(
+            || Ok(Setting::whole(robot)),
+            |scene| Setting::new(robot, scene),
+        )
+    }
+
+    /// The robot with the scene's payload and gravity, the box as its limits.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// The scene, unless the robot is whole.
+    pub fn scene(&self) -> Option<&Scene> {
+        self.scene.as_ref()
+    }
+
+    /// All joints, zero-based.
+    pub fn joints(&self) -> &[usize] {
+        &self.joints
+    }
+
+    /// The joints that results are over, zero-based, in their order.
+    pub fn rows(&self) -> &[usize] {
+        &self.rows
+    }
+
+    /// The joints that a chain needs: those that move, and locked ones whose
+    /// torque is asked for (what their brakes hold).
+    pub fn chained(&self) -> &[usize] {
+        &self.chained
+    }
+
+    /// The locks that merge links: those of joints without a torque to show.
+    pub fn merged(&self) -> Vec<Option<JointPosition<Exact>>> {
+        let merges = |(i, lock): (usize, &Option<_>)| match self.chained.contains(&i) {
+            true => None,
+            false => lock.clone(),
+        };
+        self.locks.iter().enumerate().map(merges).collect()
+    }
+
+    /// The position a joint is locked at.
+    pub fn lock(&self, joint: usize) -> Option<&JointPosition<Exact>> {
+        self.locks.get(joint).and_then(Option::as_ref)
+    }
+
+    /// The arguments that a function keeps: rates that are zero need none.
+    pub fn arguments(&self, function: Function) -> Vec<Argument> {
+        let zero = |argument: Argument| {
+            self.scene.as_ref().is_some_and(|scene| match argument {
+                Argument::Position => false,
+                Argument::Velocity => scene.velocity_zero,
+                Argument::Acceleration => scene.acceleration_zero,
+            })
+        };
+        let all = function.arguments().iter().copied();
+        all.filter(|&argument| !zero(argument)).collect()
+    }
+
+    /// The motion of all joints from the values of a program's inputs, with
+    /// the setting's constants in their places.
+    pub fn motion<S: Scalar>(
+        &self,
+        input: impl FnMut(Input) -> S,
+        mut constant: impl FnMut(&Exact) -> S,
+    ) -> Motion<S> {
+        let mut motion = Motion::of(&self.robot, input);
+        for (joint, lock) in self.locks.iter().enumerate() {
+            let Some(lock) = lock else { continue };
+            motion.q[joint] = match lock {
+                JointPosition::Revolute(pair) => JointPosition::Revolute(pair.map(&mut constant)),
+                JointPosition::Prismatic(q) => JointPosition::Prismatic(constant(q)),
+            };
+            // Zero by structure: what it multiplies is gone.
+            (motion.qd[joint], motion.qdd[joint]) = (S::zero(), S::zero());
+        }
+        if self.scene.as_ref().is_some_and(|s| s.velocity_zero) {
+            motion.qd.fill(S::zero());
+        }
+        if self.scene.as_ref().is_some_and(|s| s.acceleration_zero) {
+            motion.qdd.fill(S::zero());
+        }
+        motion
+    }
+
+    /// The results over the rows, from results over these joints; both flat,
+    /// in the order of the function's quantities.
+    pub fn select<S: Clone>(
+        &self,
+        function: Function,
+        joints: &[usize],
+        outputs: Vec<S>,
+    ) -> Vec<S> {
+        if joints == self.rows {
+            return outputs;
+        }
+        let place = |row: &usize| joints.iter().position(|joint| joint == row);
+        let places: Vec<usize> = self.rows.iter().filter_map(place).collect();
+        let (n, k) = (joints.len(), places.len());
+        let mut selected = Vec::with_capacity(function.outputs(k));
+        let mut start = 0;
+        for quantity in function.quantities() {
+            for index in 0..quantity.len(k) {
+                // The digits of the index to base k, to base n.
+                let (mut rest, mut from, mut weight) = (index, start, 1);
+                for _ in 0..quantity.rank() {
+                    from += places[rest % k] * weight;
+                    rest /= k;
+                    weight *= n;
+                }
+                selected.push(outputs[from].clone());
+            }
+            start += quantity.len(n);
+        }
+        selected
+    }
+}
+
+fn position(at: &Position) -> JointPosition<Exact> {
+    match at {
+        Position::Angle(angle) => JointPosition::Revolute(Exact::rotor(angle)),
+        Position::Length(length) => JointPosition::Prismatic(Exact::from(length.clone())),
+    }
+}

@@ -1,0 +1,163 @@
+//! A chain before its gauge is chosen: one segment a joint that moves.
+//!
+//! A locked joint is a constant step like any other. It contributes a
+//! rotation and an offset, its body joins the link before it (or the base,
+//! which feels nothing), and regrouping works through it.
+
+use alloc::vec::Vec;
+
+use super::{Body, Rotation, apply, identity, product, turn_x, turn_z, unit_z};
+use crate::equations::matrix::{Vector, plus, sum, zero_vector};
+use crate::equations::{Arm, JointPosition, Rotor};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// What moves, and what is constant between.
+#[derive(Clone, Debug)]
+pub struct Skeleton<S> {
+    /// Acceleration of gravity in base axes.
+    pub gravity: Vector<S>,
+    /// The joints that move, from the base to the hand.
+    pub links: Vec<Segment<S>>,
+}
+
+/// One joint that moves, with everything that is fixed to it.
+#[derive(Clone, Debug)]
+pub struct Segment<S> {
+    /// Its place in the arm, from zero.
+    pub joint: usize,
+    /// Revolute or prismatic.
+    pub kind: JointKind,
+    /// Revolute: axes of the frame at θ = 0 in those of the frame before.
+    /// Prismatic: the identity.
+    pub rotation: Rotation<S>,
+    /// Origin of the frame (at q = 0 if prismatic) in the frame before.
+    pub offset: Vector<S>,
+    /// Direction of the slide in the axes of the frame; z for a revolute joint.
+    pub axis: Vector<S>,
+    /// The pair of the constant added to q (revolute).
+    pub theta: Rotor<S>,
+    /// The constant step along the axis of a revolute joint.
+    pub d: S,
+    /// What moves with it, about the origin and in the axes of the frame.
+    pub body: Body<S>,
+    /// Rotor inertia felt at the joint.
+    pub armature: S,
+    /// Viscous damping b_i.
+    pub viscous: S,
+}
+
+impl<S: Scalar> Skeleton<S> {
+    /// Of an arm; a joint with a lock stays where the lock says. Missing
+    /// locks are none.
+    pub fn new(arm: &Arm<S>, locks: &[Option<JointPosition<S>>]) -> Skeleton<S> {
+        let mut links: Vec<Segment<S>> = Vec::with_capacity(arm.links.len());
+        // What is constant between the last frame and the next joint, and
+        // whether a locked joint is part of it.
+        let mut turned = identity();
+        let mut moved: Vector<S> = zero_vector();
+        let mut merged = false;
+        for (joint, link) in arm.links.iter().enumerate() {
+            let twist = turn_x(&link.alpha);
+            let along = [link.a.clone(), S::zero(), S::zero()];
+            if arm.convention == Convention::Modified {
+                moved = sum(&moved, &apply(&turned, &along));
+                turned = product(&turned, &twist);
+            }
+            // From the joint's moving frame on, before the link's own frame.
+            let (rest, reach) = match arm.convention {
+                Convention::Standard => (twist, along),
+                Convention::Modified => (identity(), zero_vector()),
+            };
+            let body = Body::of(link);
+            if let Some(Some(lock)) = locks.get(joint) {
+                let (theta, d) = match lock {
+                    JointPosition::Revolute(pair) => (pair.compose(&link.theta), link.d.clone()),
+                    JointPosition::Prismatic(q) => (link.theta.clone(), plus(q, &link.d)),
+                };
+                moved = sum(&moved, &apply(&turned, &[S::zero(), S::zero(), d]));
+                turned = product(&turned, &turn_z(&theta));
+                moved = sum(&moved, &apply(&turned, &reach));
+                turned = product(&turned, &rest);
+                if let Some(carrier) = links.last_mut() {
+                    carrier.body = carrier.body.with(&body.carried(&turned, &moved));
+                }
+                merged = true;
+                continue;
+            }
+            let slide = [S::zero(), S::zero(), link.d.clone()];
+            let mut segment = Segment {
+                joint,
+                kind: link.kind,
+                rotation: identity(),
+                offset: moved.clone(),
+                axis: unit_z(),
+                theta: link.theta.clone(),
+                d: link.d.clone(),
+                body: Body::zero(),
+                armature: link.armature.clone(),
+                viscous: link.viscous.clone(),
+            };
+            match link.kind {
+                JointKind::Revolute => {
+                    segment.rotation = turned;
+                    if merged && !links.is_empty() {
+                        segment.absorb_turn();
+                    }
+                    moved = sum(&slide, &reach);
+                    turned = rest;
+                }
+                JointKind::Prismatic => {
+                    segment.axis = apply(&turned, &unit_z());
+                    segment.offset = sum(&moved, &apply(&turned, &slide));
+                    let turn = product(&turned, &turn_z(&link.theta));
+                    segment.theta = Rotor {
+                        sin: S::zero(),
+                        cos: S::one(),
+                    };
+                    moved = apply(&turn, &reach);
+                    turned = product(&turn, &rest);
+                }
+            }
+            segment.body = body.carried(&turned, &moved);
+            links.push(segment);
+            merged = false;
+        }
+        Skeleton {
+            gravity: arm.gravity.clone(),
+            links,
+        }
+    }
+}
+
+impl<S: Scalar> Segment<S> {
+    /// Parallel axes: what locked joints turn about them becomes part of θ,
+    /// composed once instead of turning every vector.
+    ///
+    /// R = Rz(β) is no rotation but an offset of θ; R = Rz(β) Rx(π) is
+    /// Rx(π) Rz(−β).
+    fn absorb_turn(&mut self) {
+        let r = &self.rotation;
+        let opposite = if r[2][2].is_one() {
+            false
+        } else if r[2][2].neg().is_one() {
+            true
+        } else {
+            return;
+        };
+        let (sin, cos) = (r[1][0].clone(), r[0][0].clone());
+        let mut straight = identity();
+        let turn = if opposite {
+            straight[1][1] = S::one().neg();
+            straight[2][2] = S::one().neg();
+            Rotor {
+                sin: sin.neg(),
+                cos,
+            }
+        } else {
+            Rotor { sin, cos }
+        };
+        self.theta = turn.compose(&self.theta);
+        self.rotation = straight;
+    }
+}

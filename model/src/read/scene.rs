@@ -1,0 +1,385 @@
+//! The `[scene.NAME]` tables.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::ToString;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use toml_span::Value;
+
+use super::report::quote;
+use super::suggest;
+use super::table::Keys;
+use super::value::{Context, first_line};
+use crate::number::Rational;
+use crate::robot::{Field, Inertia, JointKind, Position, Robot};
+use crate::scene::{Float, MotionBox, Output, Part, Payload, Scale, Scene, Tolerance};
+
+const KEYS: [&str; 10] = [
+    "outputs",
+    "joints",
+    "lock",
+    "gravity",
+    "velocity",
+    "acceleration",
+    "payload",
+    "box",
+    "tolerance",
+    "scalar",
+];
+
+/// What one scene's tables say, and where.
+struct Reader<'r, 's, 'k> {
+    cx: &'r mut Context<'s, 'k>,
+    robot: &'r Robot,
+    spans: BTreeMap<Part, Range<usize>>,
+    /// Whether something could not be read: what seems to be missing then
+    /// may be that.
+    incomplete: bool,
+}
+
+/// Reads all scenes of a file.
+pub(super) fn read(cx: &mut Context, robot: &Robot, scenes: &Value) -> Vec<Scene> {
+    let Some(table) = cx.table(scenes, "each scene is a [scene.NAME] table") else {
+        return Vec::new();
+    };
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span.start);
+    let mut read = Vec::new();
+    for (key, value) in entries {
+        let head = key.span.start..key.span.end.max(key.span.start);
+        let Some(table) = cx.table(value, "each scene is a [scene.NAME] table") else {
+            continue;
+        };
+        let keys = Keys {
+            table,
+            span: head.clone(),
+            what: format!("scene {}", quote(&key.name)),
+        };
+        let mut reader = Reader {
+            cx: &mut *cx,
+            robot,
+            spans: BTreeMap::from([(Part::Name, head.clone())]),
+            incomplete: false,
+        };
+        let scene = reader.scene(&key.name, &keys);
+        for finding in scene.validate(robot) {
+            if reader.incomplete && is_of_absence(finding.part) {
+                continue;
+            }
+            let span = reader.spans.get(&finding.part).unwrap_or(&head).clone();
+            reader.cx.sink.error(span, finding.message, &finding.help);
+        }
+        read.push(scene);
+    }
+    read
+}
+
+/// Whether a finding here may come from what could not be read.
+fn is_of_absence(part: Part) -> bool {
+    matches!(
+        part,
+        Part::Joint(usize::MAX)
+            | Part::Tolerance(usize::MAX)
+            | Part::Box(_, usize::MAX)
+            | Part::Lock(0)
+    )
+}
+
+impl Reader<'_, '_, '_> {
+    fn scene(&mut self, name: &str, keys: &Keys) -> Scene {
+        keys.reject_unknown(&KEYS, self.cx.sink);
+        Scene {
+            name: name.to_string(),
+            outputs: self.outputs(keys),
+            joints: self.joints(keys),
+            lock: self.lock(keys),
+            gravity: self.gravity(keys),
+            velocity_zero: self.zero(keys, "velocity"),
+            acceleration_zero: self.zero(keys, "acceleration"),
+            payload: self.payload(keys),
+            bounds: self.bounds(keys).unwrap_or_default(),
+            tolerance: self.tolerance(keys),
+            scalar: keys
+                .get("scalar")
+                .and_then(|value| self.cx.word(value, &Float::WORDS)),
+        }
+    }
+
+    /// What was read, noting if it could not be.
+    fn noted<T>(&mut self, read: Option<T>) -> Option<T> {
+        self.incomplete |= read.is_none();
+        read
+    }
+
+    fn mark(&mut self, part: Part, value: &Value) {
+        let span = first_line(self.cx.source, Context::span(value));
+        self.spans.insert(part, span);
+    }
+
+    /// The items of a list; `None` after saying that it is none.
+    fn list<'v, 'de>(&mut self, value: &'v Value<'de>, help: &str) -> Option<&'v [Value<'de>]> {
+        let items = value.as_array().map(Vec::as_slice);
+        if items.is_none() {
+            self.cx.wanted(value, "a list", help);
+        }
+        self.noted(items)
+    }
+
+    fn inner<'v, 'de>(
+        &mut self,
+        keys: &Keys<'v, 'de>,
+        key: &str,
+        known: &[&str],
+        help: &str,
+    ) -> Option<Keys<'v, 'de>> {
+        let value = keys.get(key)?;
+        let table = self.cx.table(value, help);
+        let inner = Keys {
+            table: self.noted(table)?,
+            span: first_line(self.cx.source, Context::span(value)),
+            what: format!("`{key}`"),
+        };
+        inner.reject_unknown(known, self.cx.sink);
+        Some(inner)
+    }
+
+    fn outputs(&mut self, keys: &Keys) -> Vec<Output> {
+        const HELP: &str = "outputs = [\"inverse_dynamics\"]";
+        let Some(value) = keys.get("outputs") else {
+            return Vec::new();
+        };
+        self.mark(Part::Outputs, value);
+        let items = self.list(value, HELP).unwrap_or_default();
+        let mut outputs = Vec::new();
+        for item in items {
+            let read = self.cx.word(item, &Output::WORDS);
+            let Some(output) = self.noted(read) else {
+                continue;
+            };
+            if outputs.contains(&output) {
+                let message = format!("`{}` is in the list already", output.word());
+                let span = Context::span(item);
+                self.cx.sink.error(span, message, "once is enough");
+            } else {
+                outputs.push(output);
+            }
+        }
+        if items.is_empty() {
+            let span = first_line(self.cx.source, Context::span(value));
+            let message = "a scene wants one output at least".to_string();
+            let help = "leave `outputs` out for the request's";
+            self.cx.sink.error(span, message, help);
+        }
+        outputs
+    }
+
+    fn joints(&mut self, keys: &Keys) -> Option<Vec<usize>> {
+        const HELP: &str = "joints = [1, 2, \"elbow\"]: numbers from 1, or names";
+        let value = keys.get("joints")?;
+        self.mark(Part::Joint(usize::MAX), value);
+        let items = self.list(value, HELP)?;
+        let mut joints = Vec::new();
+        for item in items {
+            let text = match item.as_str() {
+                Some(name) => Some(name.to_string()),
+                None => item.as_integer().map(|number| number.to_string()),
+            };
+            let Some(text) = text else {
+                self.cx.wanted(item, "a joint", HELP);
+                self.incomplete = true;
+                continue;
+            };
+            let span = Context::span(item);
+            if let Some(joint) = self.joint(&text, span) {
+                self.mark(Part::Joint(joints.len()), item);
+                joints.push(joint);
+            }
+        }
+        Some(joints)
+    }
+
+    /// A joint by its number, from one, or its name.
+    fn joint(&mut self, text: &str, span: Range<usize>) -> Option<usize> {
+        let joints = &self.robot.joints;
+        let n = joints.len();
+        let number = text.parse::<i64>().ok();
+        let named = || {
+            let mut names = joints.iter().map(|joint| joint.name.as_deref());
+            names.position(|name| name == Some(text))
+        };
+        let found = match number {
+            Some(number) => usize::try_from(number)
+                .ok()
+                .and_then(|number| number.checked_sub(1))
+                .filter(|joint| *joint < n),
+            None => named(),
+        };
+        if found.is_none() {
+            let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
+            let help = match (number, suggest::closest(text, &names)) {
+                (Some(_), _) => format!("joints are counted from 1 to {n}"),
+                (None, Some(meant)) => format!("did you mean `{meant}`?"),
+                (None, None) if names.is_empty() => {
+                    format!("the joints have no names: count them from 1 to {n}")
+                }
+                (None, None) => format!("there is: {}", names.join(", ")),
+            };
+            let message = format!("there is no joint {}", quote(text));
+            self.cx.sink.error(span, message, &help);
+        }
+        self.noted(found)
+    }
+
+    fn lock(&mut self, keys: &Keys) -> Vec<(usize, Position)> {
+        const HELP: &str = "lock = { 4 = 0, elbow = \"pi/2\" }";
+        let Some(value) = keys.get("lock") else {
+            return Vec::new();
+        };
+        let table = self.cx.table(value, HELP);
+        let Some(table) = self.noted(table) else {
+            return Vec::new();
+        };
+        let mut entries: Vec<_> = table.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span.start);
+        let mut locks = Vec::new();
+        for (key, value) in entries {
+            let span = key.span.start..key.span.end.max(key.span.start);
+            let Some(joint) = self.joint(&key.name, span.clone()) else {
+                continue;
+            };
+            let read = self.position(joint, value);
+            if let Some(position) = self.noted(read) {
+                let end = Context::span(value).end;
+                let whole = first_line(self.cx.source, span.start..end);
+                self.spans.insert(Part::Lock(locks.len()), whole);
+                locks.push((joint, position));
+            }
+        }
+        locks
+    }
+
+    /// An angle or a length, as the joint has it.
+    fn position(&mut self, joint: usize, value: &Value) -> Option<Position> {
+        match self.robot.joints.get(joint).map(|joint| joint.kind) {
+            Some(JointKind::Prismatic) => self.cx.number(value).map(Position::Length),
+            _ => self.cx.angle(value).map(Position::Angle),
+        }
+    }
+
+    fn gravity(&mut self, keys: &Keys) -> Option<[Rational; 3]> {
+        const HELP: &str = "gravity = [0, 0, -9.81], or [0, 0, 0] for none";
+        let value = keys.get("gravity")?;
+        self.cx.array(value, HELP, Context::number)
+    }
+
+    fn zero(&mut self, keys: &Keys, key: &str) -> bool {
+        let value = keys.get(key);
+        let read = value.and_then(|value| self.cx.word(value, &[("zero", ())]));
+        self.incomplete |= value.is_some() && read.is_none();
+        read.is_some()
+    }
+
+    fn payload(&mut self, keys: &Keys) -> Option<Payload> {
+        const HELP: &str = "payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }, in the last link's frame";
+        const COM: &str = "com = [x, y, z], in the frame of the last link, m";
+        let inner = self.inner(keys, "payload", &["mass", "com", "inertia"], HELP)?;
+        let mass = inner.require("mass", HELP, self.cx.sink);
+        let com = inner.require("com", COM, self.cx.sink);
+        if let Some(mass) = mass {
+            self.mark(Part::Payload(Field::Mass), mass);
+        }
+        let mass = mass.and_then(|value| self.cx.number(value));
+        let com = com.and_then(|value| self.cx.array(value, COM, Context::number));
+        let inertia = match inner.get("inertia") {
+            Some(value) => {
+                self.mark(Part::Payload(Field::Inertia), value);
+                self.cx.inertia(value)
+            }
+            // A point mass.
+            None => Some(Inertia::default()),
+        };
+        Some(Payload {
+            mass: mass?,
+            com: com?,
+            inertia: inertia?,
+        })
+    }
+
+    fn bounds(&mut self, keys: &Keys) -> Option<MotionBox> {
+        const HELP: &str =
+            "box = { position = [[-3.1, 3.1], …], velocity = [2, …], acceleration = [10, …] }";
+        let known = ["position", "velocity", "acceleration"];
+        let inner = self.inner(keys, "box", &known, HELP)?;
+        Some(MotionBox {
+            position: self.each(&inner, Field::Position, |reader, joint, item| {
+                let help = "[lowest, highest]";
+                reader.cx.array::<_, 2>(item, help, |cx, end| {
+                    match reader.robot.joints.get(joint) {
+                        Some(j) if j.kind == JointKind::Prismatic => {
+                            cx.number(end).map(Position::Length)
+                        }
+                        _ => cx.angle(end).map(Position::Angle),
+                    }
+                })
+            }),
+            velocity: self.each(&inner, Field::Velocity, |reader, _, item| {
+                reader.cx.number(item)
+            }),
+            acceleration: self.each(&inner, Field::Acceleration, |reader, _, item| {
+                reader.cx.number(item)
+            }),
+        })
+    }
+
+    /// A list of the box: an entry a joint.
+    fn each<T>(
+        &mut self,
+        keys: &Keys,
+        field: Field,
+        mut item: impl FnMut(&mut Self, usize, &Value) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let value = keys.get(field.key())?;
+        self.mark(Part::Box(field, usize::MAX), value);
+        let items = self.list(value, "one entry a joint")?;
+        let mut read = Vec::new();
+        for (joint, value) in items.iter().enumerate() {
+            self.mark(Part::Box(field, joint), value);
+            let one = item(self, joint, value);
+            read.push(self.noted(one));
+        }
+        read.into_iter().collect()
+    }
+
+    fn tolerance(&mut self, keys: &Keys) -> Option<Tolerance> {
+        const HELP: &str = "tolerance = { value = 1e-3, relative_to = \"actuator\" }";
+        const SCALE: &str =
+            "relative_to = \"actuator\" (torque limits) or \"range\" (the model's largest torque)";
+        let inner = self.inner(keys, "tolerance", &["value", "relative_to"], HELP)?;
+        let value = inner.require("value", HELP, self.cx.sink);
+        let scale = inner.require("relative_to", SCALE, self.cx.sink);
+        let scale = scale.and_then(|value| self.cx.word(value, &Scale::WORDS));
+        self.spans
+            .insert(Part::Tolerance(usize::MAX), inner.span.clone());
+        let value = value?;
+        let values = match value.as_array() {
+            Some(items) => {
+                let mut read = Vec::new();
+                for (index, item) in items.iter().enumerate() {
+                    self.mark(Part::Tolerance(index), item);
+                    read.push(self.cx.number(item));
+                }
+                read.into_iter().collect::<Option<Vec<_>>>()
+            }
+            None => {
+                self.mark(Part::Tolerance(0), value);
+                self.cx.number(value).map(|one| [one].into())
+            }
+        };
+        Some(Tolerance {
+            value: values?,
+            relative_to: scale?,
+        })
+    }
+}

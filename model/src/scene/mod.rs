@@ -1,0 +1,171 @@
+//! Scenes: what a robot is used for, so that nothing else is computed.
+//!
+//! - this file: [`Scene`], as the robot file has it
+//! - `apply`: the robot that a scene makes of a robot
+//! - `validate`: what no scene may be ([`Scene::validate`])
+//! - `write`: the text that says the same ([`write`](write())), and its hash
+
+mod apply;
+mod validate;
+mod write;
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::number::Rational;
+use crate::robot::{Inertia, Position};
+
+pub use validate::{Part, SceneFinding};
+pub use write::write;
+
+/// A use of a robot. Joints are zero-based here; people count from one.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Scene {
+    /// Its name; the generated module is called after robot and scene.
+    pub name: String,
+    /// The functions wanted; empty if the scene leaves that to the request.
+    pub outputs: Vec<Output>,
+    /// The joints whose torques are wanted, in this order; `None` for every
+    /// joint that is not locked. Every quantity has these rows *and* columns.
+    pub joints: Option<Vec<usize>>,
+    /// Joints that stay where they are, with their positions, in the order of
+    /// the file.
+    pub lock: Vec<(usize, Position)>,
+    /// Instead of the robot's.
+    pub gravity: Option<[Rational; 3]>,
+    /// q̇ = 0: the velocity terms vanish, and so does the argument.
+    pub velocity_zero: bool,
+    /// q̈ = 0: the same for accelerations.
+    pub acceleration_zero: bool,
+    /// What the last link carries.
+    pub payload: Option<Payload>,
+    /// Where the motion stays, instead of the robot's limits.
+    pub bounds: MotionBox,
+    /// How much accuracy may be given up.
+    pub tolerance: Option<Tolerance>,
+    /// The scalar; `None` if the scene leaves that to the request.
+    pub scalar: Option<Float>,
+}
+
+/// A body fixed to the last link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Payload {
+    /// Mass, kg.
+    pub mass: Rational,
+    /// Centre of mass in the last link's frame, m.
+    pub com: [Rational; 3],
+    /// About its centre of mass, in the axes of the last link, kg·m².
+    pub inertia: Inertia<Rational>,
+}
+
+/// Ranges of motion, an entry a joint; what is missing is the robot's limit.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct MotionBox {
+    /// Lowest and highest positions.
+    pub position: Option<Vec<[Position; 2]>>,
+    /// Largest |q̇|.
+    pub velocity: Option<Vec<Rational>>,
+    /// Largest |q̈|.
+    pub acceleration: Option<Vec<Rational>>,
+}
+
+/// How much a torque may be off, over the box.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tolerance {
+    /// Relative to the scale; one for all joints, or one a joint of the robot.
+    pub value: Vec<Rational>,
+    /// What it is relative to.
+    pub relative_to: Scale,
+}
+
+impl Tolerance {
+    /// The tolerance of a joint, zero-based.
+    pub fn of(&self, joint: usize) -> Option<&Rational> {
+        match self.value.as_slice() {
+            [all] => Some(all),
+            each => each.get(joint),
+        }
+    }
+}
+
+/// The scale T_i of a joint's torque.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scale {
+    /// The actuator's torque limit.
+    Actuator,
+    /// The model's own largest torque on the box.
+    Range,
+}
+
+impl Scale {
+    /// Every scale with the word that robot files use for it.
+    pub const WORDS: [(&'static str, Self); 2] =
+        [("actuator", Scale::Actuator), ("range", Scale::Range)];
+}
+
+/// A function that a scene asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    /// τ(q, q̇, q̈)
+    InverseDynamics,
+    /// c(q)
+    Gravity,
+    /// D(q)
+    Inertia,
+    /// h(q, q̇)
+    Coriolis,
+    /// D, h and c
+    ManipulatorEquation,
+    /// D, h_ikm and c
+    DynamicCoefficients,
+}
+
+impl Output {
+    /// Every output with its word.
+    pub const WORDS: [(&'static str, Self); 6] = [
+        ("inverse_dynamics", Output::InverseDynamics),
+        ("gravity", Output::Gravity),
+        ("inertia", Output::Inertia),
+        ("coriolis", Output::Coriolis),
+        ("manipulator_equation", Output::ManipulatorEquation),
+        ("dynamic_coefficients", Output::DynamicCoefficients),
+    ];
+
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        Self::WORDS
+            .into_iter()
+            .find(|(_, output)| *output == self)
+            .map_or("", |(word, _)| word)
+    }
+}
+
+/// The scalar that a scene asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Float {
+    /// Doubles.
+    F64,
+    /// Single precision.
+    F32,
+}
+
+impl Float {
+    /// Every scalar with its word.
+    pub const WORDS: [(&'static str, Self); 2] = [("f64", Float::F64), ("f32", Float::F32)];
+}
+
+impl Scene {
+    /// The position a joint is locked at.
+    pub fn locked(&self, joint: usize) -> Option<&Position> {
+        let mut locks = self.lock.iter();
+        locks.find(|(at, _)| *at == joint).map(|(_, q)| q)
+    }
+
+    /// The joints whose torques are wanted, of a robot of n joints.
+    pub fn rows(&self, n: usize) -> Vec<usize> {
+        match &self.joints {
+            Some(joints) => joints.clone(),
+            None => (0..n).filter(|&i| self.locked(i).is_none()).collect(),
+        }
+    }
+}

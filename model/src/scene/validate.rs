@@ -1,0 +1,337 @@
+//! What no scene of a robot may be, whoever made it.
+
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::fmt;
+
+use num_traits::{Signed, Zero};
+
+use super::{Output, Scale, Scene};
+use crate::number::Rational;
+use crate::robot::{Field, Joint, JointKind, Position, Robot};
+
+/// A part of a scene, so that a reader can say on which line it is. Indices
+/// are places in the scene's lists, zero-based.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Part {
+    /// The scene's name.
+    Name,
+    /// The list of outputs.
+    Outputs,
+    /// An entry of `joints`; the list itself where it has no such entry.
+    Joint(usize),
+    /// An entry of `lock`.
+    Lock(usize),
+    /// The payload, by field.
+    Payload(Field),
+    /// An entry of a list of the box, which `Field` names.
+    Box(Field, usize),
+    /// An entry of the tolerance's values.
+    Tolerance(usize),
+}
+
+/// Something wrong with a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneFinding {
+    /// Which part.
+    pub part: Part,
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: String,
+}
+
+impl fmt::Display for SceneFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        match self.help.as_str() {
+            "" => Ok(()),
+            help => write!(f, " ({help})"),
+        }
+    }
+}
+
+impl Scene {
+    /// Everything that is wrong with the scene; if nothing is, every later
+    /// stage accepts it with this robot.
+    pub fn validate(&self, robot: &Robot) -> Vec<SceneFinding> {
+        let mut check = Check {
+            scene: self,
+            robot,
+            found: Vec::new(),
+        };
+        check.name();
+        check.joints();
+        check.locks();
+        check.payload();
+        check.bounds();
+        check.tolerance();
+        check.found
+    }
+}
+
+struct Check<'a> {
+    scene: &'a Scene,
+    robot: &'a Robot,
+    found: Vec<SceneFinding>,
+}
+
+impl<'a> Check<'a> {
+    fn say(&mut self, part: Part, message: String, help: &str) {
+        self.found.push(SceneFinding {
+            part,
+            message,
+            help: help.to_owned(),
+        });
+    }
+
+    fn name(&mut self) {
+        let name = &self.scene.name;
+        let good = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        if name.is_empty() || name.len() > Robot::MAX_NAME || !name.chars().all(good) {
+            self.say(
+                Part::Name,
+                format!("{name:?} cannot end the name of a Rust module"),
+                "the generated module is called after robot and scene: lower-case letters, digits and underscores",
+            );
+        }
+    }
+
+    fn joint(&self, index: usize) -> Option<&'a Joint> {
+        self.robot.joints.get(index)
+    }
+
+    /// No such joint, or the joint twice.
+    fn list(&mut self, part: fn(usize) -> Part, joints: &[usize], twice: &str) {
+        for (place, &joint) in joints.iter().enumerate() {
+            if self.joint(joint).is_none() {
+                let n = self.robot.joints.len();
+                let message = format!("there is no joint {}: the robot has {n}", joint + 1);
+                self.say(part(place), message, "joints are counted from 1");
+            } else if joints[..place].contains(&joint) {
+                let message = format!("joint {} is {twice}", self.called(joint));
+                self.say(part(place), message, "once is enough");
+            }
+        }
+    }
+
+    /// `4`, or `4 (wrist)`.
+    fn called(&self, joint: usize) -> String {
+        match self.joint(joint).and_then(|j| j.name.as_deref()) {
+            Some(name) => format!("{} ({name})", joint + 1),
+            None => format!("{}", joint + 1),
+        }
+    }
+
+    fn joints(&mut self) {
+        let rows = self.scene.rows(self.robot.joints.len());
+        if rows.is_empty() {
+            let message = match self.scene.joints {
+                Some(_) => "a scene wants the torque of one joint at least",
+                None => "every joint is locked: nothing is left to compute",
+            };
+            let part = match self.scene.joints {
+                Some(_) => Part::Joint(usize::MAX),
+                None => Part::Lock(0),
+            };
+            self.say(part, message.to_owned(), "joints = [1, 2, 3]");
+        }
+        if let Some(joints) = &self.scene.joints {
+            self.list(Part::Joint, joints, "in the list already");
+        }
+    }
+
+    fn locks(&mut self) {
+        let joints: Vec<usize> = self.scene.lock.iter().map(|(joint, _)| *joint).collect();
+        self.list(Part::Lock, &joints, "locked already");
+        for (place, (index, at)) in self.scene.lock.iter().enumerate() {
+            let Some(joint) = self.joint(*index) else {
+                continue;
+            };
+            if !of_kind(joint.kind, at) {
+                let help = "an angle for a revolute joint, a length for a prismatic one";
+                let message = "the position is not of the joint's kind".to_owned();
+                self.say(Part::Lock(place), message, help);
+                continue;
+            }
+            let scene = self.scene;
+            let own = scene.bounds.position.as_ref();
+            for (range, whose) in [
+                (joint.limits.position.as_ref(), "limits"),
+                (own.and_then(|all| all.get(*index)), "range in the box"),
+            ] {
+                let Some([low, high]) = range else { continue };
+                let outside = compare(at, low) == Some(Ordering::Less)
+                    || compare(at, high) == Some(Ordering::Greater);
+                if outside {
+                    let message = format!(
+                        "joint {} is locked outside its {whose}, {} to {}",
+                        self.called(*index),
+                        shown(low),
+                        shown(high)
+                    );
+                    self.say(Part::Lock(place), message, "lock it where it can be");
+                }
+            }
+        }
+    }
+
+    fn payload(&mut self) {
+        let Some(payload) = &self.scene.payload else {
+            return;
+        };
+        if payload.mass.is_negative() {
+            let message = "the payload's mass is negative".to_owned();
+            self.say(Part::Payload(Field::Mass), message, "a mass in kg");
+        }
+        if payload.inertia.defect(&payload.mass).is_some() {
+            let message = "no body has this inertia".to_owned();
+            let help = "about the payload's centre of mass: Ixx, Iyy, Izz, Ixy, Iyz, Ixz";
+            self.say(Part::Payload(Field::Inertia), message, help);
+        }
+    }
+
+    fn bounds(&mut self) {
+        let n = self.robot.joints.len();
+        let bounds = &self.scene.bounds;
+        let lengths = [
+            (Field::Position, bounds.position.as_ref().map(Vec::len)),
+            (Field::Velocity, bounds.velocity.as_ref().map(Vec::len)),
+            (
+                Field::Acceleration,
+                bounds.acceleration.as_ref().map(Vec::len),
+            ),
+        ];
+        for (field, length) in lengths {
+            if let Some(length) = length.filter(|&length| length != n) {
+                let message = format!("{length} entries, but the robot has {n} joints");
+                self.say(Part::Box(field, usize::MAX), message, "one entry a joint");
+            }
+        }
+        for (index, range) in bounds.position.iter().flatten().enumerate() {
+            let Some(joint) = self.joint(index) else {
+                break;
+            };
+            let [low, high] = range;
+            let part = Part::Box(Field::Position, index);
+            if !of_kind(joint.kind, low) || !of_kind(joint.kind, high) {
+                let message = "the range is not of the joint's kind".to_owned();
+                let help = "angles for a revolute joint, lengths for a prismatic one";
+                self.say(part, message, help);
+            } else if compare(low, high) != Some(Ordering::Less) {
+                let message = "the range is empty: its lowest position is not below its highest";
+                let help = "write [lowest, highest]; a joint that does not move is locked";
+                self.say(part, message.to_owned(), help);
+            }
+        }
+        for (field, values) in [
+            (Field::Velocity, &bounds.velocity),
+            (Field::Acceleration, &bounds.acceleration),
+        ] {
+            for (index, value) in values.iter().flatten().enumerate() {
+                if value.is_negative() {
+                    let message = format!("the range is empty: the {} is negative", field.key());
+                    let help = "the largest size, in both directions: zero or more";
+                    self.say(Part::Box(field, index), message, help);
+                }
+            }
+        }
+    }
+
+    fn tolerance(&mut self) {
+        let Some(tolerance) = &self.scene.tolerance else {
+            return;
+        };
+        let (n, found) = (self.robot.joints.len(), tolerance.value.len());
+        if found != 1 && found != n {
+            let message = format!("{found} tolerances, but the robot has {n} joints");
+            let help = "one for all joints, or one a joint";
+            self.say(Part::Tolerance(usize::MAX), message, help);
+        }
+        for (index, value) in tolerance.value.iter().enumerate() {
+            if *value <= Rational::zero() {
+                let message = "a tolerance is above zero".to_owned();
+                let help = "without a tolerance the code is exact up to rounding";
+                self.say(Part::Tolerance(index), message, help);
+            }
+        }
+        self.missing(tolerance.relative_to);
+    }
+
+    /// What a bound needs and nobody says.
+    fn missing(&mut self, scale: Scale) {
+        let scene = self.scene;
+        let outputs: Vec<Output> = match scene.outputs.as_slice() {
+            [] => Output::WORDS.map(|(_, output)| output).to_vec(),
+            outputs => outputs.to_vec(),
+        };
+        let reads = |wanted: &[Output]| outputs.iter().any(|output| wanted.contains(output));
+        let velocity = !scene.velocity_zero
+            && reads(&[
+                Output::InverseDynamics,
+                Output::Coriolis,
+                Output::ManipulatorEquation,
+            ]);
+        let acceleration = !scene.acceleration_zero && reads(&[Output::InverseDynamics]);
+        let robot = scene.apply(self.robot);
+        for (index, joint) in robot.joints.iter().enumerate() {
+            let limits = &joint.limits;
+            let moves = scene.locked(index).is_none();
+            let mut lacks = Vec::new();
+            // The sines and cosines of an angle are bounded anyway.
+            if moves && joint.kind == JointKind::Prismatic && limits.position.is_none() {
+                lacks.push("position");
+            }
+            if moves && velocity && limits.velocity.is_none() {
+                lacks.push("velocity");
+            }
+            if moves && acceleration && limits.acceleration.is_none() {
+                lacks.push("acceleration");
+            }
+            for what in lacks {
+                let message = format!(
+                    "a tolerance needs the range of the {what} of joint {}",
+                    self.called(index)
+                );
+                let help = format!("give `{what}` in the scene's box or in the joint's limits");
+                self.say(Part::Tolerance(usize::MAX), message, &help);
+            }
+            let rows = scene.rows(robot.joints.len());
+            if scale == Scale::Actuator && rows.contains(&index) && limits.torque.is_none() {
+                let message = format!(
+                    "a tolerance relative to the actuator needs the torque limit of joint {}",
+                    self.called(index)
+                );
+                let help = "give `torque` in the joint's limits, or relative_to = \"range\"";
+                self.say(Part::Tolerance(usize::MAX), message, help);
+            }
+        }
+    }
+}
+
+fn of_kind(kind: JointKind, at: &Position) -> bool {
+    matches!(
+        (kind, at),
+        (JointKind::Revolute, Position::Angle(_)) | (JointKind::Prismatic, Position::Length(_))
+    )
+}
+
+fn compare(a: &Position, b: &Position) -> Option<Ordering> {
+    match (a, b) {
+        (Position::Angle(a), Position::Angle(b)) => Some(a.cmp_value(b)),
+        (Position::Length(a), Position::Length(b)) => Some(a.cmp(b)),
+        _ => None,
+    }
+}
+
+fn shown(at: &Position) -> String {
+    match at {
+        Position::Angle(angle) => format!("{angle}"),
+        Position::Length(length) => {
+            crate::number::parse::write_decimal(length).unwrap_or_else(|| format!("{length}"))
+        }
+    }
+}
