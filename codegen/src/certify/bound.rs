@@ -1,0 +1,192 @@
+//! The largest magnitude of a graph's outputs over a box: branch and bound.
+//!
+//! **Soundness.** The sub-boxes always cover the box, and a bound over each
+//! of them holds by [`Forms`]; their largest is a bound over the box. The
+//! search only decides which sub-box to halve next.
+//!
+//! Deterministic: sub-boxes are counted, never timed, and ties go to the one
+//! made first.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use super::expand::expand;
+use super::form::{Forms, Scratch};
+use super::grid;
+use super::input_box::InputBox;
+use super::interval::Interval;
+use crate::graph::{Graph, Input, Node};
+
+/// How much work a bound may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Sub-boxes evaluated at most.
+    pub boxes: usize,
+    /// First-order terms in the positions: dearer and tighter.
+    pub linear: bool,
+    /// Points of a grid at most; 0 for none.
+    pub points: usize,
+}
+
+impl Budget {
+    /// For certificates.
+    pub const CERTIFY: Budget = Budget {
+        boxes: 300_000,
+        linear: false,
+        points: 1 << 24,
+    };
+    /// For a search that asks often.
+    pub const GLANCE: Budget = Budget {
+        boxes: 20_000,
+        linear: false,
+        points: 1 << 20,
+    };
+}
+
+/// A sub-box that is not halved yet.
+struct Leaf {
+    /// The output that is worst here relative to its weight.
+    priority: f64,
+    serial: usize,
+    sub: InputBox,
+    magnitudes: Vec<f64>,
+    axis: usize,
+}
+
+impl PartialEq for Leaf {
+    fn eq(&self, other: &Leaf) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Leaf {}
+impl PartialOrd for Leaf {
+    fn partial_cmp(&self, other: &Leaf) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Leaf {
+    fn cmp(&self, other: &Leaf) -> Ordering {
+        let first = self.priority.total_cmp(&other.priority);
+        first.then(other.serial.cmp(&self.serial))
+    }
+}
+
+/// Bounds of |output| over the box, one an output. `scales` say what a unit
+/// of each output is worth: the largest |output|/scale is tightened.
+/// `goal`: stop as soon as every |output|/scale is at most that.
+pub fn magnitudes(
+    graph: &Graph,
+    whole: &InputBox,
+    scales: &[f64],
+    goal: f64,
+    budget: Budget,
+) -> Vec<f64> {
+    // A position that is read as it stands belongs to a sliding joint.
+    let mut sliding = vec![false; whole.joints()];
+    for node in &graph.nodes {
+        if let Node::Input(Input::Position(joint)) = node {
+            sliding[*joint] = true;
+        }
+    }
+    if budget.points > 0
+        && let Some(polynomials) = expand(graph, whole)
+        && let Some(most) = grid::magnitudes(&polynomials, whole, &sliding, budget.points)
+    {
+        return most;
+    }
+    let forms = Forms::new(graph, whole.joints(), budget.linear);
+    let mut search = Search {
+        forms: &forms,
+        scales,
+        scratch: Scratch::default(),
+        serial: 0,
+    };
+    let mut heap = BinaryHeap::new();
+    heap.push(search.leaf(whole.clone()));
+    while search.serial < budget.boxes {
+        let Some(leaf) = heap.peek() else { break };
+        if leaf.priority <= goal || leaf.axis == usize::MAX {
+            break;
+        }
+        let Some(leaf) = heap.pop() else { break };
+        for half in leaf.sub.position[leaf.axis].split() {
+            let mut sub = leaf.sub.clone();
+            sub.position[leaf.axis] = half;
+            let mut child = search.leaf(sub);
+            // What holds over the parent holds over its half.
+            for (mine, parents) in child.magnitudes.iter_mut().zip(&leaf.magnitudes) {
+                *mine = mine.min(*parents);
+            }
+            child.priority = priority(&child.magnitudes, scales);
+            heap.push(child);
+        }
+    }
+    let mut most = vec![0.0f64; graph.outputs.len()];
+    for leaf in heap {
+        for (most, magnitude) in most.iter_mut().zip(&leaf.magnitudes) {
+            *most = most.max(*magnitude);
+        }
+    }
+    most
+}
+
+struct Search<'a> {
+    forms: &'a Forms,
+    scales: &'a [f64],
+    scratch: Scratch,
+    serial: usize,
+}
+
+impl Search<'_> {
+    fn leaf(&mut self, sub: InputBox) -> Leaf {
+        self.forms.evaluate(&sub, &mut self.scratch);
+        let outputs = self.forms.outputs(&sub, &self.scratch);
+        let magnitudes: Vec<f64> = outputs.iter().map(|x| x.magnitude()).collect();
+        self.serial += 1;
+        Leaf {
+            priority: priority(&magnitudes, self.scales),
+            serial: self.serial,
+            axis: self.axis(&sub),
+            sub,
+            magnitudes,
+        }
+    }
+
+    /// The widest position that matters.
+    fn axis(&self, sub: &InputBox) -> usize {
+        let positions = self.forms.positions.iter().copied();
+        positions
+            .filter(|&joint| sub.position[joint].width() > 1e-9)
+            .fold((usize::MAX, 0.0), |(best, width), joint| {
+                let mine = sub.position[joint].width();
+                if mine > width { (joint, mine) } else { (best, width) }
+            })
+            .0
+    }
+}
+
+/// The worst output against its scale. A scale of zero demands an exact
+/// output.
+fn priority(magnitudes: &[f64], scales: &[f64]) -> f64 {
+    let pairs = magnitudes.iter().zip(scales);
+    pairs.fold(0.0, |worst, (&x, &scale)| worst.max(relative(x, scale)))
+}
+
+/// x/scale, rounded up; 0/0 is no error.
+pub fn relative(x: f64, scale: f64) -> f64 {
+    if x == 0.0 {
+        0.0
+    } else if scale > 0.0 {
+        (x / scale).next_up()
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// The box's own bound without halving: quick and loose.
+pub fn once(graph: &Graph, whole: &InputBox) -> Vec<Interval> {
+    let forms = Forms::new(graph, whole.joints(), false);
+    let mut scratch = Scratch::default();
+    forms.evaluate(whole, &mut scratch);
+    forms.outputs(whole, &scratch)
+}

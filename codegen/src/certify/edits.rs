@@ -1,0 +1,300 @@
+//! Edits of a program, and the program of their error.
+//!
+//! **Soundness.** Write x for a value of the program, x' for the same place
+//! after the edits, Δx = x' − x. Then, exactly and for every state,
+//!
+//! - Δ(a ± b) = Δa ± Δb
+//! - Δ(a·b) = a'·Δb + b·Δa
+//! - where a + b is replaced by a: Δ = Δa − b, and so on
+//!
+//! so [`difference`] is a program for Δ of the outputs, not an approximation
+//! of one: nothing is left of second order. It forms no difference of two
+//! large values, so bounding *it* over a box bounds the error without the
+//! difference of two enclosures.
+
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+
+use crate::function::Function;
+use crate::graph::builder::Value;
+use crate::graph::{Builder, Folding, Graph, Input};
+use crate::schedule::{Operand, Operation, Program};
+
+/// What an edit replaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// Every use of an input.
+    Input(Input),
+    /// The result of a step.
+    Step(usize),
+}
+
+/// A value in place of another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    /// What is replaced.
+    pub place: Place,
+    /// Whether the replacement is negated.
+    pub negative: bool,
+    /// The replacement: computed before the place, or a constant.
+    pub value: Operand,
+}
+
+/// A program and what is edited in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// The program.
+    pub program: Program,
+    /// Its edits, at most one a place.
+    pub edits: Vec<Edit>,
+}
+
+/// Why edits cannot be applied.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadEdit {
+    /// The index of the edit.
+    pub index: usize,
+}
+
+impl std::fmt::Display for BadEdit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "edit {} replaces a value twice, or by one that is not computed before it",
+            self.index + 1
+        )
+    }
+}
+
+impl std::error::Error for BadEdit {}
+
+impl Stage {
+    /// Checks that every replacement exists before its place.
+    ///
+    /// # Errors
+    /// The first edit that cannot be applied.
+    pub fn check(&self) -> Result<(), BadEdit> {
+        for (index, edit) in self.edits.iter().enumerate() {
+            let early = match (&edit.value, edit.place) {
+                (Operand::Constant(_), _) => true,
+                (Operand::Input(_), Place::Step(_)) => true,
+                (Operand::Step(value), Place::Step(place)) => *value < place,
+                (_, Place::Input(_)) => false,
+            };
+            let known = match edit.place {
+                Place::Step(step) => step < self.program.steps.len(),
+                Place::Input(_) => true,
+            };
+            let twice = self.edits[..index].iter().any(|e| e.place == edit.place);
+            if !early || !known || twice {
+                return Err(BadEdit { index });
+            }
+        }
+        Ok(())
+    }
+
+    /// The edited program's graph, folded; what nothing reads is gone.
+    pub fn edited(&self, folding: Folding) -> Graph {
+        let mut run = Run::new(self, folding);
+        run.steps();
+        let outputs: Vec<Value> = self
+            .program
+            .outputs
+            .iter()
+            .map(|output| {
+                let value = run.after(&output.value);
+                run.builder.negate_if(&value, output.negative)
+            })
+            .collect();
+        run.builder.finish(&outputs)
+    }
+
+    /// The edited program.
+    pub fn program(&self, folding: Folding) -> Program {
+        Program::new(
+            self.program.function,
+            self.program.joints,
+            &self.edited(folding),
+        )
+    }
+
+    /// The function that is computed.
+    pub fn function(&self) -> Function {
+        self.program.function
+    }
+}
+
+/// The errors of all stages together: edited − exact, output by output. Each
+/// stage's edited program must be equal to the next stage's program.
+pub fn difference(stages: &[Stage]) -> Graph {
+    let mut builder = Builder::new(Folding::Syntactic);
+    let mut sums: Vec<Value> = Vec::new();
+    for stage in stages {
+        let mut run = Run::with(stage, builder);
+        run.steps();
+        let deltas: Vec<Value> = stage
+            .program
+            .outputs
+            .iter()
+            .map(|output| {
+                let delta = run.delta(&output.value);
+                run.builder.negate_if(&delta, output.negative)
+            })
+            .collect();
+        builder = run.builder;
+        sums = if sums.is_empty() {
+            deltas
+        } else {
+            let pairs = sums.iter().zip(&deltas);
+            pairs.map(|(a, b)| builder.add(a, b)).collect()
+        };
+    }
+    builder.finish(&sums)
+}
+
+/// A stage's values before (x) and after (x') its edits, and Δx.
+struct Run<'a> {
+    stage: &'a Stage,
+    builder: Builder,
+    exact: Vec<Value>,
+    edited: Vec<Value>,
+    deltas: Vec<Value>,
+}
+
+impl<'a> Run<'a> {
+    fn new(stage: &'a Stage, folding: Folding) -> Self {
+        Run::with(stage, Builder::new(folding))
+    }
+
+    fn with(stage: &'a Stage, builder: Builder) -> Self {
+        Run {
+            stage,
+            builder,
+            exact: Vec::new(),
+            edited: Vec::new(),
+            deltas: Vec::new(),
+        }
+    }
+
+    fn edit(&self, place: Place) -> Option<&'a Edit> {
+        self.stage.edits.iter().find(|edit| edit.place == place)
+    }
+
+    fn before(&mut self, operand: &Operand) -> Value {
+        match operand {
+            Operand::Input(input) => self.builder.input(*input),
+            Operand::Constant(constant) => Value::Constant(constant.clone()),
+            Operand::Step(index) => self.exact[*index].clone(),
+        }
+    }
+
+    fn after(&mut self, operand: &Operand) -> Value {
+        match operand {
+            Operand::Input(input) => match self.edit(Place::Input(*input)) {
+                Some(edit) => self.replacement(edit),
+                None => self.builder.input(*input),
+            },
+            Operand::Constant(constant) => Value::Constant(constant.clone()),
+            Operand::Step(index) => self.edited[*index].clone(),
+        }
+    }
+
+    fn replacement(&mut self, edit: &Edit) -> Value {
+        let value = self.after(&edit.value);
+        self.builder.negate_if(&value, edit.negative)
+    }
+
+    fn delta(&mut self, operand: &Operand) -> Value {
+        match operand {
+            Operand::Input(input) => match self.edit(Place::Input(*input)) {
+                Some(edit) => {
+                    let after = self.replacement(edit);
+                    let before = self.before(operand);
+                    self.builder.sub(&after, &before)
+                }
+                None => Value::zero(),
+            },
+            Operand::Constant(_) => Value::zero(),
+            Operand::Step(index) => self.deltas[*index].clone(),
+        }
+    }
+
+    fn steps(&mut self) {
+        for (index, step) in self.stage.program.steps.iter().enumerate() {
+            let (a, b) = (self.before(&step.left), self.before(&step.right));
+            let (da, db) = (self.delta(&step.left), self.delta(&step.right));
+            let a_after = self.after(&step.left);
+            let b_after = self.after(&step.right);
+            let exact = operate(&mut self.builder, step.operation, &a, &b);
+            self.exact.push(exact.clone());
+            let (edited, delta) = match self.edit(Place::Step(index)) {
+                None => (
+                    operate(&mut self.builder, step.operation, &a_after, &b_after),
+                    self.unedited(step.operation, [&b, &da, &db, &a_after]),
+                ),
+                Some(edit) => {
+                    let edited = self.replacement(edit);
+                    // s·r' − x = s·Δr + (s·r − x); for an operand of the sum
+                    // the second part is the other operand.
+                    let right = if step.operation == Operation::Sub {
+                        self.builder.negate_if(&b, true)
+                    } else {
+                        b.clone()
+                    };
+                    let sum = step.operation != Operation::Mul;
+                    let minus = step.operation == Operation::Sub;
+                    let rest = if sum && edit.value == step.left && !edit.negative {
+                        self.builder.negate_if(&right, true)
+                    } else if sum && edit.value == step.right && edit.negative == minus {
+                        self.builder.negate_if(&a, true)
+                    } else {
+                        let before = self.before(&edit.value);
+                        let before = self.builder.negate_if(&before, edit.negative);
+                        self.builder.sub(&before, &exact)
+                    };
+                    let moved = self.delta(&edit.value);
+                    let moved = self.builder.negate_if(&moved, edit.negative);
+                    (edited, self.builder.add(&moved, &rest))
+                }
+            };
+            self.edited.push(edited);
+            self.deltas.push(delta);
+        }
+    }
+
+    fn unedited(&mut self, operation: Operation, [b, da, db, a_after]: [&Value; 4]) -> Value {
+        match operation {
+            Operation::Add => self.builder.add(da, db),
+            Operation::Sub => self.builder.sub(da, db),
+            Operation::Mul => {
+                let left = self.builder.mul(a_after, db);
+                let right = self.builder.mul(b, da);
+                self.builder.add(&left, &right)
+            }
+        }
+    }
+}
+
+fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
+    match operation {
+        Operation::Add => builder.add(a, b),
+        Operation::Sub => builder.sub(a, b),
+        Operation::Mul => builder.mul(a, b),
+    }
+}
+
+impl Edit {
+    /// A constant in place of a value.
+    pub fn constant(place: Place, value: Exact) -> Edit {
+        Edit {
+            place,
+            negative: false,
+            value: Operand::Constant(value),
+        }
+    }
+
+    /// Zero in place of a value: its term is dropped.
+    pub fn zero(place: Place) -> Edit {
+        Edit::constant(place, Exact::zero())
+    }
+}

@@ -1,0 +1,212 @@
+//! A graph written out as a trigonometric polynomial.
+//!
+//! Over a sub-box, intervals forget that two values depend on the same angle.
+//! Written out, the terms of a difference that cancel are gone, and each
+//! coefficient stands once:
+//!
+//! Σ coefficient · (product of at most two rates) · Π_j sin^a(q_j) cos^b(q_j)
+//!
+//! with a ∈ {0, 1}, since sin² = 1 − cos². A sliding joint is written as
+//! q = middle + radius·cos θ, which takes every position of its range.
+//!
+//! **Soundness.** Only identities are used, and coefficients are intervals
+//! rounded outward: there are coefficients inside them with which the
+//! polynomial is the output, exactly.
+
+use super::input_box::InputBox;
+use super::interval::Interval;
+use crate::graph::{Graph, Input, Node};
+
+/// Powers packed: two rates (1 … 2n, sorted, 0 is none) in a byte each, then
+/// five bits a joint: the power of the cosine, and the sine's on top.
+pub(super) type Key = u128;
+
+/// The most joints that fit a key.
+const MOST_JOINTS: usize = 22;
+
+/// A polynomial, sorted by key.
+pub(super) type Polynomial = Vec<(Key, Interval)>;
+
+/// Products of more terms than this are not written out.
+const MOST_PRODUCTS: usize = 4_000_000;
+
+/// The outputs written out; `None` if they are too large, or of higher degree
+/// than fits.
+pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>> {
+    if limits.joints() > MOST_JOINTS {
+        return None;
+    }
+    let mut values: Vec<Polynomial> = Vec::with_capacity(graph.nodes.len());
+    let mut last_use = vec![0; graph.nodes.len()];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        for operand in node.operands().into_iter().flatten() {
+            last_use[operand.index()] = index;
+        }
+    }
+    for output in &graph.outputs {
+        last_use[output.node().index()] = usize::MAX;
+    }
+    for (index, (node, live)) in graph.nodes.iter().zip(graph.live()).enumerate() {
+        let value = match *node {
+            _ if !live => Vec::new(),
+            Node::Constant(c) => vec![(0, Interval::exact(&graph.constants[c as usize]))],
+            Node::Input(input) => leaf(input, limits)?,
+            Node::Sum(a, b) => sum(&values[a.index()], &values[b.index()], false),
+            Node::Difference(a, b) => sum(&values[a.index()], &values[b.index()], true),
+            Node::Product(a, b) => product(&values[a.index()], &values[b.index()])?,
+        };
+        values.push(value);
+        for operand in node.operands().into_iter().flatten() {
+            // What nobody reads any more need not be kept.
+            if last_use[operand.index()] == index {
+                values[operand.index()] = Vec::new();
+            }
+        }
+    }
+    let outputs = graph.outputs.iter().map(|edge| {
+        let mut value = values[edge.node().index()].clone();
+        if edge.is_negative() {
+            for (_, coefficient) in &mut value {
+                *coefficient = -*coefficient;
+            }
+        }
+        value
+    });
+    Some(outputs.collect())
+}
+
+const fn shift(joint: usize) -> usize {
+    16 + 5 * joint
+}
+
+/// The power of the cosine and of the sine of a joint.
+pub(super) fn powers(key: Key, joint: usize) -> (u32, u32) {
+    let bits = (key >> shift(joint)) as u32 & 31;
+    (bits & 15, bits >> 4)
+}
+
+/// The rates of a key.
+pub(super) fn rates(key: Key) -> [u8; 2] {
+    [(key >> 8) as u8, key as u8]
+}
+
+fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
+    let n = limits.joints();
+    let cosine = |joint: usize| 1u128 << shift(joint);
+    let sine = |joint: usize| 16u128 << shift(joint);
+    Some(match input {
+        Input::Velocity(joint) => vec![(joint as u128 + 1, Interval::ONE)],
+        Input::Acceleration(joint) => vec![((n + joint) as u128 + 1, Interval::ONE)],
+        Input::Position(joint) => {
+            let q = limits.position[joint];
+            let middle = (0, Interval::point(q.mid()));
+            vec![middle, (cosine(joint), Interval::point(q.radius()))]
+        }
+        Input::Sin(angle) | Input::Cos(angle) => {
+            // The pair of the sum by the addition theorems.
+            let (mut sin, mut cos) = (Vec::new(), vec![(0, Interval::ONE)]);
+            for (joint, negative) in angle.terms() {
+                let one = Interval::ONE;
+                let s = vec![(sine(joint), if negative { -one } else { one })];
+                let c = vec![(cosine(joint), one)];
+                let next = sum(&product(&sin, &c)?, &product(&cos, &s)?, false);
+                cos = sum(&product(&cos, &c)?, &product(&sin, &s)?, true);
+                sin = next;
+            }
+            if matches!(input, Input::Sin(_)) { sin } else { cos }
+        }
+    })
+}
+
+fn sum(a: &Polynomial, b: &Polynomial, minus: bool) -> Polynomial {
+    let mut out = Vec::with_capacity(a.len() + b.len());
+    let (mut i, mut j) = (0, 0);
+    let sign = |x: Interval| if minus { -x } else { x };
+    while i < a.len() || j < b.len() {
+        match (a.get(i), b.get(j)) {
+            (Some(x), Some(y)) if x.0 == y.0 => {
+                out.push((x.0, x.1 + sign(y.1)));
+                (i, j) = (i + 1, j + 1);
+            }
+            (Some(x), other) if other.is_none_or(|y| x.0 < y.0) => {
+                out.push(*x);
+                i += 1;
+            }
+            (_, Some(y)) => {
+                out.push((y.0, sign(y.1)));
+                j += 1;
+            }
+            _ => break,
+        }
+    }
+    out
+}
+
+fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
+    if a.len() * b.len() > MOST_PRODUCTS {
+        return None;
+    }
+    let mut terms = Vec::with_capacity(a.len() * b.len());
+    for (x, p) in a {
+        for (y, q) in b {
+            let coefficient = if *p == Interval::ONE {
+                *q
+            } else if *q == Interval::ONE {
+                *p
+            } else {
+                *p * *q
+            };
+            multiply(*x, *y, coefficient, &mut terms)?;
+        }
+    }
+    terms.sort_by_key(|term| term.0);
+    let mut out: Polynomial = Vec::new();
+    for (key, coefficient) in terms {
+        match out.last_mut() {
+            Some(last) if last.0 == key => last.1 = last.1 + coefficient,
+            _ => out.push((key, coefficient)),
+        }
+    }
+    Some(out)
+}
+
+/// The product of two monomials: each squared sine splits it in two.
+fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Option<()> {
+    let [a, b] = rates(x);
+    let [c, d] = rates(y);
+    let mut kept = [a, b, c, d];
+    kept.sort_unstable();
+    if kept[1] != 0 {
+        return None;
+    }
+    let mut key = u128::from(kept[2]) << 8 | u128::from(kept[3]);
+    let (mut x, mut y) = (x >> 16, y >> 16);
+    let mut joint = 0;
+    let mut squares = [0usize; MOST_JOINTS];
+    let mut count = 0;
+    while x != 0 || y != 0 {
+        let cos = (x & 15) + (y & 15);
+        // Two more may come from a squared sine.
+        if cos > 13 {
+            return None;
+        }
+        let (s, t) = (x >> 4 & 1, y >> 4 & 1);
+        key |= (cos | (s ^ t) << 4) << shift(joint);
+        if s & t == 1 {
+            squares[count] = joint;
+            count += 1;
+        }
+        (x, y, joint) = (x >> 5, y >> 5, joint + 1);
+    }
+    for choice in 0..1u32 << count {
+        let mut split = key;
+        for (bit, &joint) in squares[..count].iter().enumerate() {
+            if choice >> bit & 1 == 1 {
+                split += 2 << shift(joint);
+            }
+        }
+        let negative = choice.count_ones() % 2 == 1;
+        out.push((split, if negative { -coefficient } else { coefficient }));
+    }
+    Some(())
+}

@@ -1,0 +1,259 @@
+//! Intervals of doubles, rounded outward.
+//!
+//! **Soundness.** IEEE arithmetic rounds to nearest: the exact result of one
+//! operation lies between the doubles next to the computed one on either
+//! side. Every operation here computes its ends to nearest and then moves
+//! each outward by one double, so the interval contains the exact result of
+//! every choice of operands in the operands' intervals. An end that overflows
+//! becomes infinite; a NaN (∞ − ∞ or 0 · ∞) becomes the whole line, which
+//! says nothing and is therefore true.
+
+use dalembert_model::number::{Exact, Rational, Rounded};
+
+/// All numbers from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    low: f64,
+    high: f64,
+}
+
+impl Interval {
+    /// Zero, exactly.
+    pub const ZERO: Interval = Interval::point(0.0);
+    /// One, exactly.
+    pub const ONE: Interval = Interval::point(1.0);
+    /// Every number.
+    pub const ALL: Interval = Interval {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
+    /// One number, exactly.
+    pub const fn point(x: f64) -> Interval {
+        Interval { low: x, high: x }
+    }
+
+    /// From one end to the other; `None` if they are out of order or NaN.
+    pub fn new(low: f64, high: f64) -> Option<Interval> {
+        (low <= high).then_some(Interval { low, high })
+    }
+
+    /// −x to x for x = |`radius`|.
+    pub fn symmetric(radius: f64) -> Interval {
+        checked(-radius.abs(), radius.abs())
+    }
+
+    /// An enclosure of an exact constant. The nearest double is within half
+    /// an ulp, so its neighbours enclose.
+    pub fn exact(value: &Exact) -> Interval {
+        if let Some(rational) = value.as_rational() {
+            return Interval::rational(rational);
+        }
+        let near = f64::nearest(value);
+        checked(near.next_down(), near.next_up())
+    }
+
+    /// An enclosure of a rational: a point if a double holds it.
+    pub fn rational(value: &Rational) -> Interval {
+        let near = f64::nearest_rational(value);
+        if Rational::from_float(near).as_ref() == Some(value) {
+            Interval::point(near)
+        } else {
+            checked(near.next_down(), near.next_up())
+        }
+    }
+
+    /// The lower end.
+    pub fn low(self) -> f64 {
+        self.low
+    }
+
+    /// The upper end.
+    pub fn high(self) -> f64 {
+        self.high
+    }
+
+    /// The largest |x|.
+    pub fn magnitude(self) -> f64 {
+        self.low.abs().max(self.high.abs())
+    }
+
+    /// The least |x|.
+    pub fn mignitude(self) -> f64 {
+        if self.contains(0.0) {
+            0.0
+        } else {
+            self.low.abs().min(self.high.abs())
+        }
+    }
+
+    /// A number inside, near the middle.
+    pub fn mid(self) -> f64 {
+        (0.5 * self.low + 0.5 * self.high).clamp(self.low, self.high)
+    }
+
+    /// At least half the width, seen from [`mid`](Self::mid).
+    pub fn radius(self) -> f64 {
+        let mid = self.mid();
+        (mid - self.low).max(self.high - mid).next_up()
+    }
+
+    /// The width, roughly.
+    pub fn width(self) -> f64 {
+        self.high - self.low
+    }
+
+    /// Whether a number lies inside.
+    pub fn contains(self, x: f64) -> bool {
+        self.low <= x && x <= self.high
+    }
+
+    /// Whether another interval lies inside.
+    pub fn encloses(self, other: Interval) -> bool {
+        self.low <= other.low && other.high <= self.high
+    }
+
+    /// The least interval around both.
+    pub fn hull(self, other: Interval) -> Interval {
+        Interval {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// Both halves.
+    pub fn split(self) -> [Interval; 2] {
+        let mid = self.mid();
+        [checked(self.low, mid), checked(mid, self.high)]
+    }
+
+    /// x²
+    pub fn square(self) -> Interval {
+        let (least, most) = (self.mignitude(), self.magnitude());
+        let low = (least * least).next_down().max(0.0);
+        checked(low, (most * most).next_up())
+    }
+
+    /// −x
+    pub fn negated(self) -> Interval {
+        checked(-self.high, -self.low)
+    }
+
+    /// x widened by a number on both sides.
+    pub fn widened(self, by: f64) -> Interval {
+        self + Interval::symmetric(by)
+    }
+}
+
+/// The interval of two ends; the whole line if an end is no number.
+fn checked(low: f64, high: f64) -> Interval {
+    if low <= high {
+        Interval { low, high }
+    } else {
+        Interval::ALL
+    }
+}
+
+impl core::ops::Add for Interval {
+    type Output = Interval;
+    #[inline]
+    fn add(self, other: Interval) -> Interval {
+        let (low, high) = (self.low + other.low, self.high + other.high);
+        checked(low.next_down(), high.next_up())
+    }
+}
+
+impl core::ops::Sub for Interval {
+    type Output = Interval;
+    #[inline]
+    fn sub(self, other: Interval) -> Interval {
+        let (low, high) = (self.low - other.high, self.high - other.low);
+        checked(low.next_down(), high.next_up())
+    }
+}
+
+impl core::ops::Mul for Interval {
+    type Output = Interval;
+    #[inline]
+    fn mul(self, other: Interval) -> Interval {
+        // Zero times anything is zero: an unbounded operand is still made of
+        // numbers.
+        if self == Interval::ZERO || other == Interval::ZERO {
+            return Interval::ZERO;
+        }
+        let [a, b, c, d] = [
+            self.low * other.low,
+            self.low * other.high,
+            self.high * other.low,
+            self.high * other.high,
+        ];
+        // `min` and `max` drop a NaN; the sum does not.
+        if (a + b + c + d).is_nan() {
+            return Interval::ALL;
+        }
+        checked(
+            a.min(b).min(c.min(d)).next_down(),
+            a.max(b).max(c.max(d)).next_up(),
+        )
+    }
+}
+
+impl core::ops::Neg for Interval {
+    type Output = Interval;
+    fn neg(self) -> Interval {
+        self.negated()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratio(n: i64, d: i64) -> Rational {
+        Rational::new(n.into(), d.into())
+    }
+
+    fn holds(interval: Interval, value: &Rational) -> bool {
+        let end = |x: f64| Rational::from_float(x).unwrap();
+        &end(interval.low) <= value && value <= &end(interval.high)
+    }
+
+    /// Against exact rational arithmetic, over signs and sizes.
+    #[test]
+    fn operations_contain_the_exact_results() {
+        let values: Vec<Rational> = [(1, 3), (-2, 7), (5, 1), (-1, 10), (123_456, 789)]
+            .map(|(n, d)| ratio(n, d))
+            .to_vec();
+        for a in &values {
+            for b in &values {
+                let (x, y) = (Interval::rational(a), Interval::rational(b));
+                assert!(holds(x + y, &(a + b)));
+                assert!(holds(x - y, &(a - b)));
+                assert!(holds(x * y, &(a * b)));
+                assert!(holds(x.square(), &(a * a)));
+                let wide = x.hull(y);
+                assert!(holds(wide * wide, &(a * b)) && holds(wide - wide, &(a - b)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_loses_at_most_an_ulp_on_each_side() {
+        let third = Interval::rational(&ratio(1, 3));
+        assert!(third.low < third.high && third.width() < 2e-16);
+        let sum = Interval::point(0.1) + Interval::point(0.2);
+        assert!(sum.width() < 2e-16);
+        assert_eq!(Interval::rational(&ratio(1, 4)), Interval::point(0.25));
+    }
+
+    #[test]
+    fn what_is_no_number_says_nothing() {
+        let big = Interval::point(f64::MAX);
+        let over = big + big;
+        assert_eq!(over.high, f64::INFINITY);
+        assert_eq!(over - over, Interval::ALL);
+        assert_eq!(Interval::ZERO * Interval::ALL, Interval::ZERO);
+        assert_eq!(Interval::new(1.0, 0.0), None);
+        assert_eq!(Interval::new(f64::NAN, 0.0), None);
+    }
+}

@@ -1,0 +1,153 @@
+//! What an edited program costs, quickly: folding and liveness without
+//! building a graph.
+
+use super::columns::{Nodes, Value};
+use crate::graph::Input;
+use crate::schedule::Operation;
+
+/// A sine/cosine pair weighs as much as this many operations.
+const SINCOS: u32 = 8;
+
+/// Operations that stay, sines and cosines weighed.
+pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratch) -> u32 {
+    let inputs = nodes.inputs.len();
+    let Scratch { folded, live } = scratch;
+    folded.clear();
+    for node in 0..nodes.len() {
+        let value = match edits[node] {
+            Some(Value::Known(c)) => Folded::alias(Value::Known(c)),
+            Some(Value::Node(other, negative)) => {
+                Folded::alias(signed(folded[other as usize].value, negative))
+            }
+            None if node < inputs => Folded::alias(Value::Node(node as u32, false)),
+            None => fold(nodes, node, folded),
+        };
+        folded.push(value);
+    }
+    live.clear();
+    live.resize(nodes.len(), false);
+    let mark = |value: Value, folded: &[Folded], live: &mut [bool]| {
+        let value = match value {
+            Value::Node(node, negative) => signed(folded[node as usize].value, negative),
+            known => known,
+        };
+        if let Value::Node(node, _) = value {
+            live[node as usize] = true;
+        }
+    };
+    for &output in &nodes.outputs {
+        mark(output, folded, live);
+    }
+    let mut total = 0;
+    for node in (inputs..nodes.len()).rev() {
+        if live[node]
+            && let Some([a, b]) = folded[node].operands
+        {
+            total += 1;
+            for value in [a, b] {
+                if let Value::Node(node, _) = value {
+                    live[node as usize] = true;
+                }
+            }
+        }
+    }
+    let mut angles: Vec<_> = Vec::new();
+    for (node, input) in nodes.inputs.iter().enumerate() {
+        if live[node]
+            && let Input::Sin(angle) | Input::Cos(angle) = input
+            && !angles.contains(angle)
+        {
+            angles.push(*angle);
+            total += SINCOS + angle.additions() as u32;
+        }
+    }
+    total
+}
+
+/// Buffers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    folded: Vec<Folded>,
+    live: Vec<bool>,
+}
+
+impl Scratch {
+    /// Which nodes the last priced program computes.
+    pub(super) fn live(&self) -> &[bool] {
+        &self.live
+    }
+}
+
+/// A node after folding: another value, or an operation.
+#[derive(Clone, Copy, Debug)]
+struct Folded {
+    value: Value,
+    operands: Option<[Value; 2]>,
+    /// c and x of a product c·x.
+    scaled: Option<(f64, Value)>,
+}
+
+impl Folded {
+    fn alias(value: Value) -> Folded {
+        Folded {
+            value,
+            operands: None,
+            scaled: None,
+        }
+    }
+}
+
+fn signed(value: Value, negative: bool) -> Value {
+    match value {
+        Value::Known(c) => Value::Known(if negative { -c } else { c }),
+        Value::Node(node, sign) => Value::Node(node, sign != negative),
+    }
+}
+
+fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
+    let op = nodes.ops[node - nodes.inputs.len()];
+    let resolve = |value: Value| match value {
+        Value::Node(node, negative) => signed(folded[node as usize].value, negative),
+        known => known,
+    };
+    let (a, b) = (resolve(op.left), resolve(op.right));
+    let minus = op.operation == Operation::Sub;
+    let own = Value::Node(node as u32, false);
+    let operation = Folded {
+        value: own,
+        operands: Some([a, b]),
+        scaled: None,
+    };
+    match (op.operation, a, b) {
+        (Operation::Mul, Value::Known(x), Value::Known(y)) => Folded::alias(Value::Known(x * y)),
+        (_, Value::Known(x), Value::Known(y)) => {
+            Folded::alias(Value::Known(if minus { x - y } else { x + y }))
+        }
+        (Operation::Mul, Value::Known(c), x) | (Operation::Mul, x, Value::Known(c)) => {
+            if c == 0.0 {
+                return Folded::alias(Value::Known(0.0));
+            }
+            if c.abs() == 1.0 {
+                return Folded::alias(signed(x, c < 0.0));
+            }
+            let (mut c, mut x) = (c, x);
+            if let Value::Node(inner, negative) = x
+                && let Some((d, y)) = folded[inner as usize].scaled
+            {
+                (c, x) = (if negative { -c * d } else { c * d }, y);
+            }
+            Folded {
+                value: own,
+                operands: Some([x, Value::Known(c)]),
+                scaled: Some((c, x)),
+            }
+        }
+        (Operation::Mul, ..) => operation,
+        (_, Value::Known(0.0), y) => Folded::alias(signed(y, minus)),
+        (_, x, Value::Known(0.0)) => Folded::alias(x),
+        (_, Value::Node(x, s), Value::Node(y, t)) if x == y && (s == t) == minus => {
+            Folded::alias(Value::Known(0.0))
+        }
+        _ => operation,
+    }
+}
