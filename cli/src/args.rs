@@ -52,6 +52,10 @@ pub struct Choice {
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
+    /// Only what this scene of the robot file needs; its outputs and scalar
+    /// are the defaults
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
     /// Search anew even if a plan is kept beside the robot file
     #[arg(long)]
     pub no_plan: bool,
@@ -113,7 +117,7 @@ pub struct VerifyArgs {
     pub robot: PathBuf,
     /// Compare with these states too: JSON with a list `states` of objects
     /// with q, qd, qdd and any of tau, D, h, c
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
     pub states: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]

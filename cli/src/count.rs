@@ -11,23 +11,30 @@ use crate::{generate as report, input, output};
 
 /// Runs the subcommand.
 pub fn run(args: &CountArgs) -> Outcome {
-    let robot = input::robot(&args.robot)?;
-    let mut request = input::request(&args.robot, &args.choice)?;
+    let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     // Both scalars run the same program: one is enough to count it, and a
     // constant that f32 cannot hold is no reason not to.
-    request.scalars = vec![args.choice.scalar.unwrap_or(ScalarType::F64)];
+    request.scalars.retain(|&scalar| scalar == ScalarType::F64);
+    if request.scalars.is_empty() {
+        request.scalars = vec![ScalarType::F32];
+    }
     let generated = generate(&robot, &request)?;
     if args.json {
         let functions = generated.functions.iter();
         let functions: Map<String, Value> = functions
             .map(|f| (f.function.to_string(), counts(&f.counts)))
             .collect();
-        return output::print_json(&json!({ "robot": robot.name, "functions": functions }));
+        let scene = request.scene.as_ref().map(|scene| &scene.name);
+        return output::print_json(&match scene {
+            Some(scene) => json!({ "robot": robot.name, "scene": scene, "functions": functions }),
+            None => json!({ "robot": robot.name, "functions": functions }),
+        });
     }
     output::print(&format!(
-        "robot {}, input {}\n\n{}",
+        "robot {}, input {}{}\n\n{}",
         robot.name,
         robot.short_hash(),
+        report::scene(&request),
         report::counts(&generated)
     ))
 }

@@ -12,11 +12,10 @@ use crate::{input, output};
 
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
-    let robot = input::robot(&args.robot)?;
-    let mut request = input::request(&args.robot, &args.choice)?;
+    let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     let kept = request.plan.take_if(|_| args.save_plan);
     let generated = generate(&robot, &request)?;
-    output::note(&report(&robot, &generated));
+    output::note(&report(&robot, &request, &generated));
     if args.save_plan {
         save_plan(args, &robot, &request, &generated, kept)?;
     }
@@ -79,12 +78,13 @@ fn save_plan(
 }
 
 /// What a person wants to know about the code.
-fn report(robot: &Robot, generated: &Generated) -> String {
+fn report(robot: &Robot, request: &Request, generated: &Generated) -> String {
     let mut text = format!(
-        "robot {}, {} joints, input {}\n\n",
+        "robot {}, {} joints, input {}{}\n\n",
         robot.name,
         robot.joints.len(),
-        robot.short_hash()
+        robot.short_hash(),
+        scene(request)
     );
     text += &counts(generated);
     text += "\nmul add sincos after each stage\n";
@@ -98,6 +98,12 @@ fn report(robot: &Robot, generated: &Generated) -> String {
         text += &format!("warning: {warning}\n");
     }
     text
+}
+
+/// `, scene pick`, if there is one.
+pub fn scene(request: &Request) -> String {
+    let scene = request.scene.as_ref();
+    scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name))
 }
 
 /// The table of operation counts.

@@ -8,9 +8,10 @@ use std::path::Path;
 use dalembert_codegen::function::Quantity;
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::plan;
+use dalembert_codegen::scene;
 use dalembert_codegen::verify::floating::GivenState;
 use dalembert_codegen::verify::states::JointState;
-use dalembert_model::read;
+use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use serde_json::Value;
 
@@ -23,6 +24,30 @@ const MAX_STATES_BYTES: u64 = 1 << 28;
 
 /// Reads a robot file; its warnings and notes go to standard error.
 pub fn robot(path: &Path) -> Result<Robot, Failure> {
+    Ok(reading(path)?.robot)
+}
+
+/// Reads a robot file and makes the request of a choice, its scene included.
+pub fn robot_and_request(path: &Path, choice: &Choice) -> Result<(Robot, Request), Failure> {
+    let reading = reading(path)?;
+    let mut request = request(path, choice)?;
+    if let Some(name) = &choice.scene {
+        let scene = scene::find(&reading.scenes, name).map_err(|error| {
+            Failure::Input(format!(
+                "error: {}: {}\n  = help: {}",
+                path.display(),
+                error.message(),
+                error.help()
+            ))
+        })?;
+        let (outputs, scalars) = (!choice.outputs.is_empty(), choice.scalar.is_some());
+        request = request.in_scene(scene, outputs, scalars);
+    }
+    Ok((reading.robot, request))
+}
+
+/// Reads a robot file; its warnings and notes go to standard error.
+pub fn reading(path: &Path) -> Result<Reading, Failure> {
     // One byte more than allowed: the reader says that it is too long.
     let bytes = bytes(path, read::MAX_BYTES as u64 + 1)?;
     let source = String::from_utf8_lossy(&bytes);
@@ -32,7 +57,7 @@ pub fn robot(path: &Path) -> Result<Robot, Failure> {
             for note in &reading.notes {
                 output::note(&note.render(&name, &source));
             }
-            Ok(reading.robot)
+            Ok(reading)
         }
         Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
     }
@@ -40,7 +65,7 @@ pub fn robot(path: &Path) -> Result<Robot, Failure> {
 
 /// The request of a choice, with the plan beside the robot file unless the
 /// choice does without.
-pub fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
+fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
     let mut request = choice.request();
     if !choice.no_plan {
         request.plan = plan::file::beside(robot_file)

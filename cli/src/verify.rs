@@ -2,7 +2,8 @@
 //! against the generic runtime and against given states.
 
 use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::generate::{Generated, generate};
+use dalembert_codegen::generate::{GenerateError, Generated, generate};
+use dalembert_codegen::scene::Setting;
 use dalembert_codegen::verify::floating::{BOUND, GIVEN_BOUND, Measure, Runtime};
 use dalembert_codegen::verify::states::{SEED, STATES, seeded};
 use dalembert_model::robot::Robot;
@@ -28,15 +29,16 @@ impl Check {
 
 /// Runs the subcommand.
 pub fn run(args: &VerifyArgs) -> Outcome {
-    let robot = input::robot(&args.robot)?;
+    let (robot, request) = input::robot_and_request(&args.robot, &args.choice)?;
     let given = match &args.states {
         Some(file) => input::states(file, robot.joints.len())?,
         None => Vec::new(),
     };
     // What cannot be proved is not generated: this ends with the reason.
-    let generated = generate(&robot, &input::request(&args.robot, &args.choice)?)?;
-    let runtime = Runtime::new(&robot);
-    let states = seeded(&robot, STATES, SEED);
+    let generated = generate(&robot, &request)?;
+    let setting = Setting::of(&robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let states = seeded(setting.robot(), STATES, SEED);
+    let runtime = Runtime::in_setting(setting);
     let mut checks = Vec::new();
     for emitted in &generated.emitted {
         for measure in emitted.against_runtime(&runtime, &states) {

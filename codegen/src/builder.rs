@@ -34,6 +34,7 @@ use crate::emit::{MathPath, ScalarType};
 use crate::function::Function;
 use crate::generate::{Request, Start, generate};
 use crate::plan;
+use crate::scene;
 use crate::simplify::Effort;
 use dalembert_model::robot::Severity;
 
@@ -45,6 +46,9 @@ use dalembert_model::robot::Severity;
 pub struct Generator {
     robot: Option<PathBuf>,
     request: Request,
+    scene: Option<String>,
+    /// Whether outputs and scalars were chosen: else they are the scene's.
+    chose: [bool; 2],
 }
 
 impl Generator {
@@ -65,6 +69,7 @@ impl Generator {
     #[must_use]
     pub fn outputs(mut self, outputs: impl IntoIterator<Item = Function>) -> Self {
         self.request.functions = outputs.into_iter().collect();
+        self.chose[0] = true;
         self
     }
 
@@ -73,6 +78,7 @@ impl Generator {
     #[must_use]
     pub fn scalars(mut self, scalars: impl IntoIterator<Item = ScalarType>) -> Self {
         self.request.scalars = scalars.into_iter().collect();
+        self.chose[1] = true;
         self
     }
 
@@ -89,6 +95,16 @@ impl Generator {
     #[must_use]
     pub fn effort(mut self, effort: Effort) -> Self {
         self.request.effort = effort;
+        self
+    }
+
+    /// Only what a scene of the robot file needs: locked joints, rates that
+    /// are zero and joints that nobody asks for are gone from the code. Its
+    /// outputs and scalar count where none were chosen here, and the module is
+    /// called `ROBOT_SCENE`.
+    #[must_use]
+    pub fn scene(mut self, name: impl Into<String>) -> Self {
+        self.scene = Some(name.into());
         self
     }
 
@@ -135,6 +151,12 @@ impl Generator {
         }
         let mut request = self.request.clone();
         request.plan = file.plan.clone();
+        if let Some(name) = &self.scene {
+            let scene = scene::find(&file.scenes, name)
+                .map_err(|error| BuildError::Scene(robot.to_owned(), error))?;
+            let [outputs, scalars] = self.chose;
+            request = request.in_scene(scene, outputs, scalars);
+        }
         let path = path.as_ref();
         let key = output::key(&file.source, &request);
         if output::is_current(path, &key) {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::clauses::RobotFileError;
 use crate::generate::GenerateError;
+use crate::scene::UnknownScene;
 
 /// Why nothing was written.
 #[derive(Clone, PartialEq, Eq)]
@@ -15,6 +16,8 @@ pub enum BuildError {
     NoOutDir,
     /// The robot file is missing or wrong.
     Robot(RobotFileError),
+    /// The robot has no such scene.
+    Scene(PathBuf, UnknownScene),
     /// The robot cannot have what was asked for.
     Generate(PathBuf, GenerateError),
     /// The file cannot be written; what the system says.
@@ -31,6 +34,13 @@ impl fmt::Display for BuildError {
                 "error: `OUT_DIR` is not set: call this from a build script, or `write_to`",
             ),
             BuildError::Robot(error) => error.fmt(f),
+            BuildError::Scene(path, error) => write!(
+                f,
+                "error: {}: {}\n  = help: {}",
+                path.display(),
+                error.message(),
+                error.help()
+            ),
             BuildError::Generate(path, error) => write!(f, "error: {}: {error}", path.display()),
             BuildError::Write(path, error) => {
                 write!(f, "error: cannot write {}: {error}", path.display())

@@ -7,6 +7,7 @@ use quote::{ToTokens, quote};
 use syn::LitStr;
 
 use dalembert_model::robot::{Robot, Severity};
+use dalembert_model::scene::Scene;
 
 use super::errors::Errors;
 use super::invocation::{self, Invocation, RobotSource};
@@ -14,6 +15,7 @@ use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::emit::MathPath;
 use crate::generate::{GenerateError, Generated, Request, generate};
 use crate::plan::{self, Plan};
+use crate::scene;
 
 /// The modules that an invocation asks for, or everything that is wrong with
 /// it next to modules whose functions have no bodies.
@@ -26,9 +28,7 @@ pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
     };
     let source = source(&invocation, base, &mut errors);
     let generated = match &source.robot {
-        Some(robot) if errors.is_empty() => {
-            functions(robot, source.plan.clone(), &invocation, &mut errors)
-        }
+        Some(robot) if errors.is_empty() => functions(robot, &source, &invocation, &mut errors),
         _ => None,
     };
     let (text, notes) = match generated {
@@ -51,6 +51,7 @@ pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
 #[derive(Default)]
 struct Source {
     robot: Option<Robot>,
+    scenes: Vec<Scene>,
     joints: Option<usize>,
     notes: Vec<String>,
     plan: Option<Plan>,
@@ -66,6 +67,7 @@ fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
             let in_range = (1..=Robot::MAX_JOINTS).contains(&read.joints);
             Source {
                 robot: read.robot,
+                scenes: read.scenes,
                 joints: in_range.then_some(read.joints),
                 notes: read.notes,
                 plan: None,
@@ -92,6 +94,7 @@ fn file(literal: &LitStr, base: &Path, errors: &mut Errors) -> Source {
             joints: Some(file.robot.joints.len()),
             notes: notes(&file, &shown),
             robot: Some(file.robot),
+            scenes: file.scenes,
             plan: file.plan,
             watch,
         },
@@ -132,20 +135,32 @@ fn notes(file: &RobotFile, shown: &str) -> Vec<String> {
 
 fn functions(
     robot: &Robot,
-    plan: Option<Plan>,
+    source: &Source,
     invocation: &Invocation,
     errors: &mut Errors,
 ) -> Option<Generated> {
-    let request = Request {
+    let mut request = Request {
         functions: invocation.outputs.iter().map(|(f, _)| *f).collect(),
         scalars: invocation.scalars.clone(),
         start: invocation.start,
         effort: invocation.effort,
-        plan,
+        plan: source.plan.clone(),
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
         scene: None,
     };
+    if let Some(name) = &invocation.scene {
+        match scene::find(&source.scenes, &name.to_string()) {
+            Ok(scene) => {
+                let [outputs, scalars] = invocation.chose;
+                request = request.in_scene(scene, outputs, scalars);
+            }
+            Err(error) => {
+                errors.say(name, &error.message(), &error.help());
+                return None;
+            }
+        }
+    }
     generate(robot, &request)
         .map_err(|error| {
             let function = match &error {

@@ -30,6 +30,10 @@ pub(super) struct Invocation {
     pub(super) scalars: Vec<ScalarType>,
     pub(super) start: Start,
     pub(super) effort: Effort,
+    /// The scene's name.
+    pub(super) scene: Option<Ident>,
+    /// Whether outputs and scalars were chosen: else they are the scene's.
+    pub(super) chose: [bool; 2],
     /// The path of the facade crate.
     pub(super) facade: TokenStream,
 }
@@ -41,7 +45,14 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 5] = ["outputs", "scalar", "formulation", "effort", "crate"];
+const CLAUSES: [&str; 6] = [
+    "outputs",
+    "scalar",
+    "formulation",
+    "effort",
+    "scene",
+    "crate",
+];
 
 /// Reads an invocation; `None` if not even the module is there.
 pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation> {
@@ -67,15 +78,17 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         scalars: Vec::new(),
         start: Start::Auto,
         effort: Effort::Quick,
+        scene: None,
+        chose: [false; 2],
         facade: quote!(::dalembert),
     };
-    let mut asked = false;
     for pair in clauses(rest, errors) {
         let key = clause_name(&pair.key, errors);
-        asked |= key == Some("outputs");
+        invocation.chose[0] |= key == Some("outputs");
+        invocation.chose[1] |= key == Some("scalar");
         invocation.clause(key, &pair.value, errors);
     }
-    if !asked {
+    if !invocation.chose[0] && invocation.scene.is_none() {
         errors.push(&invocation.name, &m::NO_OUTPUTS);
     }
     if invocation.outputs.is_empty() {
@@ -164,6 +177,11 @@ impl Invocation {
             }
             Some("formulation") => self.start = word(value, errors).unwrap_or(self.start),
             Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
+            Some("scene") => match value {
+                [TokenTree::Ident(name)] => self.scene = Some(name.clone()),
+                [] => {}
+                [other, ..] => errors.push(other, &m::SCENE_CLAUSE),
+            },
             Some("crate") => {
                 if let Some(path) = facade(value, errors) {
                     self.facade = path;

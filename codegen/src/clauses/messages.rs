@@ -52,8 +52,20 @@ pub(super) const CRATE_RELATIVE: Message = message(
     "start with `crate::` or with the name of a crate",
 );
 pub(super) const NO_ITEM: Message = message(
-    "expected `key: value;` or `joint { … }`",
-    "a robot has: convention, gravity, joint",
+    "expected `key: value;`, `joint { … }` or `scene NAME { … }`",
+    "a robot has: convention, gravity, joint, scene",
+);
+pub(super) const SCENE_NAME: Message = message(
+    "expected the scene's name after `scene`",
+    "scene pick { lock: { 4: 0 }, velocity: zero }",
+);
+pub(super) const SCENE_CLAUSE: Message = message(
+    "expected the name of a scene",
+    "scene: pick; with `[scene.pick]` in the robot file, or `scene pick { … }` in the robot's block",
+);
+pub(super) const NO_LOCK: Message = message(
+    "expected `joint: position`",
+    "lock: { 4: 0, elbow: pi/2 }: joints by number, from 1, or by name",
 );
 pub(super) const NAMED: Message = message(
     "the robot is called after its module",

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
 use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scene;
 
 use crate::plan::{self, Plan};
 
@@ -15,6 +16,8 @@ use crate::plan::{self, Plan};
 pub struct RobotFile {
     /// The robot.
     pub robot: Robot,
+    /// Its scenes.
+    pub scenes: Vec<Scene>,
     /// Warnings and notes.
     pub notes: Vec<Diagnostic>,
     /// The text, which the notes' spans are about.
@@ -49,6 +52,7 @@ impl RobotFile {
         match read::parse_bytes(&bytes, &Options::default()) {
             Ok(reading) => Ok(RobotFile {
                 robot: reading.robot,
+                scenes: reading.scenes,
                 notes: reading.notes,
                 source,
                 plan,

@@ -15,6 +15,7 @@ use dalembert_model::number::Angle;
 use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
 use dalembert_model::read::{self, Diagnostic, Options};
 use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scene;
 
 use super::errors::Errors;
 use super::messages as m;
@@ -24,13 +25,18 @@ use super::statement::{self, Pair, group, pairs, trees};
 /// to go on after an error.
 pub(super) struct Read {
     pub(super) robot: Option<Robot>,
+    pub(super) scenes: Vec<Scene>,
     pub(super) joints: usize,
     pub(super) notes: Vec<String>,
 }
 
 /// Reads the block behind the module's name.
 pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
-    let (keys, joints) = split(block, errors);
+    let Blocks {
+        keys,
+        joints,
+        scenes,
+    } = split(block, errors);
     let mut file = File::default();
     file.name(name);
     for pair in pairs(&keys, ';', errors) {
@@ -47,9 +53,19 @@ pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
             file.line(&pair, errors);
         }
     }
-    let (robot, found) = match read::parse(&file.text, &Options::default()) {
-        Ok(reading) => (Some(reading.robot), reading.notes),
-        Err(diagnostics) => (None, diagnostics.0),
+    for (head, body) in &scenes {
+        file.text += "[scene.";
+        file.mark(head.to_token_stream(), |file| {
+            file.text += &head.to_string()
+        });
+        file.text += "]\n";
+        for pair in pairs(&trees(body.stream()), ',', errors) {
+            file.line(&pair, errors);
+        }
+    }
+    let (robot, scenes, found) = match read::parse(&file.text, &Options::default()) {
+        Ok(reading) => (Some(reading.robot), reading.scenes, reading.notes),
+        Err(diagnostics) => (None, Vec::new(), diagnostics.0),
     };
     let notes = match robot {
         Some(_) => found.iter().map(|d| reword(&d.message)).collect(),
@@ -62,33 +78,55 @@ pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
     };
     Read {
         robot,
+        scenes,
         joints: joints.len(),
         notes,
     }
 }
 
-/// The robot's own keys, and its joints. A file has them in this order too.
-fn split(block: &Group, errors: &mut Errors) -> (Vec<TokenTree>, Vec<(Ident, Group)>) {
-    let (mut keys, mut joints) = (Vec::new(), Vec::new());
-    let mut rest = trees(block.stream()).into_iter().peekable();
-    while let Some(tree) = rest.next() {
-        let TokenTree::Ident(word) = &tree else {
-            keys.push(tree);
+/// What a robot's block consists of.
+#[derive(Default)]
+struct Blocks {
+    keys: Vec<TokenTree>,
+    joints: Vec<(Ident, Group)>,
+    scenes: Vec<(Ident, Group)>,
+}
+
+/// The robot's own keys, its joints and its scenes. A file has them in this
+/// order too.
+fn split(block: &Group, errors: &mut Errors) -> Blocks {
+    let mut blocks = Blocks::default();
+    let all = trees(block.stream());
+    let mut rest = all.as_slice();
+    while let Some((tree, after)) = rest.split_first() {
+        let braces = |tree: &TokenTree| group(tree, Delimiter::Brace).cloned();
+        if let (TokenTree::Ident(word), [TokenTree::Ident(name), body, ..]) = (tree, after)
+            && word == "scene"
+            && let Some(body) = braces(body)
+        {
+            blocks.scenes.push((name.clone(), body));
+            rest = &after[2..];
             continue;
-        };
-        let body = rest.peek().and_then(|next| group(next, Delimiter::Brace));
-        match body.cloned() {
-            Some(body) => {
-                if word != "joint" {
-                    errors.push(word, &m::NO_ITEM);
+        }
+        match (tree, after.first().and_then(braces)) {
+            (TokenTree::Ident(word), Some(body)) => {
+                if word == "scene" {
+                    errors.push(word, &m::SCENE_NAME);
+                } else {
+                    if word != "joint" {
+                        errors.push(word, &m::NO_ITEM);
+                    }
+                    blocks.joints.push((word.clone(), body));
                 }
-                joints.push((word.clone(), body));
-                rest.next();
+                rest = &after[1..];
             }
-            None => keys.push(tree),
+            _ => {
+                blocks.keys.push(tree.clone());
+                rest = after;
+            }
         }
     }
-    (keys, joints)
+    blocks
 }
 
 /// The robot file as it is written.
@@ -130,7 +168,48 @@ impl File {
             false => file.quoted(&key),
         });
         self.text += " = ";
-        self.value(&pair.value, errors);
+        match pair.value.as_slice() {
+            // Its keys are joints, which may be numbers.
+            [tree] if key == "lock" && group(tree, Delimiter::Brace).is_some() => {
+                self.mark(tree.to_token_stream(), |file| {
+                    if let Some(block) = group(tree, Delimiter::Brace) {
+                        file.locks(block, errors);
+                    }
+                });
+            }
+            value => self.value(value, errors),
+        }
+    }
+
+    /// `{ 4: 0, elbow: pi/2 }`
+    fn locks(&mut self, block: &Group, errors: &mut Errors) {
+        self.text += "{ ";
+        let mut written = 0;
+        for item in statement::items(&trees(block.stream())) {
+            let [
+                joint @ (TokenTree::Ident(_) | TokenTree::Literal(_)),
+                colon,
+                value @ ..,
+            ] = item
+            else {
+                errors.push(block, &m::NO_LOCK);
+                continue;
+            };
+            if !statement::is_punct(colon, ':') || value.is_empty() {
+                errors.push(joint, &m::NO_LOCK);
+                continue;
+            }
+            if written > 0 {
+                self.text += ", ";
+            }
+            written += 1;
+            self.mark(joint.to_token_stream(), |file| {
+                file.text += &joint.to_string()
+            });
+            self.text += " = ";
+            self.value(value, errors);
+        }
+        self.text += " }";
     }
 
     fn value(&mut self, value: &[TokenTree], errors: &mut Errors) {
@@ -268,7 +347,8 @@ fn join(value: &[TokenTree]) -> String {
 }
 
 /// How the reader's messages about a file read in the macro.
-const DIALECT: [(&str, &str); 7] = [
+const DIALECT: [(&str, &str); 8] = [
+    ("a [scene.NAME] table", "a `scene NAME { … }` block"),
     ("the robot has: name, ", "the robot has: "),
     ("[[joint]] tables", "`joint { … }` blocks"),
     ("[[joint]] table", "`joint { … }` block"),

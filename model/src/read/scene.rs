@@ -83,7 +83,7 @@ fn is_of_absence(part: Part) -> bool {
         Part::Joint(usize::MAX)
             | Part::Tolerance(usize::MAX)
             | Part::Box(_, usize::MAX)
-            | Part::Lock(0)
+            | Part::Lock(usize::MAX)
     )
 }
 
@@ -237,6 +237,7 @@ impl Reader<'_, '_, '_> {
         let Some(value) = keys.get("lock") else {
             return Vec::new();
         };
+        self.mark(Part::Lock(usize::MAX), value);
         let table = self.cx.table(value, HELP);
         let Some(table) = self.noted(table) else {
             return Vec::new();

@@ -23,7 +23,7 @@ pub enum Part {
     Outputs,
     /// An entry of `joints`; the list itself where it has no such entry.
     Joint(usize),
-    /// An entry of `lock`.
+    /// An entry of `lock`; the table itself where it has no such entry.
     Lock(usize),
     /// The payload, by field.
     Payload(Field),
@@ -135,7 +135,7 @@ impl<'a> Check<'a> {
             };
             let part = match self.scene.joints {
                 Some(_) => Part::Joint(usize::MAX),
-                None => Part::Lock(0),
+                None => Part::Lock(usize::MAX),
             };
             self.say(part, message.to_owned(), "joints = [1, 2, 3]");
         }

@@ -1,0 +1,345 @@
+//! A scene's code is the full model's at the scene's values: proved, and run.
+
+mod support;
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::graph::Input;
+use dalembert_codegen::plan::{self, Entry, Plan, SceneKey};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::schedule::{Operand, Program};
+use dalembert_codegen::verify::exact::{Disproof, prove_in};
+use dalembert_codegen::verify::floating::Runtime;
+use dalembert_codegen::verify::states::seeded;
+use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::robot::{Position, Robot};
+use dalembert_model::scene::{Payload, Scene};
+
+fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn pi_times(numerator: i64, denominator: i64) -> Position {
+    Position::Angle(Angle::PiTimes(ratio(numerator, denominator)))
+}
+
+fn radians(numerator: i64, denominator: i64) -> Position {
+    Position::Angle(Angle::Radians(ratio(numerator, denominator)))
+}
+
+fn named(scene: Scene) -> Scene {
+    Scene {
+        name: "test".into(),
+        ..scene
+    }
+}
+
+fn request(scene: &Scene, functions: &[Function]) -> Request {
+    Request {
+        functions: functions.to_vec(),
+        scalars: vec![ScalarType::F64],
+        scene: Some(scene.clone()),
+        ..Request::default()
+    }
+}
+
+fn run(robot: &Robot, scene: &Scene, functions: &[Function]) -> Generated {
+    generate(robot, &request(scene, functions)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The scene's text against the runtime of the whole robot, at states that
+/// have the scene's values; nothing here goes through [`Setting`].
+fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
+    let whole = Runtime::new(&scene.apply(robot));
+    let rows = scene.rows(robot.joints.len());
+    let n = robot.joints.len();
+    for mut state in seeded(robot, 20, 7) {
+        for (joint, at) in &scene.lock {
+            state.q[*joint] = match at {
+                Position::Angle(angle) => angle.to_f64(),
+                Position::Length(length) => f64::nearest_rational(length),
+            };
+            (state.qd[*joint], state.qdd[*joint]) = (0.0, 0.0);
+        }
+        if scene.velocity_zero {
+            state.qd.fill(0.0);
+        }
+        if scene.acceleration_zero {
+            state.qdd.fill(0.0);
+        }
+        for emitted in &generated.emitted {
+            let full = whole.run(emitted.function, &state);
+            // Locked entries must not be read.
+            let mut noisy = state.clone();
+            for (joint, _) in &scene.lock {
+                noisy.q[*joint] = f64::NAN;
+                noisy.qd[*joint] = f64::NAN;
+                noisy.qdd[*joint] = f64::NAN;
+            }
+            let found = emitted.run(&noisy);
+            let largest = full.iter().fold(1.0f64, |most, x| most.max(x.abs()));
+            let mut start = 0;
+            let mut expected = Vec::new();
+            for quantity in emitted.function.quantities() {
+                let entry = |index: Vec<usize>| {
+                    full[start + index.iter().fold(0, |sum, digit| sum * n + digit)]
+                };
+                match quantity.rank() {
+                    1 => expected.extend(rows.iter().map(|&i| entry(vec![i]))),
+                    2 => {
+                        for &i in &rows {
+                            expected.extend(rows.iter().map(|&k| entry(vec![i, k])));
+                        }
+                    }
+                    _ => {
+                        for &i in &rows {
+                            for &k in &rows {
+                                expected.extend(rows.iter().map(|&m| entry(vec![i, k, m])));
+                            }
+                        }
+                    }
+                }
+                start += quantity.len(n);
+            }
+            assert_eq!(found.len(), expected.len());
+            for (found, expected) in found.iter().zip(&expected) {
+                let error = (found - expected).abs() / largest;
+                assert!(error < 1e-13, "{}: {found} {expected}", emitted.function);
+            }
+        }
+    }
+}
+
+#[test]
+fn locked_scenes_are_the_full_model() {
+    let some = [
+        Function::InverseDynamics,
+        Function::Gravity,
+        Function::ManipulatorEquation,
+    ];
+    let lock = |lock: Vec<(usize, Position)>| {
+        named(Scene {
+            lock,
+            ..Scene::default()
+        })
+    };
+    for (robot, scenes) in [
+        (
+            "puma560",
+            vec![
+                lock(vec![
+                    (3, pi_times(0, 1)),
+                    (4, pi_times(1, 2)),
+                    (5, radians(1, 3)),
+                ]),
+                lock(vec![
+                    (0, radians(1, 2)),
+                    (3, pi_times(1, 1)),
+                    (5, pi_times(1, 6)),
+                ]),
+                lock(vec![(1, pi_times(-1, 4)), (2, pi_times(1, 4))]),
+            ],
+        ),
+        (
+            "stanford",
+            vec![
+                lock(vec![(2, Position::Length(ratio(1, 4)))]),
+                lock(vec![
+                    (0, pi_times(0, 1)),
+                    (1, pi_times(1, 2)),
+                    (4, radians(-3, 10)),
+                ]),
+            ],
+        ),
+        (
+            "panda",
+            vec![lock(vec![
+                (0, pi_times(0, 1)),
+                (2, pi_times(1, 2)),
+                (4, pi_times(0, 1)),
+                (6, pi_times(1, 4)),
+            ])],
+        ),
+    ] {
+        let robot = support::robot(robot);
+        for scene in scenes {
+            let generated = run(&robot, &scene, &some);
+            check_floats(&robot, &scene, &generated);
+            for function in &generated.functions {
+                let locked = |joint: usize| scene.locked(joint).is_some();
+                assert!(!reads(&function.program, locked), "{}", function.function);
+            }
+        }
+    }
+}
+
+/// Whether a program reads anything of some joints.
+fn reads(program: &Program, joint: impl Fn(usize) -> bool) -> bool {
+    let steps = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
+    let outputs = program.outputs.iter().map(|output| &output.value);
+    steps.chain(outputs).any(|operand| match operand {
+        Operand::Input(Input::Sin(angle) | Input::Cos(angle)) => {
+            angle.terms().any(|(i, _)| joint(i))
+        }
+        Operand::Input(Input::Position(i) | Input::Velocity(i) | Input::Acceleration(i)) => {
+            joint(*i)
+        }
+        _ => false,
+    })
+}
+
+#[test]
+fn every_function_over_chosen_joints() {
+    let robot = support::robot("planar3r");
+    let payload = Payload {
+        mass: ratio(5, 2),
+        com: [ratio(1, 20), ratio(0, 1), ratio(1, 10)],
+        inertia: Default::default(),
+    };
+    for scene in [
+        Scene {
+            joints: Some(vec![2, 0]),
+            payload: Some(payload.clone()),
+            ..Scene::default()
+        },
+        Scene {
+            lock: vec![(1, pi_times(1, 3))],
+            gravity: Some([ratio(1, 1), ratio(-3, 1), ratio(1, 2)]),
+            acceleration_zero: true,
+            ..Scene::default()
+        },
+        // The torque that a brake holds.
+        Scene {
+            joints: Some(vec![1, 0]),
+            lock: vec![(1, pi_times(1, 3)), (2, pi_times(1, 2))],
+            velocity_zero: true,
+            payload: Some(payload),
+            ..Scene::default()
+        },
+    ] {
+        let scene = named(scene);
+        let generated = run(&robot, &scene, &Function::ALL);
+        check_floats(&robot, &scene, &generated);
+    }
+}
+
+#[test]
+fn the_text_says_what_is_left() {
+    let robot = support::robot("puma560");
+    let scene = named(Scene {
+        lock: (3..6).map(|joint| (joint, pi_times(0, 1))).collect(),
+        velocity_zero: true,
+        ..Scene::default()
+    });
+    let functions = [Function::InverseDynamics, Function::Inertia];
+    let text = run(&robot, &scene, &functions).text;
+    for part in [
+        "pub mod puma560_test {",
+        "pub const N: usize = 6;",
+        "pub const JOINTS: [usize; 3] = [0, 1, 2];",
+        "pub fn inverse_dynamics(q: &[f64; 6], qdd: &[f64; 6]) -> [f64; 3] {",
+        "pub fn inertia(q: &[f64; 6]) -> [[f64; 3]; 3] {",
+        "/// - q4 = 0 rad, q̇4 = q̈4 = 0;",
+    ] {
+        assert!(text.contains(part), "{part}\n{}", &text[..3000]);
+    }
+}
+
+/// The proof is against the full model at the scene's values: another value,
+/// another payload, or rows in another order are no match.
+#[test]
+fn another_scene_disproves() {
+    let robot = support::robot("puma560");
+    let scene = |angle: Position, mass: i64| {
+        named(Scene {
+            joints: Some(vec![0, 1]),
+            lock: vec![(2, angle)],
+            payload: Some(Payload {
+                mass: ratio(mass, 1),
+                com: [ratio(0, 1), ratio(0, 1), ratio(1, 20)],
+                inertia: Default::default(),
+            }),
+            ..Scene::default()
+        })
+    };
+    let own = scene(pi_times(1, 2), 2);
+    let generated = run(&robot, &own, &[Function::Gravity]);
+    let program = &generated.functions[0].program;
+    let proved = |scene: &Scene| {
+        let setting = Setting::new(&robot, scene).unwrap_or_else(|error| panic!("{error}"));
+        prove_in(&setting, program)
+    };
+    assert!(proved(&own).is_ok());
+    for other in [scene(pi_times(1, 3), 2), scene(pi_times(1, 2), 3)] {
+        assert!(matches!(proved(&other), Err(Disproof::Output { .. })));
+    }
+    let turned = Scene {
+        joints: Some(vec![1, 0]),
+        ..own
+    };
+    assert_eq!(proved(&turned), Err(Disproof::Shape));
+}
+
+#[test]
+fn plans_tell_scenes_apart() {
+    let robot = support::robot("planar3r");
+    let scene = named(Scene {
+        joints: Some(vec![1, 0]),
+        lock: vec![(2, pi_times(1, 2))],
+        velocity_zero: true,
+        ..Scene::default()
+    });
+    let mut wanted = request(&scene, &[Function::InverseDynamics]);
+    let first = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
+    let mut kept = Plan {
+        robot: robot.name.clone(),
+        input: plan::input_hash(&robot),
+        entries: Vec::new(),
+    };
+    kept.insert(Entry {
+        start: wanted.start,
+        scalar: ScalarType::F64,
+        source: first.functions[0].source,
+        stages: first.functions[0].stages.clone(),
+        scene: Some(SceneKey::of(&scene)),
+        program: first.functions[0].program.clone(),
+    });
+    let read = Plan::parse(&kept.write()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(read, kept);
+    wanted.plan = Some(read);
+    let again = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(again.text, first.text);
+    // Not the whole robot's.
+    let whole = Request {
+        scene: None,
+        ..wanted.clone()
+    };
+    let whole = generate(&robot, &whole).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(whole.functions[0].program.rows, [0, 1, 2]);
+    // Nor that of the scene as it is now.
+    wanted.scene = Some(Scene {
+        lock: vec![(2, pi_times(1, 3))],
+        ..scene
+    });
+    let stale = generate(&robot, &wanted).map(|generated| generated.text);
+    assert_eq!(
+        stale,
+        Err(GenerateError::StalePlan {
+            robot: "test".into()
+        })
+    );
+}
+
+#[test]
+fn a_scene_of_another_robot_is_refused() {
+    let robot = support::robot("planar2r");
+    let scene = named(Scene {
+        joints: Some(vec![0, 4]),
+        ..Scene::default()
+    });
+    let error = generate(&robot, &request(&scene, &[Function::Gravity]))
+        .map(|generated| generated.text)
+        .expect_err("has two joints");
+    assert!(error.to_string().contains("there is no joint 5"), "{error}");
+}

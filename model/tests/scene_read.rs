@@ -1,0 +1,263 @@
+//! Scenes of robot files: every key, and the text that says the same.
+
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::read::{Options, parse};
+use dalembert_model::robot::Position;
+use dalembert_model::scene::{Float, Output, Scale, Scene, write};
+
+const ROBOT: &str = r#"
+name = "arm"
+convention = "standard"
+gravity = [0, 0, -9.81]
+[[joint]]
+name = "waist"
+kind = "revolute"
+mass = 1
+com = [0, 0, 0]
+inertia = [0, 0, 1, 0, 0, 0]
+limits = { position = ["-pi", "pi"], velocity = 2, acceleration = 10, torque = 50 }
+[[joint]]
+name = "boom"
+kind = "prismatic"
+mass = 2
+com = [0, 0, 0]
+inertia = [1, 1, 1, 0, 0, 0]
+limits = { position = [-0.5, 0.5], velocity = 1, acceleration = 5, torque = 80 }
+[[joint]]
+name = "wrist"
+kind = "revolute"
+mass = 0.5
+com = [0.1, 0, 0]
+inertia = [1, 1, 1, 0, 0, 0]
+limits = { position = [-2, 2], velocity = 3, acceleration = 10, torque = 5 }
+"#;
+
+fn scenes(text: &str) -> Vec<Scene> {
+    let source = format!("{ROBOT}{text}");
+    let reading = parse(&source, &Options::default());
+    reading
+        .unwrap_or_else(|errors| panic!("{}", errors.render("arm.toml", &source)))
+        .scenes
+}
+
+fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+#[test]
+fn every_key() {
+    let scenes = scenes(
+        r#"
+[scene.pick]
+outputs = ["inverse_dynamics", "gravity"]
+joints = ["wrist", 1]
+lock = { 2 = 0.25 }
+gravity = [0, 0, 0]
+velocity = "zero"
+payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
+box = { position = [[-1, 1], [0, 0.5], ["-pi/2", "90deg"]], velocity = [2, 1, 3] }
+tolerance = { value = [1e-3, 1, 0.1], relative_to = "actuator" }
+scalar = "f32"
+
+[scene.hold]
+lock = { wrist = "pi/6", waist = 1 }
+acceleration = "zero"
+"#,
+    );
+    let [pick, hold] = scenes.as_slice() else {
+        panic!("{scenes:?}")
+    };
+    assert_eq!(pick.name, "pick");
+    assert_eq!(pick.outputs, [Output::InverseDynamics, Output::Gravity]);
+    assert_eq!(pick.joints.as_deref(), Some(&[2, 0][..]));
+    assert_eq!(pick.lock, [(1, Position::Length(ratio(1, 4)))]);
+    assert!(pick.gravity.is_some() && pick.velocity_zero && !pick.acceleration_zero);
+    assert_eq!(
+        pick.payload.as_ref().map(|p| p.mass.clone()),
+        Some(ratio(5, 2))
+    );
+    let tolerance = pick.tolerance.as_ref().expect("has one");
+    assert_eq!(tolerance.relative_to, Scale::Actuator);
+    assert_eq!(tolerance.of(2), Some(&ratio(1, 10)));
+    assert_eq!(pick.scalar, Some(Float::F32));
+    assert_eq!(pick.bounds.velocity.as_ref().map(Vec::len), Some(3));
+    assert_eq!(pick.bounds.acceleration, None);
+
+    let angle = Position::Angle(Angle::PiTimes(ratio(1, 6)));
+    assert_eq!(hold.locked(2), Some(&angle));
+    assert_eq!(hold.rows(3), [1]);
+    assert!(hold.acceleration_zero && hold.joints.is_none());
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    let text = r#"
+[scene.pick]
+outputs = ["gravity"]
+joints = [3, 1]
+lock = { 2 = "1/3" }
+gravity = [0, 0, -1.62]
+velocity = "zero"
+payload = { mass = "1/3", com = [0, 0, 0.05] }
+box = { position = [[-1, 1], [0, 0.5], ["-pi/2", 1]], acceleration = [2, 1, 3] }
+tolerance = { value = 1e-3, relative_to = "range" }
+scalar = "f64"
+"#;
+    let first = scenes(text).remove(0);
+    let second = scenes(&write(&first)).remove(0);
+    assert_eq!(first, second);
+    assert_eq!(first.short_hash(), second.short_hash());
+    let other = Scene {
+        velocity_zero: false,
+        ..first.clone()
+    };
+    assert_ne!(first.short_hash(), other.short_hash());
+}
+
+/// The payload and the last link are one body: the same total mass, centre of
+/// mass, and inertia about any point.
+#[test]
+fn a_payload_is_part_of_the_last_link() {
+    let source = format!(
+        "{ROBOT}[scene.a]\npayload = {{ mass = 1.5, com = [0.1, 0.2, 0.4], inertia = [1, 2, 2, 0, 0, 0.5] }}\n"
+    );
+    let reading = parse(&source, &Options::default()).expect("reads");
+    let (bare, loaded) = (&reading.robot, reading.scenes[0].apply(&reading.robot));
+    assert_eq!(bare.joints[..2], loaded.joints[..2]);
+    let (link, both) = (&bare.joints[2], &loaded.joints[2]);
+    assert_eq!(both.mass, ratio(2, 1));
+    // (0.5·(0.1, 0, 0) + 1.5·(0.1, 0.2, 0.4))/2
+    assert_eq!(both.com, [ratio(1, 10), ratio(3, 20), ratio(3, 10)]);
+    // Steiner by hand, about the origin of the frame.
+    let about_origin = |mass: &Rational, com: &[Rational; 3], xx: &Rational, xz: &Rational| {
+        let [x, y, z] = com;
+        (xx + mass * (y * y + z * z), xz - mass * x * z)
+    };
+    let own = about_origin(&link.mass, &link.com, &link.inertia.xx, &link.inertia.xz);
+    let com = [ratio(1, 10), ratio(1, 5), ratio(2, 5)];
+    let load = about_origin(&ratio(3, 2), &com, &ratio(1, 1), &ratio(1, 2));
+    let all = about_origin(&both.mass, &both.com, &both.inertia.xx, &both.inertia.xz);
+    assert_eq!((own.0 + load.0, own.1 + load.1), all);
+}
+
+/// One mistake each: its line within the scene's text, from one, and words of
+/// the message or the help.
+#[test]
+fn mistakes() {
+    for (line, text, words) in [
+        (2, "joints = [1, 4]", "counted from 1 to 3"),
+        (2, "joints = [\"wirst\"]", "did you mean `wrist`?"),
+        (2, "joints = [0]", "there is no joint `0`"),
+        (2, "joints = [1, \"waist\"]", "in the list already"),
+        (2, "joints = []", "one joint at least"),
+        (2, "lock = { 9 = 0 }", "there is no joint `9`"),
+        (
+            2,
+            "lock = { 3 = 0, wrist = 0 }",
+            "joint 3 (wrist) is locked already",
+        ),
+        (
+            2,
+            "lock = { 3 = 2.5 }",
+            "locked outside its limits, -2 to 2",
+        ),
+        (2, "lock = { boom = \"pi/2\" }", "expected a number"),
+        (2, "lock = { 1 = 0, 2 = 0, 3 = 0 }", "every joint is locked"),
+        (
+            3,
+            "lock = { 1 = 0 }\nbox = { position = [[1, 2], [0, 0.1], [0, 1]] }",
+            "",
+        ),
+        (
+            2,
+            "box = { position = [[1, 1], [0, 0.1], [0, 1]] }",
+            "the range is empty",
+        ),
+        (2, "box = { velocity = [1, -1, 1] }", "the range is empty"),
+        (
+            2,
+            "box = { velocity = [1, 1] }",
+            "2 entries, but the robot has 3 joints",
+        ),
+        (2, "box = { speed = [1, 1, 1] }", "unknown key `speed`"),
+        (
+            2,
+            "tolerance = { value = 0, relative_to = \"range\" }",
+            "above zero",
+        ),
+        (
+            2,
+            "tolerance = { value = [1, 1], relative_to = \"range\" }",
+            "2 tolerances",
+        ),
+        (2, "tolerance = { value = 1e-3 }", "has no `relative_to`"),
+        (
+            2,
+            "tolerance = { value = 1, relative_to = \"actuators\" }",
+            "did you mean \"actuator\"?",
+        ),
+        (2, "outputs = [\"gravty\"]", "did you mean \"gravity\"?"),
+        (
+            2,
+            "outputs = [\"gravity\", \"gravity\"]",
+            "in the list already",
+        ),
+        (2, "velocity = 0", "expected \"zero\""),
+        (
+            2,
+            "payload = { mass = -1, com = [0, 0, 0] }",
+            "mass is negative",
+        ),
+        (2, "payload = { mass = 1 }", "has no `com`"),
+        (2, "scalar = \"f46\"", "did you mean \"f64\"?"),
+        (2, "locks = { 1 = 0 }", "did you mean `lock`?"),
+        (2, "gravity = [0, 0]", "an array of 3"),
+    ] {
+        let source = format!("{ROBOT}[scene.bad]\n{text}\n");
+        let before = ROBOT.lines().count();
+        let errors = parse(&source, &Options::default()).expect_err(text).0;
+        // The lock of joint 1 at 0 is outside [1, 2], said where it is locked.
+        let line = if words.is_empty() { 2 } else { line };
+        assert_eq!(errors.len(), 1, "{text}: {errors:?}");
+        let shown = errors[0].to_string();
+        assert!(shown.contains(words), "{text}: {shown}");
+        assert_eq!(errors[0].line, before + line, "{text}: {shown}");
+    }
+}
+
+#[test]
+fn a_bound_needs_a_box() {
+    let bare = ROBOT
+        .replace("velocity = 1, ", "")
+        .replace(", torque = 5 ", " ");
+    let parse = |text: &str| parse(&format!("{bare}[scene.a]\n{text}"), &Options::default());
+    let errors = parse("tolerance = { value = 1e-3, relative_to = \"actuator\" }\n").unwrap_err();
+    let shown = errors.to_string();
+    assert_eq!(errors.0.len(), 2, "{shown}");
+    assert!(
+        shown.contains("the range of the velocity of joint 2 (boom)"),
+        "{shown}"
+    );
+    assert!(
+        shown.contains("the torque limit of joint 3 (wrist)"),
+        "{shown}"
+    );
+    for good in [
+        "box = { velocity = [1, 1, 1] }\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
+        "velocity = \"zero\"\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
+        "lock = { 2 = 0 }\njoints = [1]\ntolerance = { value = 1e-3, relative_to = \"actuator\" }\n",
+        "outputs = [\"gravity\"]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
+    ] {
+        assert!(parse(good).is_ok(), "{good}");
+    }
+}
+
+/// Everything at once.
+#[test]
+fn all_mistakes_of_all_scenes() {
+    let source = format!(
+        "{ROBOT}[scene.a]\njoints = [7]\nlock = {{ 3 = 5 }}\n[scene.B]\ntolerance = {{ value = -1, relative_to = \"range\" }}\n"
+    );
+    let errors = parse(&source, &Options::default()).unwrap_err().0;
+    assert_eq!(errors.len(), 4, "{errors:?}");
+}
