@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, Start};
+use dalembert_codegen::generate::{Prefer, Request, Start};
 use dalembert_codegen::simplify::Effort;
 
 /// Verified, flat robot dynamics generated for one arm.
@@ -52,6 +52,9 @@ pub struct Choice {
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
+    /// `operations` takes the cheapest program even if it costs digits
+    #[arg(long, value_name = "WHAT", default_value = "accuracy", value_parser = prefer_parser())]
+    pub prefer: Prefer,
     /// Only what this scene of the robot file needs; its outputs and scalar
     /// are the defaults
     #[arg(long, value_name = "NAME")]
@@ -67,6 +70,7 @@ impl Choice {
         let mut request = Request {
             start: self.formulation,
             effort: self.effort,
+            prefer: self.prefer,
             ..Request::default()
         };
         if !self.outputs.is_empty() {
@@ -181,6 +185,13 @@ fn start_parser() -> impl TypedValueParser<Value = Start> {
 fn scalar_parser() -> impl TypedValueParser<Value = ScalarType> {
     let names = PossibleValuesParser::new(ScalarType::ALL.map(ScalarType::name));
     names.try_map(|name| ScalarType::from_name(&name).ok_or("no such scalar"))
+}
+
+fn prefer_parser() -> impl TypedValueParser<Value = Prefer> {
+    PossibleValuesParser::new(["accuracy", "operations"]).map(|name| match name.as_str() {
+        "operations" => Prefer::Operations,
+        _ => Prefer::Accuracy,
+    })
 }
 
 fn effort_parser() -> impl TypedValueParser<Value = Effort> {

@@ -17,6 +17,7 @@ use crate::portfolio::{self, Source, Variant};
 use crate::scene::{Setting, SettingError};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{Effort, Stage, simplify};
+use crate::verify::accuracy::Judge;
 use crate::verify::exact::{Disproof, Proof, prove_in};
 use crate::verify::floating::Emitted;
 use crate::verify::text::{TextError, TextProgram};
@@ -72,6 +73,17 @@ impl Start {
     }
 }
 
+/// What to do about a program whose rounding error is more than
+/// [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Prefer {
+    /// Take the cheapest that is not that much worse.
+    #[default]
+    Accuracy,
+    /// Take the cheapest.
+    Operations,
+}
+
 /// What to generate.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -84,6 +96,8 @@ pub struct Request {
     /// How much work the simplifier may do for functions that are not in the
     /// plan.
     pub effort: Effort,
+    /// What to do about a program that costs digits.
+    pub prefer: Prefer,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
     /// Where emitted code finds sine and cosine.
@@ -114,6 +128,7 @@ impl Default for Request {
             scalars: ScalarType::ALL.to_vec(),
             start: Start::Auto,
             effort: Effort::Quick,
+            prefer: Prefer::Accuracy,
             plan: None,
             math: MathPath::default(),
             module: None,
@@ -333,14 +348,19 @@ fn found(
         Start::Auto => vec![portfolio::angle_sums(setting)],
         Start::Only(_) => Vec::new(),
     };
-    let Some(simplified) = simplify(&graphs, &helpers, request.effort) else {
+    let judge = match request.prefer {
+        Prefer::Accuracy => Judge::new(setting, function),
+        Prefer::Operations => Judge::lenient(setting, function),
+    };
+    let accept = |graph: &Graph| judge.accepts(graph);
+    let Some(simplified) = simplify(&graphs, &helpers, request.effort, &accept) else {
         return Err(GenerateError::Empty);
     };
     let mut stages = vec![Stage {
         name: "traced",
         counts: variants[simplified.seed].traced,
     }];
-    stages.extend(simplified.stages);
+    stages.extend(simplified.stages.iter().cloned());
     let program = Program::in_setting(setting, function, &simplified.graph);
     stages.push(Stage {
         name: "final",

@@ -13,7 +13,7 @@ use super::errors::Errors;
 use super::invocation::{self, Invocation, RobotSource};
 use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::emit::MathPath;
-use crate::generate::{GenerateError, Generated, Request, generate};
+use crate::generate::{GenerateError, Generated, Prefer, Request, generate};
 use crate::plan::{self, Plan};
 use crate::scene;
 
@@ -145,6 +145,7 @@ fn functions(
         start: invocation.start,
         effort: invocation.effort,
         plan: source.plan.clone(),
+        prefer: Prefer::default(),
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
         scene: None,

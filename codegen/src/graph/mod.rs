@@ -2,7 +2,7 @@
 //!
 //! - this file: [`Graph`], its nodes and edges
 //! - [`input`]: what a program reads: sines, cosines, positions, rates
-//! - [`print`]: semantic fingerprints: values at random points of a prime field
+//! - [`mod@print`]: semantic fingerprints: values at random points of a prime field
 //! - [`builder`]: the smart constructors: folding and sharing
 //! - [`symbol`]: the scalar that traces the equations into a builder
 //! - [`counts`]: operation counts

@@ -6,7 +6,7 @@
 //! not get the program of another.
 //!
 //! - this file: [`Plan`]: its entries and how one is found
-//! - [`file`]: where it is kept
+//! - [`mod@file`]: where it is kept
 //! - [`parse`], [`write`](Plan::write): the text
 
 pub mod file;

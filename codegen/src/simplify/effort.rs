@@ -69,22 +69,22 @@ impl Effort {
     pub(super) fn search(self) -> Settings {
         match self {
             Effort::Quick => Settings {
-                rounds: 1,
-                patience: 0,
+                rounds: 3,
+                patience: 1,
                 pairs: 1_500,
                 substitutes: 700,
                 schedule: Schedule {
-                    moves: 60_000,
+                    moves: 40_000,
                     ..COOLING
                 },
             },
             Effort::Thorough => Settings {
-                rounds: 24,
-                patience: 4,
+                rounds: 30,
+                patience: 8,
                 pairs: 6_000,
                 substitutes: 3_000,
                 schedule: Schedule {
-                    moves: 2_000_000,
+                    moves: 150_000,
                     ..COOLING
                 },
             },

@@ -27,6 +27,9 @@ pub struct Budget {
     pub rounds: usize,
 }
 
+/// E-nodes at most, for each one of the program that went in.
+const NODES_PER_TERM: usize = 50;
+
 /// A class of [`Classes`] as a leaf of the e-graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct LeafRef(ClassId);
@@ -97,6 +100,9 @@ pub fn saturate(classes: &mut Classes, choice: &[Option<Way>], budget: Budget) {
     });
     insert(&mut egraph, classes, choice);
     merge_by_print(&mut egraph);
+    // A small program saturates into more regroupings than anyone can weigh.
+    let nodes = budget.nodes.min(NODES_PER_TERM * egraph.total_size());
+    let budget = Budget { nodes, ..budget };
     for _ in 0..budget.rounds {
         for phase in [Phase::Sign, Phase::Factor, Phase::Regroup, Phase::Factor] {
             run_phase(&mut egraph, phase, budget);

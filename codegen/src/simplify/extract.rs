@@ -76,6 +76,10 @@ pub struct Extraction<'a> {
 
 const NONE: u32 = u32::MAX;
 
+/// The ways of a dead operand that are looked at: the first found, which are
+/// those of real programs.
+const MOST_WAYS: usize = 16;
+
 impl<'a> Extraction<'a> {
     /// Starts from a choice that is acyclic and complete below the outputs;
     /// every other class gets an acyclic way where it has one.
@@ -84,12 +88,12 @@ impl<'a> Extraction<'a> {
         let mut angles: BTreeMap<AngleSum, u32> = BTreeMap::new();
         let mut angle_of = vec![NONE; n];
         let mut angle_cost = Vec::new();
-        for id in 0..n {
+        for (id, group) in angle_of.iter_mut().enumerate() {
             if let Some(Leaf::Input(input)) = &classes.get(id as ClassId).leaf
                 && let Some(angle) = input.angle()
             {
                 let next = angles.len() as u32;
-                angle_of[id] = *angles.entry(angle).or_insert_with(|| {
+                *group = *angles.entry(angle).or_insert_with(|| {
                     angle_cost.push(model.sincos + model.add * angle.additions() as u64);
                     next
                 });
@@ -268,7 +272,8 @@ impl<'a> Extraction<'a> {
             cost += if depth == 0 {
                 2 * self.model.add
             } else {
-                let costs = ways.iter().map(|&way| self.marginal(way, depth - 1));
+                let ways = ways.iter().take(MOST_WAYS);
+                let costs = ways.map(|&way| self.marginal(way, depth - 1));
                 costs.min().unwrap_or(u64::MAX / 4)
             };
         }
@@ -411,8 +416,11 @@ impl<'a> Extraction<'a> {
             let rise = self.cost as f64 - before as f64;
             if rise > 0.0 && random.unit() >= libm::exp(-rise / temperature) {
                 self.revert();
-            } else if self.cost < best.0 {
-                best = (self.cost, self.chosen.clone());
+            } else if self.cost < best.0 || (self.cost == best.0 && step % 64 == 0) {
+                // Of equal programs now and then a later one: the next round
+                // of discovery starts from there.
+                best.0 = self.cost;
+                best.1.clone_from(&self.chosen);
             }
         }
         self.restore(&best.1);

@@ -74,34 +74,47 @@ pub struct Simplified {
 /// never dearer than the cheapest of them merged by fingerprint.
 ///
 /// `helpers` are graphs of other values that may serve, such as the sines of
-/// angle sums. Returns `None` if there is no variant.
-pub fn simplify(variants: &[Graph], helpers: &[Graph], effort: Effort) -> Option<Simplified> {
-    let merged: Vec<Graph> = variants
+/// angle sums. A program that `accept` refuses is not taken, unless it refuses
+/// every variant. Returns `None` if there is no variant.
+pub fn simplify(
+    variants: &[Graph],
+    helpers: &[Graph],
+    effort: Effort,
+    accept: &dyn Fn(&Graph) -> bool,
+) -> Option<Simplified> {
+    let mut merged: Vec<(usize, Graph)> = variants
         .iter()
         .map(|graph| graph.rebuild(Folding::Semantic))
-        .collect();
-    let (seed, start) = merged
-        .iter()
         .enumerate()
-        .min_by_key(|(_, graph)| cost(graph))?;
+        .collect();
+    merged.sort_by_key(|(index, graph)| (cost(graph), *index));
+    let (seed, start, strict) = match merged.iter().find(|(_, graph)| accept(graph)) {
+        Some((seed, start)) => (*seed, start, true),
+        None => merged.first().map(|(seed, start)| (*seed, start, false))?,
+    };
     let mut stages = vec![
         Stage::of("folded", &variants[seed]),
         Stage::of("fingerprints", start),
     ];
+    let take = |found: Graph, best: &Graph| {
+        let better = cost(&found) <= cost(best) && (!strict || accept(&found));
+        if better { found } else { best.clone() }
+    };
     let mut random = Random::new(1);
 
     let mut classes = Classes::new(start);
     let program = classes.program();
     egraph::saturate(&mut classes, &program, effort.budget());
-    let mut best = search::extract(&classes, &program, effort.first_schedule(), &mut random)
-        .filter_cheaper(start);
+    let found = search::extract(&classes, &program, effort.first_schedule(), &mut random);
+    let mut best = take(found, start);
     stages.push(Stage::of("e-graph", &best));
 
     let settings = effort.search();
     let mut idle = 0;
     for _ in 0..settings.rounds {
+        let found = search::round(&best, variants, helpers, &settings, &mut random);
         let before = cost(&best);
-        best = search::round(&best, variants, helpers, &settings, &mut random);
+        best = take(found, &best);
         idle = if cost(&best) < before { 0 } else { idle + 1 };
         if idle > settings.patience {
             break;
@@ -121,14 +134,4 @@ pub fn cost(graph: &Graph) -> u64 {
     counts.mul as u64 * model.mul
         + counts.add as u64 * model.add
         + counts.sincos as u64 * model.sincos
-}
-
-impl Graph {
-    fn filter_cheaper(self, other: &Graph) -> Graph {
-        if cost(&self) <= cost(other) {
-            self
-        } else {
-            other.clone()
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! Checks that trust neither the search nor the printer.
 //!
+//! - [`accuracy`]: what rounding costs a program, for choices between them
 //! - [`exact`]: the program equals Lagrange–Euler as written, in a prime field
 //! - [`degree`]: how likely that check is to miss a difference
 //! - [`text`]: the printed text is the program, every literal rounded once
@@ -7,6 +8,7 @@
 //! - [`states`]: seeded states inside a robot's limits
 //! - [`floating`]: what rounding costs: against the runtime and given states
 
+pub mod accuracy;
 pub mod degree;
 pub mod exact;
 pub mod floating;

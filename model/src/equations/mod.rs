@@ -21,8 +21,8 @@
 //! [`Scalar`]: crate::scalar::Scalar
 
 mod arm;
-pub mod chain;
 mod base;
+pub mod chain;
 pub mod dalembert;
 mod formulation;
 mod from_robot;

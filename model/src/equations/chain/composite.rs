@@ -6,11 +6,13 @@
 //! first; Δ_j is the unit twist of joint j in frame m.
 
 use alloc::vec::Vec;
+use core::cmp::Ordering;
 
 use super::recursion::{Couple, Motion, Spin};
 use super::{Body, Chain, Displacement};
 use crate::equations::matrix::{
-    Vector, cross, dot, minus, negative, plus, scaled, sum, times, twice, zero_vector, zeros,
+    Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, zero_vector,
+    zeros,
 };
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -109,50 +111,58 @@ impl<'a, S: Scalar> Composite<'a, S> {
     /// D, n×n, armature on the diagonal.
     pub fn inertia(&self, travel: Travel) -> Vec<Vec<S>> {
         let n = self.chain.links.len();
-        let mut d: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
-        for k in 0..n {
-            let (mut force, mut moment) = self.momentum(k);
-            for i in (0..=k).rev() {
-                let load = match travel {
-                    Travel::Inward => self.chain.load(i, &force, &moment),
-                    Travel::Outward => self.project(i, k, &force, &moment),
-                };
-                let load = self.in_metres(k, load);
-                d[i][k] = if i == k {
-                    plus(&load, &self.chain.links[i].armature)
-                } else {
-                    load
-                };
-                d[k][i] = d[i][k].clone();
-                if travel == Travel::Inward && i > 0 {
-                    (force, moment) = self.chain.to_previous(i, &self.at[i], &force, &moment);
-                }
+        let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
+        symmetric(n, |i, k| columns[i][k].clone())
+    }
+
+    /// D_0k … D_kk.
+    fn inertia_column(&self, k: usize, travel: Travel) -> Vec<S> {
+        let (mut force, mut moment) = self.momentum(k);
+        let mut column = Vec::with_capacity(k + 1);
+        for i in (0..=k).rev() {
+            let load = match travel {
+                Travel::Inward => self.chain.load(i, &force, &moment),
+                Travel::Outward => self.project(i, k, &force, &moment),
+            };
+            let load = self.in_metres(k, load);
+            column.push(if i == k {
+                plus(&load, &self.chain.links[i].armature)
+            } else {
+                load
+            });
+            if travel == Travel::Inward && i > 0 {
+                (force, moment) = self.chain.to_previous(i, &self.at[i], &force, &moment);
             }
         }
-        d
+        column.reverse();
+        column
     }
 
     /// `h[i][k][m]` = h_ikm, n×n×n.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.chain.links.len();
-        let mut h: Vec<Vec<Vec<S>>> = (0..n).map(|_| (0..n).map(|_| zeros(n)).collect()).collect();
-        for m in 0..n {
-            for k in 0..=m {
-                let (force, moment) = self.quadratic(m, &self.twist(k, m).turn);
-                for i in 0..m {
-                    let load = self.project(i, m, &force, &moment);
-                    let value = self.in_metres(m, load);
-                    h[i][m][k] = value.clone();
-                    h[i][k][m] = value.clone();
-                    // h_mki = −h_ikm: joint m feels what joint i does not.
-                    if k <= i {
-                        h[m][i][k] = negative(&value);
-                        h[m][k][i] = negative(&value);
-                    }
-                }
-            }
-        }
-        h
+        // [m][k][i] for i < m and k ≤ m.
+        let outer: Vec<Vec<Vec<S>>> = (0..n)
+            .map(|m| (0..=m).map(|k| self.christoffel_row(k, m)).collect())
+            .collect();
+        let entry = |i: usize, m: usize, k: usize| match m.cmp(&i) {
+            Ordering::Greater => outer[m][k][i].clone(),
+            // h_iki = 0: a joint does not feel its own Coriolis term.
+            Ordering::Equal => S::zero(),
+            // h_ikm = −h_mki: joint i feels what joint m does not.
+            Ordering::Less => negative(&outer[i][k][m]),
+        };
+        (0..n)
+            .map(|i| symmetric(n, |m, k| entry(i, m, k)))
+            .collect()
+    }
+
+    /// h_ikm of all i < m.
+    fn christoffel_row(&self, k: usize, m: usize) -> Vec<S> {
+        let (force, moment) = self.quadratic(m, &self.twist(k, m).turn);
+        (0..m)
+            .map(|i| self.in_metres(m, self.project(i, m, &force, &moment)))
+            .collect()
     }
 
     /// c, length n.

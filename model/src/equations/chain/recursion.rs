@@ -1,6 +1,6 @@
 //! The customised Newton–Euler recursion.
 //!
-//! With U = [ω̇]× + [ω]×[ω]× the acceleration of a point r of a link is
+//! With U r = ω̇ × r + ω × (ω × r) the acceleration of a point r of a link is
 //! v̇ + U r, so a regrouped link costs the few columns of U that its few
 //! moments need.
 
@@ -192,7 +192,7 @@ fn from_column<S: Scalar>(
     (omega_dot, u)
 }
 
-/// U = [ω̇]× + [ω]×[ω]×
+/// U r = ω̇ × r + ω × (ω × r)
 fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>; 3] {
     let [x, y, z] = omega;
     let [dx, dy, dz] = omega_dot;
