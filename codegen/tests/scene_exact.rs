@@ -144,7 +144,7 @@ fn locked_scenes_are_the_full_model() {
         (
             "stanford",
             vec![
-                lock(vec![(2, Position::Length(ratio(1, 4)))]),
+                lock(vec![(2, Position::Length(ratio(1, 2)))]),
                 lock(vec![
                     (0, pi_times(0, 1)),
                     (1, pi_times(1, 2)),

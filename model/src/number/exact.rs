@@ -323,7 +323,9 @@ fn reduce(angle: &Angle) -> (u8, Option<(Arc<Angle>, Reflection)>) {
                 return (turns, None);
             }
             let half = Rational::new(1.into(), 2.into());
-            let (rest, reflection) = if rest > half {
+            // At the eighth turn itself either would do; this one makes the
+            // opposite angle's pair (−s, c), so that the two cancel.
+            let (rest, reflection) = if rest > half || (rest == half && turns % 2 == 1) {
                 (Rational::one() - rest, Reflection::Swapped)
             } else {
                 (rest, Reflection::None)
@@ -348,6 +350,15 @@ mod tests {
 
     fn pi_times(n: i64, d: i64) -> Angle {
         Angle::PiTimes(Rational::new(n.into(), d.into()))
+    }
+
+    #[test]
+    fn opposite_angles_cancel() {
+        for n in -12..=12 {
+            let (there, back) = (pi_times(n, 12), pi_times(-n, 12));
+            let sum = Exact::rotor(&there).compose(&Exact::rotor(&back));
+            assert!(sum.sin.is_zero() && sum.cos.is_one(), "{n}");
+        }
     }
 
     #[test]
