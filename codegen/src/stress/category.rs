@@ -46,6 +46,12 @@ impl Criterion {
     }
 }
 
+/// A robot made out of a robot, `None` if this one has no such thing.
+type Change = fn(&Robot) -> Option<Robot>;
+
+/// So many states of a robot, from a seed.
+type Draw = fn(&Robot, usize, u64) -> Vec<JointState>;
+
 /// One category.
 #[derive(Clone, Copy, Debug)]
 pub struct Category {
@@ -53,12 +59,12 @@ pub struct Category {
     pub name: &'static str,
     /// What it is held to.
     pub criterion: Criterion,
-    /// The robot, `None` if this one has no such thing.
-    robot: Option<fn(&Robot) -> Option<Robot>>,
+    /// The robot, if another.
+    robot: Option<Change>,
     /// States to test at.
-    states: fn(&Robot, usize, u64) -> Vec<JointState>,
+    states: Draw,
     /// States to take the torque scales from, if others.
-    scales: Option<fn(&Robot, usize, u64) -> Vec<JointState>>,
+    scales: Option<Draw>,
 }
 
 impl Category {

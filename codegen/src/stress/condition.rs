@@ -96,14 +96,15 @@ fn eigenvalues(mut m: Vec<Vec<f64>>) -> Vec<f64> {
     (0..n).map(|i| m[i][i]).collect()
 }
 
+/// Rows and columns p < q.
 fn rotate(m: &mut [Vec<f64>], p: usize, q: usize, c: f64, s: f64) {
     for row in m.iter_mut() {
         let (a, b) = (row[p], row[q]);
         (row[p], row[q]) = (c * a - s * b, s * a + c * b);
     }
-    for k in 0..m.len() {
-        let (a, b) = (m[p][k], m[q][k]);
-        (m[p][k], m[q][k]) = (c * a - s * b, s * a + c * b);
+    let (above, below) = m.split_at_mut(q);
+    for (a, b) in above[p].iter_mut().zip(&mut below[0]) {
+        (*a, *b) = (c * *a - s * *b, s * *a + c * *b);
     }
 }
 

@@ -1,0 +1,52 @@
+//! `dalembert stress` as a user runs it.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{robot, run, temporary};
+
+#[test]
+fn a_robot_passes_with_table_and_charts() {
+    let folder = temporary("stress");
+    let charts = folder.join("charts");
+    let name = charts.to_str().unwrap();
+    let ran = run(&["stress", &robot("planar2r"), "--states", "5", "-o", name]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.contains("angles 1e8") && ran.out.contains("D singular"));
+    assert!(ran.out.contains("warning: where D is singular"));
+    for chart in ["angles.svg", "velocities.svg", "mass_ratio.svg"] {
+        let svg = fs::read_to_string(charts.join(chart)).unwrap();
+        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+        assert!(svg.contains("prefers-color-scheme:dark") && svg.contains("emitted f32"));
+    }
+}
+
+#[test]
+fn json_says_the_same() {
+    let ran = run(&["stress", &robot("planar2r"), "--states", "3", "--json"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(json["passed"], true);
+    let rows = json["rows"].as_array().unwrap();
+    // Scalars and codes of each category.
+    assert!(rows.len() > 80 && rows.len() % 4 == 0);
+    for row in rows {
+        assert_eq!(row["verdict"], "ok");
+        let joints = if row["category"] == "chain of 20 joints" {
+            20
+        } else {
+            2
+        };
+        assert_eq!(row["state"]["q"].as_array().unwrap().len(), joints);
+        assert!(row["normwise_in_u"].is_number() && row["joint"].is_number());
+    }
+}
+
+#[test]
+fn without_a_robot_it_says_what_is_missing() {
+    let ran = run(&["stress"]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("<ROBOT>"), "{}", ran.err);
+}
