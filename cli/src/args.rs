@@ -31,6 +31,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Say which coefficients of the dynamics vanish or repeat, and why
     Couplings(CouplingsArgs),
+    /// Show what each step of the generator brought, and why
+    Explain(ExplainArgs),
     /// Measure errors where robots are not: huge angles and speeds, odd masses
     Stress(StressArgs),
     /// Compare with Table 3: the paper's counts, the formulas', the generator's
@@ -140,6 +142,25 @@ pub struct CouplingsArgs {
     pub json: bool,
 }
 
+/// Arguments of `explain`.
+#[derive(Debug, clap::Args)]
+pub struct ExplainArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// The functions, separated by commas [default: inverse_dynamics]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = function_parser())]
+    pub outputs: Vec<Function>,
+    /// States that errors are measured in
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = states_parser())]
+    pub states: usize,
+    /// How long to search for fewer operations
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    pub effort: Effort,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Arguments of `stress`.
 #[derive(Debug, clap::Args)]
 pub struct StressArgs {
@@ -185,6 +206,13 @@ fn start_parser() -> impl TypedValueParser<Value = Start> {
 fn scalar_parser() -> impl TypedValueParser<Value = ScalarType> {
     let names = PossibleValuesParser::new(ScalarType::ALL.map(ScalarType::name));
     names.try_map(|name| ScalarType::from_name(&name).ok_or("no such scalar"))
+}
+
+fn states_parser() -> impl TypedValueParser<Value = usize> {
+    let most = dalembert_codegen::explain::errors::MOST_STATES as u64;
+    clap::value_parser!(u64)
+        .range(1..=most)
+        .map(|states| states as usize)
 }
 
 fn prefer_parser() -> impl TypedValueParser<Value = Prefer> {

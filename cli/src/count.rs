@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use crate::args::CountArgs;
 use crate::outcome::Outcome;
-use crate::{generate as report, input, output};
+use crate::{generate as report, input, output, progress};
 
 /// Runs the subcommand.
 pub fn run(args: &CountArgs) -> Outcome {
@@ -18,7 +18,9 @@ pub fn run(args: &CountArgs) -> Outcome {
     if request.scalars.is_empty() {
         request.scalars = vec![ScalarType::F32];
     }
+    let session = progress::watch(&mut request);
     let generated = generate(&robot, &request)?;
+    drop(session);
     if args.json {
         let functions = generated.functions.iter();
         let functions: Map<String, Value> = functions

@@ -8,13 +8,16 @@ use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::{input, output, progress};
 
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     let kept = request.plan.take_if(|_| args.save_plan);
+    // A comparison with what a whole search gives needs a whole search.
+    let session = (!args.check).then(|| progress::watch(&mut request));
     let generated = generate(&robot, &request)?;
+    drop(session);
     output::note(&report(&robot, &request, &generated));
     if args.save_plan {
         save_plan(args, &robot, &request, &generated, kept)?;

@@ -5,10 +5,12 @@
 //! - [`count`]: operation counts
 //! - [`verify`]: the exact proof and what rounding costs
 //! - [`couplings`]: which coefficients vanish or repeat, and why
+//! - [`explain`]: what each step brought, and why
 //! - [`table3`]: the paper's counts beside the formulas' and the generator's
 //! - [`stress`]: numerical stability at the extremes, and growth
 //! - [`plot`]: charts as SVG
 //! - [`input`]: robot and state files
+//! - [`progress`]: a long search watched, and ended early
 //! - [`output`]: standard output, files, tables
 //! - [`outcome`]: exit codes
 #![forbid(unsafe_code)]
@@ -16,11 +18,13 @@
 mod args;
 mod count;
 mod couplings;
+mod explain;
 mod generate;
 mod input;
 mod outcome;
 mod output;
 mod plot;
+mod progress;
 mod stress;
 mod table3;
 mod verify;
@@ -37,6 +41,7 @@ fn main() -> ExitCode {
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Couplings(args) => couplings::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::Stress(args) => stress::run(&args),
         Command::Table3(args) => table3::run(&args),
     };

@@ -13,14 +13,16 @@ use crate::emit::{MathPath, ScalarType};
 use crate::function::{Function, Quantity};
 use crate::graph::{Counts, Graph};
 use crate::plan::{self, Entry, Plan};
+use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Source, Variant};
 use crate::scene::{Setting, SettingError};
 use crate::schedule::{Operand, Program};
-use crate::simplify::{Effort, Stage, simplify};
+use crate::simplify::{self, Effort, Simplified, Stage};
 use crate::verify::accuracy::Judge;
 use crate::verify::exact::{Disproof, Proof, prove_in};
 use crate::verify::floating::Emitted;
 use crate::verify::text::{TextError, TextProgram};
+use crate::watch::{Part, Vigil, Watch};
 
 /// Which formulation a function starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -56,18 +58,28 @@ impl Start {
     }
 
     /// The graphs to start from.
-    fn variants(self, setting: &Setting, function: Function, effort: Effort) -> Vec<Variant> {
+    fn variants(
+        self,
+        setting: &Setting,
+        function: Function,
+        effort: Effort,
+        watch: Option<Vigil<'_>>,
+    ) -> (Option<Tuned>, Vec<Variant>) {
         match self {
-            Start::Only(formulation) => vec![portfolio::textbook(setting, function, formulation)],
+            Start::Only(formulation) => {
+                let variant = portfolio::textbook(setting, function, formulation);
+                (None, vec![variant])
+            }
             Start::Auto => {
-                let mut variants = portfolio::regrouped(setting, function, effort);
+                let tuned = portfolio::tuned(setting, function, effort, watch);
+                let mut variants = portfolio::regrouped(setting, function, &tuned.gauge);
                 // The textbook recursion gives D column by column and h_ikm
                 // by polarisation, with n² of work a link or more: no match.
                 if function.quantities() == [Quantity::Torque] {
                     let recursion = Formulation::NewtonEulerLink;
                     variants.push(portfolio::textbook(setting, function, recursion));
                 }
-                variants
+                (Some(tuned), variants)
             }
         }
     }
@@ -100,6 +112,8 @@ pub struct Request {
     pub prefer: Prefer,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
+    /// Who waits, if anybody does.
+    pub watch: Watch,
     /// Where emitted code finds sine and cosine.
     pub math: MathPath,
     /// The module's name; the robot's and the scene's if `None`. The f32
@@ -130,6 +144,7 @@ impl Default for Request {
             effort: Effort::Quick,
             prefer: Prefer::Accuracy,
             plan: None,
+            watch: Watch::default(),
             math: MathPath::default(),
             module: None,
             scene: None,
@@ -314,7 +329,7 @@ fn one(
 }
 
 /// The plan's program, the first requested scalar's that it has.
-fn replay<'r>(
+pub(crate) fn replay<'r>(
     setting: &Setting,
     function: Function,
     request: &'r Request,
@@ -342,7 +357,50 @@ fn found(
     function: Function,
     request: &Request,
 ) -> Result<(Source, Vec<Stage>, Program), GenerateError> {
-    let variants = request.start.variants(setting, function, request.effort);
+    let found = search(setting, function, request)?;
+    let (seed, simplified) = (&found.variants[found.simplified.seed], &found.simplified);
+    let mut stages = vec![Stage {
+        name: "traced",
+        counts: seed.traced,
+    }];
+    stages.extend(simplified.stages.iter().cloned());
+    let program = Program::in_setting(setting, function, &simplified.graph);
+    stages.push(Stage {
+        name: "final",
+        counts: program.counts(),
+    });
+    Ok((seed.source, stages, program))
+}
+
+/// What a search found, and from what.
+pub(crate) struct Found {
+    /// The gauge of the regrouped variants, if there are such.
+    pub tuned: Option<Tuned>,
+    /// What it started from.
+    pub variants: Vec<Variant>,
+    /// Its program, and those on the way.
+    pub simplified: Simplified,
+}
+
+/// Searches for the cheapest program.
+pub(crate) fn search(
+    setting: &Setting,
+    function: Function,
+    request: &Request,
+) -> Result<Found, GenerateError> {
+    let watch = request.watch.over(function);
+    // Who wants an end before a function's turn gets the quick search for it.
+    let (effort, watch) = match watch.is_over() {
+        true => (Effort::Quick, None),
+        false => (request.effort, Some(watch)),
+    };
+    let tell = |part, best| {
+        if let Some(watch) = watch {
+            watch.step(part, [0, 1], best);
+        }
+    };
+    tell(Part::Formulations, None);
+    let (tuned, variants) = request.start.variants(setting, function, effort, watch);
     let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
     let helpers = match request.start {
         Start::Auto => vec![portfolio::angle_sums(setting)],
@@ -353,20 +411,14 @@ fn found(
         Prefer::Operations => Judge::lenient(setting, function),
     };
     let accept = |graph: &Graph| judge.accepts(graph);
-    let Some(simplified) = simplify(&graphs, &helpers, request.effort, &accept) else {
-        return Err(GenerateError::Empty);
-    };
-    let mut stages = vec![Stage {
-        name: "traced",
-        counts: variants[simplified.seed].traced,
-    }];
-    stages.extend(simplified.stages.iter().cloned());
-    let program = Program::in_setting(setting, function, &simplified.graph);
-    stages.push(Stage {
-        name: "final",
-        counts: program.counts(),
-    });
-    Ok((variants[simplified.seed].source, stages, program))
+    let simplified = simplify::watched(&graphs, &helpers, effort, &accept, watch);
+    let simplified = simplified.ok_or(GenerateError::Empty)?;
+    tell(Part::Proof, Some(simplified.graph.counts()));
+    Ok(Found {
+        tuned,
+        variants,
+        simplified,
+    })
 }
 
 /// A constant that becomes infinite or zero is an error, a subnormal one a

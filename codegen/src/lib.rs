@@ -12,6 +12,8 @@
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
 //! - [`couplings`]: which coefficients vanish or repeat, and why
+//! - [`explain`]: what each step brought, and why
+//! - [`watch`]: watching a long search, and ending it early
 //!
 //! And the ways in, which all end in [`generate`]:
 //! - [`clauses`]: words, robot files, and `dynamics!` as tokens
@@ -23,6 +25,7 @@ pub mod builder;
 pub mod clauses;
 pub mod couplings;
 pub mod emit;
+pub mod explain;
 pub mod function;
 pub mod generate;
 pub mod graph;
@@ -35,3 +38,4 @@ pub mod simplify;
 pub mod stress;
 pub mod trace;
 pub mod verify;
+pub mod watch;

@@ -48,6 +48,12 @@ struct Cell {
     generated: Counts,
 }
 
+/// What the paper counts for a formulation: multiplications, additions.
+pub fn paper(formulation: Formulation, n: usize) -> [u64; 2] {
+    let Pair { mul, add } = paper::counts(formulation, n as u64);
+    [mul, add]
+}
+
 /// Runs the subcommand.
 pub fn run(args: &Table3Args) -> Outcome {
     match &args.robot {

@@ -15,6 +15,7 @@ use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::emit::MathPath;
 use crate::generate::{GenerateError, Generated, Prefer, Request, generate};
 use crate::plan::{self, Plan};
+use crate::watch::Watch;
 use crate::scene;
 
 /// The modules that an invocation asks for, or everything that is wrong with
@@ -145,6 +146,7 @@ fn functions(
         start: invocation.start,
         effort: invocation.effort,
         plan: source.plan.clone(),
+        watch: Watch::default(),
         prefer: Prefer::default(),
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),

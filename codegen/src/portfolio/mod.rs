@@ -23,6 +23,8 @@ use crate::graph::{Builder, Counts, Folding, Graph, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
 use crate::trace::{Motion, trace_in};
+use crate::watch::Vigil;
+use tune::Tuned;
 
 /// One association of the chain formulas; all give the same values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,10 +235,17 @@ pub fn textbook(setting: &Setting, function: Function, formulation: Formulation)
 /// Longer chains are tuned by the price before the search alone.
 const MOST_GLANCES: usize = 10;
 
-/// A function in every chain form, in the gauge that is cheapest for it.
-pub fn regrouped(setting: &Setting, function: Function, effort: Effort) -> Vec<Variant> {
+/// The gauge that is cheapest for a function; the best so far where the watch
+/// is over.
+pub fn tuned(
+    setting: &Setting,
+    function: Function,
+    effort: Effort,
+    watch: Option<Vigil<'_>>,
+) -> Tuned {
     let arm = skeleton(setting);
     let forms = Form::of(function);
+    let is_over = || watch.is_some_and(|watch| watch.is_over());
     let merged = |chain: &Chain<Exact>, form: Form| {
         trace_chain(setting, function, chain, form, Folding::Semantic).0
     };
@@ -245,21 +254,30 @@ pub fn regrouped(setting: &Setting, function: Function, effort: Effort) -> Vec<V
         tune::start(&arm),
         &forms,
         effort.gauge_rounds(),
-        |chain, form| simplify::cost(&merged(chain, form)),
+        |chain, form| match is_over() {
+            true => u64::MAX,
+            false => simplify::cost(&merged(chain, form)),
+        },
     );
-    if effort == Effort::Thorough && arm.links.len() <= MOST_GLANCES {
+    if effort == Effort::Thorough && arm.links.len() <= MOST_GLANCES && !is_over() {
         // What the search makes of a gauge is not what the gauge costs at
         // first: descend once more by the price after a short search.
         let helpers = [angle_sums(setting)];
-        let price = |chain: &Chain<Exact>, form: Form| {
-            simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers))
+        let price = |chain: &Chain<Exact>, form: Form| match is_over() {
+            true => u64::MAX,
+            false => simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers)),
         };
         tuned = tune::tune(&arm, tuned.gauge, &[tuned.form], 2, price);
     }
-    let chain = Chain::new(&arm, &tuned.gauge);
-    forms
-        .iter()
-        .map(|&form| {
+    tuned
+}
+
+/// A function in every chain form, in one gauge.
+pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) -> Vec<Variant> {
+    let chain = Chain::new(&skeleton(setting), gauge);
+    Form::of(function)
+        .into_iter()
+        .map(|form| {
             let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
             Variant {
                 source: Source::Regrouped,

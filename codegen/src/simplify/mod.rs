@@ -20,6 +20,7 @@ pub mod search;
 use std::fmt;
 
 use crate::graph::{Counts, Folding, Graph};
+use crate::watch::{Part, Vigil};
 use classes::Classes;
 pub use effort::Effort;
 pub use extract::{CostModel, Extraction, Schedule};
@@ -68,6 +69,10 @@ pub struct Simplified {
     pub seed: usize,
     /// Counts after each step.
     pub stages: Vec<Stage>,
+    /// What the search started from: the seed merged by fingerprint.
+    pub start: Graph,
+    /// What the e-graph left.
+    pub saturated: Graph,
 }
 
 /// The cheapest program found for a function from one or more graphs of it;
@@ -82,6 +87,23 @@ pub fn simplify(
     effort: Effort,
     accept: &dyn Fn(&Graph) -> bool,
 ) -> Option<Simplified> {
+    watched(variants, helpers, effort, accept, None)
+}
+
+/// [`simplify`] under a watch: where it is over, the search ends with its
+/// round.
+pub fn watched(
+    variants: &[Graph],
+    helpers: &[Graph],
+    effort: Effort,
+    accept: &dyn Fn(&Graph) -> bool,
+    watch: Option<Vigil<'_>>,
+) -> Option<Simplified> {
+    let tell = |part, rounds, best: &Graph| {
+        if let Some(watch) = watch {
+            watch.step(part, rounds, Some(best.counts()));
+        }
+    };
     let mut merged: Vec<(usize, Graph)> = variants
         .iter()
         .map(|graph| graph.rebuild(Folding::Semantic))
@@ -101,6 +123,7 @@ pub fn simplify(
         if better { found } else { best.clone() }
     };
     let mut random = Random::new(1);
+    tell(Part::EGraph, [0, 1], start);
 
     let mut classes = Classes::new(start);
     let program = classes.program();
@@ -108,10 +131,15 @@ pub fn simplify(
     let found = search::extract(&classes, &program, effort.first_schedule(), &mut random);
     let mut best = take(found, start);
     stages.push(Stage::of("e-graph", &best));
+    let saturated = best.clone();
 
     let settings = effort.search();
     let mut idle = 0;
-    for _ in 0..settings.rounds {
+    for round in 0..settings.rounds {
+        if watch.is_some_and(|watch| watch.is_over()) {
+            break;
+        }
+        tell(Part::Search, [round, settings.rounds], &best);
         let found = search::round(&best, variants, helpers, &settings, &mut random);
         let before = cost(&best);
         best = take(found, &best);
@@ -125,6 +153,8 @@ pub fn simplify(
         graph: best,
         seed,
         stages,
+        start: start.clone(),
+        saturated,
     })
 }
 

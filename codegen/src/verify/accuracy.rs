@@ -151,7 +151,7 @@ fn measure(setting: &Setting, function: Function, graph: &Graph) -> Accuracy {
 }
 
 /// A program with its constants rounded.
-struct Runner<'a, T> {
+pub(crate) struct Runner<'a, T> {
     program: &'a Program,
     /// Left and right constant of each step; zero where there is none.
     constants: Vec<[T; 2]>,
@@ -159,7 +159,7 @@ struct Runner<'a, T> {
 }
 
 impl<'a, T: Machine> Runner<'a, T> {
-    fn new(program: &'a Program, scalar: ScalarType) -> Self {
+    pub(crate) fn new(program: &'a Program, scalar: ScalarType) -> Self {
         let constant = |operand: &Operand| match operand {
             Operand::Constant(value) => T::literal(scalar.round(value)),
             _ => T::literal(0.0),
@@ -175,7 +175,7 @@ impl<'a, T: Machine> Runner<'a, T> {
         }
     }
 
-    fn run(&self, state: &JointState) -> Vec<f64> {
+    pub(crate) fn run(&self, state: &JointState) -> Vec<f64> {
         let pairs: Vec<(Trig, (T, T))> = self
             .program
             .trig

@@ -1,0 +1,91 @@
+//! A long search: progress on a terminal, and Ctrl-C to end it with the best
+//! so far.
+//!
+//! Only the command knows clocks, terminals and signals; the library is told
+//! through an [`Observer`].
+
+use std::process;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use dalembert_codegen::generate::Request;
+use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::watch::{Observer, Progress, Watch};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::output;
+
+/// The exit code of a process that Ctrl-C ended: 128 + SIGINT.
+const INTERRUPTED: i32 = 130;
+
+/// Watches a search while it lives.
+pub struct Session(Option<Arc<Terminal>>);
+
+struct Terminal {
+    bar: ProgressBar,
+    stop: AtomicBool,
+}
+
+/// Watches the searches of a request if they may take long.
+pub fn watch(request: &mut Request) -> Session {
+    if request.effort != Effort::Thorough {
+        return Session(None);
+    }
+    // On standard error; it hides itself where that is no terminal.
+    let bar = ProgressBar::new(1);
+    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(500));
+    let stop = AtomicBool::new(false);
+    let terminal = Arc::new(Terminal { bar, stop });
+    let heard = terminal.clone();
+    // Without a handler Ctrl-C ends the process, as ever.
+    let _ = ctrlc::set_handler(move || heard.interrupt());
+    request.watch = Watch::by(terminal.clone());
+    Session(Some(terminal))
+}
+
+impl Terminal {
+    /// The first time asks for an end, the second time is one.
+    fn interrupt(&self) {
+        if self.stop.swap(true, Ordering::Relaxed) {
+            self.bar.finish_and_clear();
+            process::exit(INTERRUPTED);
+        }
+        self.bar.suspend(|| {
+            output::note("ending the search after this round; once more: give up");
+        });
+    }
+}
+
+impl Observer for Terminal {
+    fn step(&self, progress: &Progress) {
+        let Progress {
+            function,
+            part,
+            round,
+            rounds,
+            best,
+        } = progress;
+        self.bar.set_length(*rounds as u64);
+        self.bar.set_position(*round as u64);
+        let best = best.map_or_else(String::new, |counts| format!(": {counts}"));
+        self.bar.set_message(format!("{function}, {part}{best}"));
+    }
+
+    fn stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        let Some(terminal) = &self.0 else { return };
+        terminal.bar.finish_and_clear();
+        if terminal.stop() {
+            output::note("the search was ended early: these are the best programs until then");
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! What rounding costs each row: f64 against the big float.
+
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+use super::Explanation;
+use super::steps::Code;
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::graph::Input;
+use crate::stress::truth::Truth;
+use crate::trace::{Motion, evaluate};
+use crate::verify::accuracy::Runner;
+use crate::verify::states::{JointState, seeded};
+
+/// The most states that are measured.
+pub const MOST_STATES: usize = 10_000;
+
+/// A seed of its own.
+const SEED: u64 = 0xe7_91a1;
+
+/// The worst errors over the states, in units of u = 2⁻⁵³.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Errors {
+    /// max_i |error_i| / max_i |truth_i|, each quantity by itself.
+    pub normwise: f64,
+    /// max_i |error_i| / the largest |truth_i| over the states.
+    pub per_joint: f64,
+}
+
+/// The errors of every row over the same states, inside the robot's limits.
+pub fn measure(robot: &Robot, explanation: &Explanation, states: usize) -> Vec<Errors> {
+    let function = explanation.function;
+    let truth = Truth::new(robot);
+    let runs: Vec<(JointState, Vec<Big>)> = seeded(robot, states.min(MOST_STATES), SEED)
+        .into_iter()
+        .filter_map(|state| truth.run(function, &state).map(|results| (state, results)))
+        .collect();
+    let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
+    let arm = exact.map(f64::nearest);
+    let errors = |code: &Code| match code {
+        Code::Formula(formulation) => worst(function, robot, &runs, |state| {
+            formula(robot, &arm, *formulation, function, state)
+        }),
+        Code::Program(program) => {
+            let runner = Runner::<f64>::new(program, ScalarType::F64);
+            worst(function, robot, &runs, |state| runner.run(state))
+        }
+    };
+    explanation
+        .rows
+        .iter()
+        .map(|row| errors(&row.code))
+        .collect()
+}
+
+/// A formulation over f64, its constants rounded once.
+fn formula(
+    robot: &Robot,
+    arm: &Arm<f64>,
+    formulation: Formulation,
+    function: Function,
+    state: &JointState,
+) -> Vec<f64> {
+    let pair = |angle: crate::graph::AngleSum| {
+        // A motion reads the angles of single joints only.
+        libm::sincos(angle.terms().map(|(joint, _)| state.q[joint]).sum())
+    };
+    let motion = Motion::of(robot, |input| match input {
+        Input::Sin(angle) => pair(angle).0,
+        Input::Cos(angle) => pair(angle).1,
+        Input::Position(joint) => state.q[joint],
+        Input::Velocity(joint) => state.qd[joint],
+        Input::Acceleration(joint) => state.qdd[joint],
+    });
+    evaluate(function, formulation, arm, &motion)
+}
+
+fn worst(
+    function: Function,
+    robot: &Robot,
+    runs: &[(JointState, Vec<Big>)],
+    run: impl Fn(&JointState) -> Vec<f64>,
+) -> Errors {
+    let outputs = function.outputs(robot.joints.len());
+    let mut largest = vec![0.0f64; outputs];
+    let mut errors = vec![0.0f64; outputs];
+    let mut normwise = 0.0f64;
+    for (state, truth) in runs {
+        let found = run(state);
+        let mut start = 0;
+        for quantity in function.quantities() {
+            let range = start..start + quantity.len(robot.joints.len());
+            start = range.end;
+            let (mut error, mut size) = (0.0f64, 0.0f64);
+            for i in range {
+                let difference = match Big::from_f64(found[i]) {
+                    Some(found) => found.sub(&truth[i]).abs().to_f64(),
+                    None => f64::INFINITY,
+                };
+                let value = truth[i].abs().to_f64();
+                (error, size) = (error.max(difference), size.max(value));
+                errors[i] = errors[i].max(difference);
+                largest[i] = largest[i].max(value);
+            }
+            normwise = normwise.max(ratio(error, size));
+        }
+    }
+    let per_joint = errors
+        .iter()
+        .zip(&largest)
+        .map(|(e, size)| ratio(*e, *size));
+    let u = ScalarType::F64.unit_roundoff();
+    Errors {
+        normwise: normwise / u,
+        per_joint: per_joint.fold(0.0, f64::max) / u,
+    }
+}
+
+/// error / size; dust where the truth is zero counts for nothing: there is
+/// nothing to relate it to.
+fn ratio(error: f64, size: f64) -> f64 {
+    if size > 0.0 { error / size } else { 0.0 }
+}

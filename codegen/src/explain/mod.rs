@@ -1,0 +1,94 @@
+//! What each step of the pipeline brought for a robot, and why.
+//!
+//! - [`steps`]: the rows of the table, each with code that can be run
+//! - [`parameters`]: what became of every link's parameters
+//! - [`merged`]: what the fingerprints alone found
+//! - `errors`: what rounding costs each row (feature `stress`)
+
+#[cfg(feature = "stress")]
+pub mod errors;
+pub mod merged;
+pub mod parameters;
+pub mod steps;
+
+use dalembert_model::equations::Formulation;
+use dalembert_model::equations::chain::Chain;
+use dalembert_model::robot::Robot;
+
+use crate::couplings::Couplings;
+use crate::function::Function;
+use crate::generate::{GenerateError, Request};
+use crate::graph::Graph;
+use crate::plan;
+use crate::portfolio;
+use crate::scene::Setting;
+use crate::trace::trace_in;
+use merged::Merged;
+use parameters::Parameters;
+use steps::Row;
+
+/// The most joints for which Lagrange–Euler is written out: the graph grows
+/// with n⁴ to n⁵.
+pub const MOST_WRITTEN: usize = 8;
+
+/// What was found about one function of a robot.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// Which function.
+    pub function: Function,
+    /// The steps, in their order.
+    pub rows: Vec<Row>,
+    /// What the fingerprints found in each formulation as folded.
+    pub merged: Vec<(Formulation, Merged)>,
+    /// What became of the parameters.
+    pub parameters: Parameters,
+    /// Which coefficients vanish or repeat, unless there are too many.
+    pub couplings: Option<Couplings>,
+}
+
+/// Explains one function; of the request, effort, preference, plan and
+/// watch count.
+///
+/// # Errors
+/// Those of [`generate`](crate::generate::generate).
+pub fn explain(
+    robot: &Robot,
+    function: Function,
+    request: &Request,
+) -> Result<Explanation, GenerateError> {
+    if let Some(plan) = &request.plan
+        && plan.input != plan::input_hash(robot)
+    {
+        let robot = plan.robot.clone();
+        return Err(GenerateError::StalePlan { robot });
+    }
+    let setting = Setting::whole(robot);
+    let found = steps::search(&setting, function, request)?;
+    // From all formulations there always is a gauge.
+    let tuned = found.tuned.as_ref().ok_or(GenerateError::Empty)?;
+    let mut rows = Vec::new();
+    let mut merged = Vec::new();
+    let mut fingerprints = |formulation: Formulation, graph: &Graph| {
+        merged.extend(Merged::of(graph).map(|merged| (formulation, merged)));
+    };
+    if robot.joints.len() <= MOST_WRITTEN {
+        let formulation = Formulation::LagrangeEuler;
+        let trace = trace_in(&setting, function, formulation);
+        fingerprints(formulation, &trace.graph);
+        rows.extend(steps::lagrange_euler(&setting, function, &trace, request));
+    }
+    let formulation = Formulation::NewtonEulerLink;
+    let trace = trace_in(&setting, function, formulation);
+    fingerprints(formulation, &trace.graph);
+    rows.extend(steps::newton_euler(&setting, function, &trace));
+    rows.extend(steps::chain(&setting, function, tuned));
+    rows.extend(steps::searched(&setting, function, request, &found)?);
+    let chain = Chain::new(&portfolio::skeleton(&setting), &tuned.gauge);
+    Ok(Explanation {
+        function,
+        rows,
+        merged,
+        parameters: Parameters::of(&setting, function, tuned, &chain),
+        couplings: Couplings::of(robot),
+    })
+}

@@ -1,0 +1,122 @@
+//! Watching a long search, and ending it early.
+//!
+//! The library reads no clock and no signal: whoever waits brings an
+//! [`Observer`]. It is told what was reached, and it may ask for an end; the
+//! search then finishes its round and the best program so far goes on to be
+//! proved like any other. As long as nobody asks, watching changes nothing.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::function::Function;
+use crate::graph::Counts;
+
+/// A part of the search for a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// The formulations are traced and their gauge is tuned.
+    Formulations,
+    /// Equality saturation.
+    EGraph,
+    /// Discovery and extraction in turns.
+    Search,
+    /// The program is proved and measured.
+    Proof,
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Part::Formulations => "formulations",
+            Part::EGraph => "e-graph",
+            Part::Search => "search",
+            Part::Proof => "proof",
+        })
+    }
+}
+
+/// Where a search stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// For which function.
+    pub function: Function,
+    /// What begins or goes on.
+    pub part: Part,
+    /// Rounds of the part that are done.
+    pub round: usize,
+    /// Its rounds at most: it ends earlier where nothing more is gained.
+    pub rounds: usize,
+    /// The best program so far, once there is one.
+    pub best: Option<Counts>,
+}
+
+/// Who waits for a search.
+pub trait Observer: Send + Sync {
+    /// The search has come this far.
+    fn step(&self, progress: &Progress);
+
+    /// Whether it should end. Once true it should stay so: functions that
+    /// were not searched yet then get the quick search.
+    fn stop(&self) -> bool;
+}
+
+/// An observer, or none.
+///
+/// It prints the same with and without one: what is generated does not depend
+/// on who watches, and neither may a hash of the request.
+#[derive(Clone, Default)]
+pub struct Watch(Option<Arc<dyn Observer>>);
+
+impl Watch {
+    /// With an observer.
+    pub fn by(observer: Arc<dyn Observer>) -> Watch {
+        Watch(Some(observer))
+    }
+
+    /// The watch over the search for one function.
+    pub fn over(&self, function: Function) -> Vigil<'_> {
+        Vigil {
+            observer: self.0.as_deref(),
+            function,
+        }
+    }
+}
+
+impl fmt::Debug for Watch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Watch")
+    }
+}
+
+/// The watch over the search for one function.
+#[derive(Clone, Copy)]
+pub struct Vigil<'a> {
+    observer: Option<&'a dyn Observer>,
+    function: Function,
+}
+
+impl Vigil<'_> {
+    /// Tells the observer.
+    pub fn step(&self, part: Part, [round, rounds]: [usize; 2], best: Option<Counts>) {
+        if let Some(observer) = self.observer {
+            observer.step(&Progress {
+                function: self.function,
+                part,
+                round,
+                rounds,
+                best,
+            });
+        }
+    }
+
+    /// Whether the observer wants an end.
+    pub fn is_over(&self) -> bool {
+        self.observer.is_some_and(Observer::stop)
+    }
+}
+
+impl fmt::Debug for Vigil<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Vigil({})", self.function)
+    }
+}

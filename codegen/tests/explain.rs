@@ -1,0 +1,124 @@
+//! The table of steps and the fate of the parameters, on arms where the
+//! answers are known.
+
+mod support;
+
+use dalembert_codegen::explain::parameters::{Fate, Parameter, Together};
+use dalembert_codegen::explain::steps::{Code, Step};
+use dalembert_codegen::explain::{Explanation, explain};
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::Request;
+use dalembert_codegen::verify::exact::prove;
+
+fn of(name: &str, function: Function) -> Explanation {
+    explain(&support::robot(name), function, &Request::default()).unwrap()
+}
+
+fn operations(explanation: &Explanation, step: Step) -> usize {
+    let mut rows = explanation.rows.iter();
+    let row = rows.find(|row| row.step == step).unwrap();
+    row.counts.operations()
+}
+
+/// Every row is a program of the same function.
+#[test]
+fn every_row_is_proved() {
+    for name in ["planar2r", "stanford"] {
+        let robot = support::robot(name);
+        for function in [Function::InverseDynamics, Function::Inertia] {
+            for row in of(name, function).rows {
+                if let Code::Program(program) = row.code {
+                    let step = row.step.key();
+                    assert_eq!(row.counts, program.counts());
+                    prove(&robot, &program).unwrap_or_else(|e| panic!("{name} {step}: {e}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_do_not_make_it_dearer() {
+    let puma = of("puma560", Function::InverseDynamics);
+    let falling = [
+        Step::LagrangeWritten,
+        Step::LagrangeFolded,
+        Step::LagrangeFingerprints,
+        Step::LagrangeEGraph,
+        Step::LagrangeSearch,
+        Step::NewtonFingerprints,
+        Step::ChainKept,
+        Step::ChainBase,
+        Step::ChainTuned,
+        Step::ChainUnit,
+        Step::EGraph,
+        Step::Search,
+    ];
+    for pair in falling.windows(2) {
+        let (before, after) = (operations(&puma, pair[0]), operations(&puma, pair[1]));
+        assert!(
+            after <= before,
+            "{:?} {before}, {:?} {after}",
+            pair[0],
+            pair[1]
+        );
+    }
+    assert!(operations(&puma, Step::Search) < operations(&puma, Step::ChainBase));
+}
+
+/// Two links in a plane have three base parameters each way the books count
+/// them, one of them shared.
+#[test]
+fn the_parameters_of_two_links_in_a_plane() {
+    let planar = of("planar2r", Function::InverseDynamics).parameters;
+    let needed: Vec<usize> = planar.links.iter().map(|link| link.needed()).collect();
+    assert_eq!(needed, [2, 2]);
+    let moved = &planar.links[1].moved;
+    assert!(moved.contains(&(Parameter::Mass, 1.0)), "{moved:?}");
+}
+
+#[test]
+fn what_drops_out_of_the_puma() {
+    let puma = of("puma560", Function::InverseDynamics).parameters;
+    let free: Vec<bool> = puma.links.iter().map(|link| link.spins_freely).collect();
+    assert_eq!(free, [false, false, false, false, false, true]);
+    // The waist is vertical: gravity does not reach the mass beside its axis,
+    // and only its moment about the axis counts.
+    let waist = &puma.links[0];
+    assert_eq!(waist.together, Some(Together::Sum));
+    let idle = |(p, _, fate): &(Parameter, f64, Fate)| {
+        matches!(p, Parameter::First(_)) && *fate == Fate::NoEffect
+    };
+    assert!(waist.left.iter().any(idle), "{:?}", waist.left);
+    // Gravity is a matter of first moments.
+    let gravity = of("puma560", Function::Gravity).parameters;
+    for (p, _, fate) in gravity.links.iter().flat_map(|link| &link.left) {
+        let second = matches!(p, Parameter::Second(_));
+        assert!(!second || *fate == Fate::NoEffect, "{p}");
+    }
+}
+
+#[test]
+fn what_the_fingerprints_find() {
+    let puma = of("puma560", Function::InverseDynamics);
+    assert_eq!(puma.merged.len(), 2);
+    for (formulation, merged) in &puma.merged {
+        let found = merged.vanish + merged.constant + merged.repeat;
+        assert!(found > 0 && found < merged.operations, "{formulation:?}");
+    }
+    assert!(puma.couplings.is_some());
+}
+
+#[cfg(feature = "stress")]
+#[test]
+fn rounding_of_every_row() {
+    let robot = support::robot("stanford");
+    let stanford = of("stanford", Function::InverseDynamics);
+    let errors = dalembert_codegen::explain::errors::measure(&robot, &stanford, 20);
+    assert_eq!(errors.len(), stanford.rows.len());
+    for (row, errors) in stanford.rows.iter().zip(errors) {
+        let step = row.step.key();
+        assert!(errors.normwise > 0.0 && errors.normwise < 1e3, "{step}");
+        assert!(errors.per_joint > 0.0 && errors.per_joint < 1e3, "{step}");
+    }
+}

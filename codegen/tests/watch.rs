@@ -1,0 +1,97 @@
+//! Watching a search and ending it early.
+
+mod support;
+
+use std::sync::Arc;
+use std::sync::Mutex;
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
+
+/// Writes down what it is told, and wants an end at a part.
+struct Clerk {
+    until: Option<Part>,
+    seen: Mutex<Vec<Progress>>,
+}
+
+impl Observer for Clerk {
+    fn step(&self, progress: &Progress) {
+        self.seen.lock().unwrap().push(*progress);
+    }
+    fn stop(&self) -> bool {
+        let seen = self.seen.lock().unwrap();
+        seen.iter()
+            .any(|progress| Some(progress.part) == self.until)
+    }
+}
+
+fn watched(effort: Effort, until: Option<Part>) -> (Generated, Vec<Progress>) {
+    let clerk = Arc::new(Clerk {
+        until,
+        seen: Mutex::default(),
+    });
+    let request = Request {
+        functions: vec![Function::InverseDynamics, Function::Gravity],
+        scalars: vec![ScalarType::F64],
+        effort,
+        watch: Watch::by(clerk.clone()),
+        ..Request::default()
+    };
+    let generated = generate(&support::robot("planar3r"), &request).unwrap();
+    let seen = clerk.seen.lock().unwrap().clone();
+    (generated, seen)
+}
+
+#[test]
+fn watching_changes_nothing() {
+    let (generated, seen) = watched(Effort::Quick, None);
+    let alone = Request {
+        functions: vec![Function::InverseDynamics, Function::Gravity],
+        scalars: vec![ScalarType::F64],
+        ..Request::default()
+    };
+    let alone = generate(&support::robot("planar3r"), &alone).unwrap();
+    assert!(generated.text == alone.text);
+    for function in [Function::InverseDynamics, Function::Gravity] {
+        let parts = seen.iter().filter(|progress| progress.function == function);
+        let parts: Vec<Part> = parts.map(|progress| progress.part).collect();
+        assert!(parts.starts_with(&[Part::Formulations, Part::EGraph, Part::Search]));
+        assert_eq!(parts.last(), Some(&Part::Proof));
+    }
+}
+
+/// What an early end leaves is proved like everything else (or `generate`
+/// fails), and no dearer than what the search began with.
+#[test]
+fn an_early_end_keeps_the_best_so_far() {
+    for until in [Part::Formulations, Part::EGraph, Part::Search] {
+        let (generated, seen) = watched(Effort::Thorough, Some(until));
+        let rounds = seen.iter().filter(|p| p.part == Part::Search).count();
+        assert!(rounds <= 1, "{until}: {rounds} rounds");
+        for function in &generated.functions {
+            let stages = &function.stages;
+            let began = stages.iter().find(|s| s.name == "fingerprints").unwrap();
+            assert!(function.counts.operations() <= began.counts.operations());
+        }
+        // The function whose turn had not come got the quick search, unwatched.
+        assert!(seen.iter().all(|p| p.function == Function::InverseDynamics));
+    }
+}
+
+/// A hash of the request, which build scripts take, must not see who watches.
+#[test]
+fn a_request_prints_the_same_with_an_observer() {
+    let clerk = Arc::new(Clerk {
+        until: None,
+        seen: Mutex::default(),
+    });
+    let watch = Watch::by(clerk);
+    let request = Request {
+        watch,
+        ..Request::default()
+    };
+    assert_eq!(format!("{request:?}"), format!("{:?}", Request::default()));
+}
