@@ -11,6 +11,7 @@
 //! - [`schedule`]: straight-line code
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
+//! - [`certify`]: bounds of what was left out and of what rounding costs
 //! - [`couplings`]: which coefficients vanish or repeat, and why
 //! - [`explain`]: what each step brought, and why
 //! - [`watch`]: watching a long search, and ending it early
@@ -22,6 +23,7 @@
 #![forbid(unsafe_code)]
 
 pub mod builder;
+pub mod certify;
 pub mod clauses;
 pub mod couplings;
 pub mod emit;

@@ -159,7 +159,11 @@ impl Search<'_> {
             .filter(|&joint| sub.position[joint].width() > 1e-9)
             .fold((usize::MAX, 0.0), |(best, width), joint| {
                 let mine = sub.position[joint].width();
-                if mine > width { (joint, mine) } else { (best, width) }
+                if mine > width {
+                    (joint, mine)
+                } else {
+                    (best, width)
+                }
             })
             .0
     }

@@ -111,11 +111,7 @@ impl Stage {
 
     /// The edited program.
     pub fn program(&self, folding: Folding) -> Program {
-        Program::new(
-            self.program.function,
-            self.program.joints,
-            &self.edited(folding),
-        )
+        self.program.with_graph(&self.edited(folding))
     }
 
     /// The function that is computed.

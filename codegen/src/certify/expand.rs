@@ -113,7 +113,11 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
                 cos = sum(&product(&cos, &c)?, &product(&sin, &s)?, true);
                 sin = next;
             }
-            if matches!(input, Input::Sin(_)) { sin } else { cos }
+            if matches!(input, Input::Sin(_)) {
+                sin
+            } else {
+                cos
+            }
         }
     })
 }

@@ -271,7 +271,10 @@ impl Forms {
         let mut at = 0;
         while at < variables.len() {
             let variable = variables[at];
-            let power = variables[at..].iter().take_while(|&&v| v == variable).count();
+            let power = variables[at..]
+                .iter()
+                .take_while(|&&v| v == variable)
+                .count();
             let x = self.variable(variable, sub);
             for _ in 0..power / 2 {
                 product = product * x.square();

@@ -54,7 +54,9 @@ pub(super) fn magnitudes(
         .iter()
         .map(|&d| {
             let count = fineness * d as usize;
-            (0..count).map(|p| 2.0 * PI * p as f64 / count as f64).collect()
+            (0..count)
+                .map(|p| 2.0 * PI * p as f64 / count as f64)
+                .collect()
         })
         .collect();
     // Degree d and N = fineness·d points: the cosine is the same for all.
@@ -74,7 +76,8 @@ pub(super) fn magnitudes(
                 let step = 2.0 * PI / grid[k].len() as f64;
                 let count = libm::ceil(range.width() / step).max(1.0);
                 let angle = |p: usize| {
-                    (range.low() + range.width() * p as f64 / count).clamp(range.low(), range.high())
+                    (range.low() + range.width() * p as f64 / count)
+                        .clamp(range.low(), range.high())
                 };
                 grid[k] = (0..=count as usize).map(angle).collect();
                 // d·δ for δ half the distance of two points.
@@ -148,10 +151,13 @@ impl Layout {
             let mut fold = Vec::new();
             for (from, &(output, key)) in terms.iter().enumerate() {
                 let power = powers(key, joint);
-                let base = bases[k].iter().position(|&b| b == power).unwrap_or_else(|| {
-                    bases[k].push(power);
-                    bases[k].len() - 1
-                });
+                let base = bases[k]
+                    .iter()
+                    .position(|&b| b == power)
+                    .unwrap_or_else(|| {
+                        bases[k].push(power);
+                        bases[k].len() - 1
+                    });
                 let rest = key & !(31u128 << (16 + 5 * joint));
                 let next = places.len() as u32;
                 let to = *places.entry((output, rest)).or_insert(next);

@@ -55,12 +55,16 @@ impl InputBox {
         };
         for (joint, row) in robot.joints.iter().enumerate() {
             let missing = |limit| MissingLimit { joint, limit };
-            limits.position.push(position(row).ok_or(missing("position"))?);
+            limits
+                .position
+                .push(position(row).ok_or(missing("position"))?);
             let rate = |limit: &Option<Rational>| {
                 let most = f64::nearest_rational(limit.as_ref()?);
                 Some(Interval::symmetric(most))
             };
-            limits.velocity.push(rate(&row.limits.velocity).ok_or(missing("velocity"))?);
+            limits
+                .velocity
+                .push(rate(&row.limits.velocity).ok_or(missing("velocity"))?);
             limits
                 .acceleration
                 .push(rate(&row.limits.acceleration).ok_or(missing("acceleration"))?);
@@ -75,15 +79,17 @@ impl InputBox {
 
     /// The values that an angle takes.
     pub fn angle(&self, angle: AngleSum) -> Interval {
-        angle.terms().fold(Interval::ZERO, |sum, (joint, negative)| {
-            let q = self.position[joint];
-            match (negative, sum == Interval::ZERO) {
-                (false, true) => q,
-                (true, true) => -q,
-                (false, false) => sum + q,
-                (true, false) => sum - q,
-            }
-        })
+        angle
+            .terms()
+            .fold(Interval::ZERO, |sum, (joint, negative)| {
+                let q = self.position[joint];
+                match (negative, sum == Interval::ZERO) {
+                    (false, true) => q,
+                    (true, true) => -q,
+                    (false, false) => sum + q,
+                    (true, false) => sum - q,
+                }
+            })
     }
 
     /// The values that an input takes.

@@ -7,12 +7,18 @@
 //! - [`bound`]: branch and bound over the positions
 
 pub mod bound;
-pub mod edits;
 mod expand;
-pub mod form;
 mod grid;
+pub mod certificate;
+pub mod edits;
+
+pub mod form;
+
 pub mod input_box;
 pub mod interval;
+pub mod json;
 pub mod prune;
+pub mod ranges;
 pub mod sample;
+pub mod sensitivity;
 pub mod trig;

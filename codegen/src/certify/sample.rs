@@ -27,7 +27,11 @@ pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
             })
             .collect(),
         qd: limits.velocity.iter().map(|x| rate(x, random)).collect(),
-        qdd: limits.acceleration.iter().map(|x| rate(x, random)).collect(),
+        qdd: limits
+            .acceleration
+            .iter()
+            .map(|x| rate(x, random))
+            .collect(),
     }
 }
 

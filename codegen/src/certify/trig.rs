@@ -71,7 +71,8 @@ mod tests {
             let width = 7.0 * random.unit() * random.unit();
             let x = Interval::new(low, low + width).unwrap();
             let (sin, cos) = (x.sin(), x.cos());
-            let (mut seen_sin, mut seen_cos) = (Interval::point(sin.mid()), Interval::point(cos.mid()));
+            let (mut seen_sin, mut seen_cos) =
+                (Interval::point(sin.mid()), Interval::point(cos.mid()));
             for k in 0..=400 {
                 let t = (low + width * f64::from(k) / 400.0).clamp(x.low(), x.high());
                 let (s, c) = libm::sincos(t);
@@ -88,7 +89,10 @@ mod tests {
     fn right_angles_and_full_turns() {
         let pi = std::f64::consts::PI;
         let turn = Interval::symmetric(pi);
-        assert_eq!((turn.sin(), turn.cos()), (Interval::symmetric(1.0), Interval::symmetric(1.0)));
+        assert_eq!(
+            (turn.sin(), turn.cos()),
+            (Interval::symmetric(1.0), Interval::symmetric(1.0))
+        );
         let quarter = Interval::new(0.0, pi / 2.0).unwrap();
         assert!(quarter.sin().low() >= -1e-300 && quarter.sin().high() == 1.0);
         assert!(quarter.cos().contains(1.0) && quarter.cos().low() < 6.2e-17);

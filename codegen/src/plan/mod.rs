@@ -11,7 +11,7 @@
 
 pub mod file;
 pub mod parse;
-mod write;
+pub(crate) mod write;
 
 pub use parse::PlanError;
 

@@ -223,7 +223,7 @@ fn step(words: &[&str], program: &Program) -> Result<Step, String> {
     })
 }
 
-fn operand(word: &str, program: &Program) -> Result<Operand, String> {
+pub(crate) fn operand(word: &str, program: &Program) -> Result<Operand, String> {
     if let Some(constant) = word.strip_prefix('#') {
         return constant
             .parse::<Exact>()

@@ -64,7 +64,7 @@ impl Plan {
 
 /// Inputs as emitted code names them, `t1` for the first step, `#` before a
 /// constant.
-fn operand(operand: &Operand) -> String {
+pub(crate) fn operand(operand: &Operand) -> String {
     match operand {
         Operand::Input(input) => input_name(*input),
         Operand::Constant(constant) => format!("#{constant}"),

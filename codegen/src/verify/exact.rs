@@ -144,7 +144,7 @@ pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof>
 }
 
 /// The program in the field; `None` if a constant has no residue.
-fn run(program: &Program, points: &Points, point: usize) -> Option<Vec<Field>> {
+pub(crate) fn run(program: &Program, points: &Points, point: usize) -> Option<Vec<Field>> {
     let read = |operand: &Operand, steps: &[Field]| match operand {
         Operand::Input(input) => Some(points.input(*input).0[point]),
         Operand::Constant(constant) => Some(points.constant(constant)?.0[point]),

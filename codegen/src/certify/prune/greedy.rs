@@ -15,6 +15,8 @@ pub(super) struct Greedy<'a> {
     scratch: Scratch,
     trial: Vec<f64>,
     dirty: Vec<bool>,
+    /// Of the errors in the ranking: 1 adds them, more spreads them.
+    power: i32,
 }
 
 /// A candidate and how it ranked.
@@ -32,7 +34,12 @@ const AGAIN: usize = 24;
 const FRESH: usize = 10;
 
 impl<'a> Greedy<'a> {
-    pub(super) fn new(nodes: &'a Nodes, truth: &'a [f64], allowances: Vec<f64>) -> Self {
+    pub(super) fn new(
+        nodes: &'a Nodes,
+        truth: &'a [f64],
+        allowances: Vec<f64>,
+        power: i32,
+    ) -> Self {
         Greedy {
             nodes,
             truth,
@@ -40,11 +47,17 @@ impl<'a> Greedy<'a> {
             scratch: Scratch::default(),
             trial: vec![0.0; nodes.len() * nodes.samples],
             dirty: Vec::new(),
+            power,
         }
     }
 
     pub(super) fn price(&mut self, edits: &[Option<Value>]) -> u32 {
         price(self.nodes, edits, &mut self.scratch)
+    }
+
+    /// The worst sampled error against its allowance.
+    pub(super) fn worst(&self, edits: &[Option<Value>]) -> f64 {
+        self.potential(&self.nodes.run(edits)).1
     }
 
     /// Edits until nothing admissible saves anything. `noise` blurs the
@@ -73,8 +86,8 @@ impl<'a> Greedy<'a> {
                 for k in 0..ranked.len().min(AGAIN) {
                     let (node, value) = (ranked[k].node, ranked[k].value);
                     let score = self.score(edits, &columns, node, value, before, paid);
-                    ranked[k].score = score.unwrap_or(f64::INFINITY)
-                        * (1.0 + noise * random.unit());
+                    ranked[k].score =
+                        score.unwrap_or(f64::INFINITY) * (1.0 + noise * random.unit());
                     if ranked[k].score < best.map_or(f64::INFINITY, |b| ranked[b].score) {
                         best = Some(k);
                     }
@@ -186,12 +199,7 @@ impl<'a> Greedy<'a> {
     }
 
     /// The potential if a node's edit is new and the columns are not.
-    fn retry(
-        &mut self,
-        edits: &[Option<Value>],
-        columns: &[f64],
-        node: usize,
-    ) -> (f64, f64) {
+    fn retry(&mut self, edits: &[Option<Value>], columns: &[f64], node: usize) -> (f64, f64) {
         let (m, inputs) = (self.nodes.samples, self.nodes.inputs.len());
         self.dirty.clear();
         self.dirty.resize(self.nodes.len(), false);
@@ -199,7 +207,8 @@ impl<'a> Greedy<'a> {
         let mut trial = std::mem::take(&mut self.trial);
         trial[..node * m].copy_from_slice(&columns[..node * m]);
         for k in node..self.nodes.len() {
-            let is_dirty = |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n as usize]);
+            let is_dirty =
+                |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n as usize]);
             let dirty = k == node
                 || match edits[k] {
                     Some(value) => is_dirty(value),
@@ -222,7 +231,7 @@ impl<'a> Greedy<'a> {
         result
     }
 
-    /// Σ (error/allowance)², and the worst error/allowance.
+    /// Σ (error/allowance)^power, and the worst error/allowance.
     fn potential(&self, columns: &[f64]) -> (f64, f64) {
         let m = self.nodes.samples;
         let (mut sum, mut worst) = (0.0, 0.0f64);
@@ -239,8 +248,12 @@ impl<'a> Greedy<'a> {
                     pairs.fold(0.0f64, |e, (x, t)| e.max((sign * x - t).abs()))
                 }
             };
-            let relative = if error <= 1e-13 { 0.0 } else { error / allowance };
-            sum += relative * relative;
+            let relative = if error <= 1e-13 {
+                0.0
+            } else {
+                error / allowance
+            };
+            sum += relative.powi(self.power);
             worst = worst.max(relative);
         }
         (sum, worst)

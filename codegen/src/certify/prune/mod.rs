@@ -47,7 +47,7 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             samples: 256,
-            guesses: 4,
+            guesses: 8,
             retries: 40,
             stages: 2,
             budget: Budget::GLANCE,
@@ -113,15 +113,14 @@ impl Search<'_> {
         // How much of the allowance sampled errors may use.
         let mut share = 0.75;
         let mut found: Option<(Pruned, Vec<Option<Value>>, f64)> = None;
-        for _ in 0..self.settings.guesses {
+        for guess in 0..self.settings.guesses {
             let nodes = Nodes::new(&self.base.program, states);
             let truth = self.truth(states);
-            let mut greedy = Greedy::new(&nodes, &truth, self.shared(share));
+            let mut greedy = Greedy::new(&nodes, &truth, self.shared(share), 1 + guess as i32 % 2);
             let mut edits = vec![None; nodes.len()];
             greedy.drop_all(&mut edits, 0.0, random);
             greedy.restore_idle(&mut edits);
             let (stages, errors, ratio) = self.certify(&nodes, &edits);
-            if std::env::var("DBG").is_ok() {eprintln!("share {share} ratio {ratio} price {} final {}", greedy.price(&edits), cost(&finish(&stages, Effort::Quick, false)));}
             self.adversaries(&stages, states, random);
             let cheaper = |p: &Program| found.as_ref().is_none_or(|f| cost(p) < cost(&f.0.program));
             let program = finish(&stages, Effort::Quick, false);
@@ -133,12 +132,18 @@ impl Search<'_> {
                 };
                 found = Some((pruned, edits, share));
             }
-            share = (share / ratio.clamp(0.2, 5.0).powf(0.9) * 0.99).min(1.5);
+            // Both rankings are tried before the share is corrected.
+            if guess % 2 == 1 {
+                share = (share / libm::pow(ratio.clamp(0.2, 5.0), 0.9) * 0.99).min(1.5);
+            }
         }
         let (mut best, mut edits, share) = found?;
         let nodes = Nodes::new(&self.base.program, states);
         let truth = self.truth(states);
-        let mut greedy = Greedy::new(&nodes, &truth, self.shared(share));
+        // The samples have grown since: what is certified must rank as within.
+        let worst = Greedy::new(&nodes, &truth, self.shared(1.0), 1).worst(&edits);
+        let share = f64::max(share, 1.001 * worst);
+        let mut greedy = Greedy::new(&nodes, &truth, self.shared(share), 1);
         let mut paid = greedy.price(&edits);
         for round in 0..self.settings.retries {
             let mut trial = edits.clone();
@@ -154,7 +159,6 @@ impl Search<'_> {
             let price = greedy.price(&trial);
             if price <= paid && trial != edits {
                 let (stages, errors, ratio) = self.certify(&nodes, &trial);
-            if std::env::var("DBG").is_ok() {eprintln!("  round {round} ratio {ratio} price {price} was {paid}");}
                 if ratio <= 1.0 {
                     (edits, paid) = (trial, price);
                     let program = finish(&stages, Effort::Quick, false);
@@ -239,11 +243,11 @@ fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
 fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
     let last = &stages[stages.len() - 1];
     let graph = last.edited(Folding::Semantic);
-    let program = |graph: &Graph| Program::new(last.program.function, last.program.joints, graph);
+    let program = |graph: &Graph| last.program.with_graph(graph);
     if !search {
         return program(&graph);
     }
-    match simplify(std::slice::from_ref(&graph), &[], effort) {
+    match simplify(std::slice::from_ref(&graph), &[], effort, &|_| true) {
         Some(simplified) => program(&simplified.graph),
         None => program(&graph),
     }

@@ -1,0 +1,163 @@
+//! The text of a certificate: JSON, written here, read by the command.
+
+use std::fmt::Write;
+
+use hmac_sha256::Hash;
+
+use super::certificate::{ASSUMPTIONS, Certificate, METHOD};
+use super::edits::{Edit, Place};
+use super::interval::Interval;
+use crate::emit::function::input_name;
+use crate::generate::Start;
+use crate::plan::parse::operand as read_operand;
+use crate::plan::write::operand as write_operand;
+use crate::plan::{Entry, Plan};
+use crate::portfolio::Source;
+use crate::schedule::{Operand, Program};
+
+/// The version of the format.
+pub const VERSION: u32 = 1;
+
+impl Certificate {
+    /// The certificate as JSON; numbers read back as they were.
+    pub fn to_json(&self) -> String {
+        let mut text = String::from("{\n");
+        let mut field = |name: &str, value: String| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "  {}: {value},", string(name));
+        };
+        field("certificate", VERSION.to_string());
+        field("robot", string(&self.robot));
+        field("input", string(&self.input));
+        field("function", string(self.emitted.function.name()));
+        field("scalar", string(self.scalar.name()));
+        field("method", string(METHOD));
+        field("assumptions", list(ASSUMPTIONS.iter().map(|a| string(a))));
+        let ranges = |of: &[Interval]| {
+            list(of.iter().map(|x| list([x.low(), x.high()].into_iter().map(number))))
+        };
+        field("position", ranges(&self.limits.position));
+        field("velocity", ranges(&self.limits.velocity));
+        field("acceleration", ranges(&self.limits.acceleration));
+        field("scale", list(self.scales.iter().copied().map(number)));
+        for (name, part) in [
+            ("model", (|s| s.model) as fn(&super::certificate::Split) -> f64),
+            ("sincos", |s| s.sincos),
+            ("rounding", |s| s.rounding),
+            ("total", |s| s.total()),
+        ] {
+            field(name, list(self.bounds.iter().map(|split| number(part(split)))));
+        }
+        let stages = self.stages.iter().map(|stage| {
+            let edits = list(stage.edits.iter().map(|edit| string(&write_edit(edit))));
+            let program = string(&plan_text(self, &stage.program));
+            format!("{{ \"program\": {program}, \"edits\": {edits} }}")
+        });
+        field("stages", list(stages));
+        field("emitted", string(&plan_text(self, &self.emitted)));
+        field("text_hash", string(&text_hash(&self.text)));
+        let _ = write!(text, "  \"text\": {}\n}}\n", string(&self.text));
+        text
+    }
+}
+
+/// SHA-256 of a printed text in hexadecimal.
+pub fn text_hash(text: &str) -> String {
+    let hash = Hash::hash(text.as_bytes());
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A program as a plan of one entry.
+fn plan_text(certificate: &Certificate, program: &Program) -> String {
+    Plan {
+        robot: certificate.robot.clone(),
+        input: certificate.input.clone(),
+        entries: vec![Entry {
+            start: Start::Auto,
+            scalar: certificate.scalar,
+            source: Source::Regrouped,
+            stages: Vec::new(),
+            scene: None,
+            program: program.clone(),
+        }],
+    }
+    .write()
+}
+
+/// Reads what [`Certificate::to_json`] writes of a program.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn read_program(text: &str) -> Result<Program, String> {
+    let plan = Plan::parse(text).map_err(|error| error.to_string())?;
+    let mut entries = plan.entries.into_iter();
+    match (entries.next(), entries.next()) {
+        (Some(entry), None) => Ok(entry.program),
+        _ => Err("expected one program".into()),
+    }
+}
+
+/// An edit as text: `t12 = ~t3`, `qd[5] = #0`.
+pub fn write_edit(edit: &Edit) -> String {
+    let place = match edit.place {
+        Place::Input(input) => input_name(input),
+        Place::Step(step) => format!("t{}", step + 1),
+    };
+    let sign = if edit.negative { "~" } else { "" };
+    format!("{place} = {sign}{}", write_operand(&edit.value))
+}
+
+/// Reads an edit of a program.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn read_edit(text: &str, program: &Program) -> Result<Edit, String> {
+    let (place, value) = text
+        .split_once(" = ")
+        .ok_or_else(|| format!("`{text}` is no edit"))?;
+    let place = match read_operand(place, program)? {
+        Operand::Input(input) => Place::Input(input),
+        Operand::Step(step) => Place::Step(step),
+        Operand::Constant(_) => return Err(format!("`{place}` cannot be replaced")),
+    };
+    let (negative, value) = match value.strip_prefix('~') {
+        Some(rest) => (true, rest),
+        None => (false, value),
+    };
+    Ok(Edit {
+        place,
+        negative,
+        value: read_operand(value, program)?,
+    })
+}
+
+/// The shortest decimal that reads back as the number. JSON has no infinity:
+/// a bound that says nothing is null.
+fn number(x: f64) -> String {
+    if x.is_finite() {
+        format!("{x:e}")
+    } else {
+        "null".into()
+    }
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    format!("[{}]", items.collect::<Vec<_>>().join(", "))
+}
+
+fn string(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            '\n' => quoted.push_str("\\n"),
+            c if c < ' ' => {
+                let _ = write!(quoted, "\\u{:04x}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

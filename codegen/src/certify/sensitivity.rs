@@ -1,0 +1,230 @@
+//! What rounding costs: adjoints in interval arithmetic over sub-boxes.
+//!
+//! **Model** (named in certificates). Every operation gives
+//! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
+//! products and η = 0 for sums; literals are constants rounded once; `sin`
+//! and `cos` are within one ulp, which is at most u·2 relative and u
+//! absolute; nothing is contracted to a fused multiply-add.
+//!
+//! **Soundness, and why nothing of second order is left.** Let x̂ be the
+//! computed value of a node, x the exact one, e = x̂ − x. For a product
+//! e = â·e_b + b·e_a + r, for a sum e = e_a + e_b + r, where r is the node's
+//! own rounding, |r| ≤ u·|x̂ before rounding| + η. These are identities, so the
+//! error of an output is exactly Σ r_node·ā_node with adjoints ā that take
+//! the partial derivatives at â and b instead of a and b. The intervals
+//! here are computed with every operation widened by its rounding, so they
+//! contain x̂ *and* x, and adjoints computed from them contain the mixed ones:
+//! the sum below bounds the whole error, not only its first order.
+
+use super::input_box::InputBox;
+use super::interval::Interval;
+use crate::emit::ScalarType;
+use crate::graph::Input;
+use crate::schedule::{Operand, Operation, Program};
+
+/// Bounds of one output's rounding error, in its unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rounding {
+    /// From operations and constants.
+    pub arithmetic: f64,
+    /// From sines and cosines, and from adding angles.
+    pub sincos: f64,
+}
+
+impl Rounding {
+    fn max(self, other: Rounding) -> Rounding {
+        Rounding {
+            arithmetic: self.arithmetic.max(other.arithmetic),
+            sincos: self.sincos.max(other.sincos),
+        }
+    }
+}
+
+/// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,
+/// which halve the positions in turn.
+pub fn rounding(
+    program: &Program,
+    scalar: ScalarType,
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<Rounding> {
+    let mut joints: Vec<usize> = program
+        .trig
+        .iter()
+        .flat_map(|trig| trig.angle.terms().map(|(joint, _)| joint))
+        .collect();
+    joints.sort_unstable();
+    joints.dedup();
+    let mut worst = vec![Rounding::default(); program.outputs.len()];
+    for sub in grid(limits, &joints, boxes) {
+        for (worst, here) in worst.iter_mut().zip(over(program, scalar, &sub)) {
+            *worst = worst.max(here);
+        }
+    }
+    worst
+}
+
+/// Equal sub-boxes, as many as fit: halves joint after joint.
+pub(super) fn grid(limits: &InputBox, joints: &[usize], boxes: usize) -> Vec<InputBox> {
+    let mut all = vec![limits.clone()];
+    let mut turn = 0;
+    while !joints.is_empty() && all.len() * 2 <= boxes {
+        let joint = joints[turn % joints.len()];
+        turn += 1;
+        all = all
+            .into_iter()
+            .flat_map(|sub| {
+                sub.position[joint].split().map(|half| {
+                    let mut sub = sub.clone();
+                    sub.position[joint] = half;
+                    sub
+                })
+            })
+            .collect();
+    }
+    all
+}
+
+/// Half the least subnormal.
+fn underflow(scalar: ScalarType) -> f64 {
+    match scalar {
+        // Half of 2^−1074 is no double: the whole.
+        ScalarType::F64 => f64::from_bits(1),
+        ScalarType::F32 => f64::from(f32::from_bits(1)) / 2.0,
+    }
+}
+
+/// Values that contain what is computed and what is exact, and how far the
+/// two can be apart at the node itself.
+pub(super) struct Forward {
+    pub(super) values: Vec<Interval>,
+    own: Vec<f64>,
+}
+
+/// Runs a program with every operation widened by its rounding.
+pub(super) fn forward(program: &Program, scalar: ScalarType, sub: &InputBox) -> Forward {
+    let u = scalar.unit_roundoff();
+    let mut values: Vec<Interval> = Vec::with_capacity(program.steps.len());
+    let mut own = Vec::with_capacity(program.steps.len());
+    for step in &program.steps {
+        let x = read(&step.left, &values, scalar, sub).0;
+        let y = read(&step.right, &values, scalar, sub).0;
+        let (exact, eta) = match step.operation {
+            Operation::Add => (x + y, 0.0),
+            Operation::Sub => (x - y, 0.0),
+            Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
+            Operation::Mul => (x * y, underflow(scalar)),
+        };
+        let rounding = (u * exact.magnitude()).next_up() + eta;
+        values.push(exact.widened(rounding));
+        own.push(rounding.next_up());
+    }
+    Forward { values, own }
+}
+
+/// An operand's interval and its own error.
+fn read(
+    operand: &Operand,
+    values: &[Interval],
+    scalar: ScalarType,
+    sub: &InputBox,
+) -> (Interval, f64) {
+    let u = scalar.unit_roundoff();
+    match operand {
+        Operand::Step(index) => (values[*index], 0.0),
+        Operand::Constant(constant) => {
+            let exact = Interval::exact(constant);
+            let rounded = Interval::point(scalar.round(constant));
+            (exact.hull(rounded), (exact - rounded).magnitude())
+        }
+        Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) => {
+            let exact = sub.input(*input);
+            // Each addition that forms the angle rounds; a sine moves no more
+            // than its angle.
+            let additions = angle.additions() as f64;
+            let reach: f64 = angle
+                .terms()
+                .map(|(joint, _)| sub.position[joint].magnitude())
+                .sum();
+            let error = u * exact.magnitude().min(0.5) * 2.0 + 1.01 * additions * u * reach;
+            let error = if exact.magnitude() == 0.0 { 0.0 } else { error.next_up() };
+            (exact.widened(error), error)
+        }
+        Operand::Input(input) => (sub.input(*input), 0.0),
+    }
+}
+
+/// Bounds over one sub-box.
+fn over(program: &Program, scalar: ScalarType, sub: &InputBox) -> Vec<Rounding> {
+    let Forward { values, own } = forward(program, scalar, sub);
+    let operands: Vec<[(Interval, f64); 2]> = program
+        .steps
+        .iter()
+        .map(|step| {
+            [&step.left, &step.right].map(|operand| read(operand, &values, scalar, sub))
+        })
+        .collect();
+    let mut adjoints = vec![Interval::ZERO; program.steps.len()];
+    let mut bounds = Vec::with_capacity(program.outputs.len());
+    for output in &program.outputs {
+        let mut bound = Rounding::default();
+        let top = match &output.value {
+            Operand::Step(index) => *index + 1,
+            other => {
+                let (_, error) = read(other, &values, scalar, sub);
+                note(&mut bound, other, error);
+                0
+            }
+        };
+        adjoints.fill(Interval::ZERO);
+        // One way to sum sines and cosines too: an error of an input counts
+        // with its whole adjoint, not use by use.
+        let mut inputs: Vec<(&Operand, f64, Interval)> = Vec::new();
+        if top > 0 {
+            adjoints[top - 1] = Interval::ONE;
+        }
+        for index in (0..top).rev() {
+            let adjoint = adjoints[index];
+            if adjoint == Interval::ZERO {
+                continue;
+            }
+            bound.arithmetic += (adjoint.magnitude() * own[index]).next_up();
+            let step = &program.steps[index];
+            let [(x, x_error), (y, y_error)] = operands[index];
+            let (left, right) = match step.operation {
+                Operation::Add => (adjoint, adjoint),
+                Operation::Sub => (adjoint, -adjoint),
+                Operation::Mul => (adjoint * y, adjoint * x),
+            };
+            for (operand, error, part) in
+                [(&step.left, x_error, left), (&step.right, y_error, right)]
+            {
+                match operand {
+                    Operand::Step(before) => adjoints[*before] = adjoints[*before] + part,
+                    other if error > 0.0 => {
+                        match inputs.iter_mut().find(|(known, ..)| *known == other) {
+                            Some(known) => known.2 = known.2 + part,
+                            None => inputs.push((other, error, part)),
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for (operand, error, adjoint) in inputs {
+            note(&mut bound, operand, (error * adjoint.magnitude()).next_up());
+        }
+        // The sums above round up to a few hundred times themselves.
+        bound.arithmetic *= 1.0 + 1e-12;
+        bound.sincos *= 1.0 + 1e-12;
+        bounds.push(bound);
+    }
+    bounds
+}
+
+fn note(bound: &mut Rounding, operand: &Operand, error: f64) {
+    match operand {
+        Operand::Input(_) => bound.sincos += error,
+        _ => bound.arithmetic += error,
+    }
+}
