@@ -35,6 +35,10 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Measure errors where robots are not: huge angles and speeds, odd masses
     Stress(StressArgs),
+    /// Check a certificate again: proof, edits, text and every bound
+    Certify(CertifyArgs),
+    /// Measure what accuracy costs: certified error against operations
+    Tradeoff(TradeoffArgs),
     /// Compare with Table 3: the paper's counts, the formulas', the generator's
     Table3(Table3Args),
 }
@@ -179,6 +183,42 @@ pub struct StressArgs {
     /// Measure chains of 1 to 60 joints instead of a robot
     #[arg(long, conflicts_with = "robot")]
     pub growth: bool,
+}
+
+/// Arguments of `certify`.
+#[derive(Debug, clap::Args)]
+pub struct CertifyArgs {
+    /// The certificate (JSON)
+    pub certificate: PathBuf,
+    /// The robot file that it is for
+    #[arg(long, value_name = "FILE")]
+    pub robot: PathBuf,
+    /// Also run the code at this many states and look for an error above E
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub samples: usize,
+}
+
+/// Arguments of `tradeoff`.
+#[derive(Debug, clap::Args)]
+pub struct TradeoffArgs {
+    /// The robot file; the box is its limits of motion
+    pub robot: PathBuf,
+    /// What errors are relative to: `actuator` torque limits, or `range`, the
+    /// model's own largest torques in the box
+    #[arg(long, value_name = "SCALE", default_value = "actuator", value_parser = ["actuator", "range"])]
+    pub relative_to: String,
+    /// Tolerances, separated by commas [default: 1e-1 down to 1e-6]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub tolerances: Vec<f64>,
+    /// Write table, chart and certificates to this folder
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// States at which each variant is run
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    pub samples: usize,
+    /// How long to search for fewer operations
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    pub effort: Effort,
 }
 
 /// Arguments of `table3`.

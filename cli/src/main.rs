@@ -8,6 +8,8 @@
 //! - [`explain`]: what each step brought, and why
 //! - [`table3`]: the paper's counts beside the formulas' and the generator's
 //! - [`stress`]: numerical stability at the extremes, and growth
+//! - [`certify`]: a certificate checked again
+//! - [`tradeoff`]: certified error against operations
 //! - [`plot`]: charts as SVG
 //! - [`input`]: robot and state files
 //! - [`progress`]: a long search watched, and ended early
@@ -16,6 +18,7 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod certify;
 mod count;
 mod couplings;
 mod explain;
@@ -27,6 +30,7 @@ mod plot;
 mod progress;
 mod stress;
 mod table3;
+mod tradeoff;
 mod verify;
 
 use std::process::ExitCode;
@@ -43,6 +47,8 @@ fn main() -> ExitCode {
         Command::Couplings(args) => couplings::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Stress(args) => stress::run(&args),
+        Command::Certify(args) => certify::run(&args),
+        Command::Tradeoff(args) => tradeoff::run(&args),
         Command::Table3(args) => table3::run(&args),
     };
     outcome::exit(outcome)

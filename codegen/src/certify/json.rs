@@ -34,19 +34,28 @@ impl Certificate {
         field("method", string(METHOD));
         field("assumptions", list(ASSUMPTIONS.iter().map(|a| string(a))));
         let ranges = |of: &[Interval]| {
-            list(of.iter().map(|x| list([x.low(), x.high()].into_iter().map(number))))
+            list(
+                of.iter()
+                    .map(|x| list([x.low(), x.high()].into_iter().map(number))),
+            )
         };
         field("position", ranges(&self.limits.position));
         field("velocity", ranges(&self.limits.velocity));
         field("acceleration", ranges(&self.limits.acceleration));
         field("scale", list(self.scales.iter().copied().map(number)));
         for (name, part) in [
-            ("model", (|s| s.model) as fn(&super::certificate::Split) -> f64),
+            (
+                "model",
+                (|s| s.model) as fn(&super::certificate::Split) -> f64,
+            ),
             ("sincos", |s| s.sincos),
             ("rounding", |s| s.rounding),
             ("total", |s| s.total()),
         ] {
-            field(name, list(self.bounds.iter().map(|split| number(part(split)))));
+            field(
+                name,
+                list(self.bounds.iter().map(|split| number(part(split)))),
+            );
         }
         let stages = self.stages.iter().map(|stage| {
             let edits = list(stage.edits.iter().map(|edit| string(&write_edit(edit))));

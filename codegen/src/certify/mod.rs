@@ -6,11 +6,12 @@
 //! - [`form`]: a program over a sub-box as polynomials in the rates
 //! - [`bound`]: branch and bound over the positions
 
+pub mod attack;
 pub mod bound;
-mod expand;
-mod grid;
 pub mod certificate;
 pub mod edits;
+mod expand;
+mod grid;
 
 pub mod form;
 
@@ -20,5 +21,6 @@ pub mod json;
 pub mod prune;
 pub mod ranges;
 pub mod sample;
+pub mod scale;
 pub mod sensitivity;
 pub mod trig;

@@ -69,12 +69,7 @@ impl std::fmt::Display for Finding {
 }
 
 /// The range table over a box, from at most `boxes` sub-boxes.
-pub fn ranges(
-    program: &Program,
-    scalar: ScalarType,
-    limits: &InputBox,
-    boxes: usize,
-) -> Ranges {
+pub fn ranges(program: &Program, scalar: ScalarType, limits: &InputBox, boxes: usize) -> Ranges {
     let mut joints: Vec<usize> = program
         .trig
         .iter()

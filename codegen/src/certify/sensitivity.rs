@@ -147,7 +147,11 @@ fn read(
                 .map(|(joint, _)| sub.position[joint].magnitude())
                 .sum();
             let error = u * exact.magnitude().min(0.5) * 2.0 + 1.01 * additions * u * reach;
-            let error = if exact.magnitude() == 0.0 { 0.0 } else { error.next_up() };
+            let error = if exact.magnitude() == 0.0 {
+                0.0
+            } else {
+                error.next_up()
+            };
             (exact.widened(error), error)
         }
         Operand::Input(input) => (sub.input(*input), 0.0),
@@ -160,9 +164,7 @@ fn over(program: &Program, scalar: ScalarType, sub: &InputBox) -> Vec<Rounding> 
     let operands: Vec<[(Interval, f64); 2]> = program
         .steps
         .iter()
-        .map(|step| {
-            [&step.left, &step.right].map(|operand| read(operand, &values, scalar, sub))
-        })
+        .map(|step| [&step.left, &step.right].map(|operand| read(operand, &values, scalar, sub)))
         .collect();
     let mut adjoints = vec![Interval::ZERO; program.steps.len()];
     let mut bounds = Vec::with_capacity(program.outputs.len());

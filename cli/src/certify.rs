@@ -1,0 +1,172 @@
+//! `dalembert certify`: a certificate checked again, part by part.
+
+use std::fs;
+use std::path::Path;
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::certificate::{Certificate, Split};
+use dalembert_codegen::certify::edits::Stage;
+use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::certify::interval::Interval;
+use dalembert_codegen::certify::json::{VERSION, read_edit, read_program, text_hash};
+use dalembert_codegen::emit::ScalarType;
+use serde_json::Value;
+
+use crate::args::CertifyArgs;
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
+
+/// The largest certificate that is read.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Runs the subcommand.
+pub fn run(args: &CertifyArgs) -> Outcome {
+    let robot = input::robot(&args.robot)?;
+    let certificate = read(&args.certificate)?;
+    let name = args.certificate.display();
+    let checked = certificate
+        .check(&robot)
+        .map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
+    let mut text = format!(
+        "{name} holds for `{}` of {}\n  {}\n",
+        certificate.emitted.function, robot.name, checked.proof
+    );
+    for finding in &checked.findings {
+        text += &format!("warning: {finding}\n");
+    }
+    let mut rows = vec![
+        ["output", "model", "sincos", "rounding", "E"]
+            .map(String::from)
+            .to_vec(),
+    ];
+    for (index, bound) in certificate.bounds.iter().enumerate() {
+        let mut row = vec![certificate.emitted.entry(index)];
+        let parts = [bound.model, bound.sincos, bound.rounding, bound.total()];
+        row.extend(parts.map(|x| format!("{x:.3e}")));
+        rows.push(row);
+    }
+    let mut seen = None;
+    if args.samples > 0 {
+        let attack = attack(&certificate, args.samples, 8, 1)
+            .map_err(|error| Failure::Check(format!("error: {name}: {error}")))?;
+        rows[0].push("observed".into());
+        for (row, observed) in rows[1..].iter_mut().zip(&attack.observed) {
+            row.push(format!("{observed:.3e}"));
+        }
+        seen = Some(attack);
+    }
+    text += &output::table(&rows, 0);
+    output::print(&text)?;
+    if let Some(attack) = seen {
+        output::note(&format!("run at {} states", attack.states));
+        if let Some((index, state)) = attack.violation {
+            return Err(Failure::Check(format!(
+                "error: {name}: {} errs more than E at q = {:?}, qd = {:?}, qdd = {:?}",
+                certificate.emitted.entry(index),
+                state.q,
+                state.qd,
+                state.qdd
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Reads a certificate. Nothing in it is trusted: [`Certificate::check`] does
+/// the rest.
+fn read(path: &Path) -> Result<Certificate, Failure> {
+    let name = path.display();
+    let fail = |why: String| Failure::Input(format!("error: {name}: {why}"));
+    let size = fs::metadata(path).map_err(|error| fail(error.to_string()))?;
+    if size.len() > MOST_BYTES {
+        return Err(fail("the file is too long".into()));
+    }
+    let bytes = fs::read(path).map_err(|error| fail(error.to_string()))?;
+    let json: Value = serde_json::from_slice(&bytes).map_err(|error| {
+        let (line, column) = (error.line(), error.column());
+        Failure::Input(format!("error: {error}\n --> {name}:{line}:{column}"))
+    })?;
+    parse(&json).map_err(fail)
+}
+
+fn parse(json: &Value) -> Result<Certificate, String> {
+    let field = |key: &str| json.get(key).ok_or_else(|| format!("`{key}` is missing"));
+    if field("certificate")?.as_u64() != Some(VERSION.into()) {
+        return Err(format!(
+            "this version reads certificates of version {VERSION}"
+        ));
+    }
+    let text = |key: &str| {
+        let text = field(key)?.as_str().map(str::to_owned);
+        text.ok_or_else(|| format!("`{key}` is no text"))
+    };
+    let list = |key: &str| {
+        let list = field(key)?.as_array();
+        list.ok_or_else(|| format!("`{key}` is no list"))
+    };
+    let numbers = |key: &str| {
+        // null stands for a bound that says nothing.
+        let number = |value: &Value| value.as_f64().or(value.is_null().then_some(f64::INFINITY));
+        let numbers: Option<Vec<f64>> = list(key)?.iter().map(number).collect();
+        numbers.ok_or_else(|| format!("`{key}` has an entry that is no number"))
+    };
+    let ranges = |key: &str| {
+        let range = |value: &Value| {
+            let [low, high] = value.as_array()?.as_slice() else {
+                return None;
+            };
+            Interval::new(low.as_f64()?, high.as_f64()?)
+        };
+        let ranges: Option<Vec<Interval>> = list(key)?.iter().map(range).collect();
+        ranges.ok_or_else(|| format!("`{key}` has an entry that is no range"))
+    };
+    let (model, sincos, rounding) = (numbers("model")?, numbers("sincos")?, numbers("rounding")?);
+    if model.len() != sincos.len() || model.len() != rounding.len() {
+        return Err("`model`, `sincos` and `rounding` differ in length".into());
+    }
+    let parts = model.iter().zip(&sincos).zip(&rounding);
+    let bounds = parts.map(|((&model, &sincos), &rounding)| Split {
+        model,
+        sincos,
+        rounding,
+    });
+    let mut stages = Vec::new();
+    for stage in list("stages")? {
+        let missing = || "a stage needs `program` and `edits`".to_owned();
+        let program = stage
+            .get("program")
+            .and_then(Value::as_str)
+            .ok_or_else(missing)?;
+        let program = read_program(program)?;
+        let edits = stage
+            .get("edits")
+            .and_then(Value::as_array)
+            .ok_or_else(missing)?;
+        let edits: Result<Vec<_>, String> = edits
+            .iter()
+            .map(|edit| read_edit(edit.as_str().unwrap_or_default(), &program))
+            .collect();
+        let edits = edits?;
+        stages.push(Stage { program, edits });
+    }
+    let printed = text("text")?;
+    if text("text_hash")? != text_hash(&printed) {
+        return Err("`text_hash` is not the hash of `text`".into());
+    }
+    let scalar = text("scalar")?;
+    Ok(Certificate {
+        robot: text("robot")?,
+        input: text("input")?,
+        scalar: ScalarType::from_name(&scalar).ok_or_else(|| format!("`{scalar}` is no scalar"))?,
+        limits: InputBox {
+            position: ranges("position")?,
+            velocity: ranges("velocity")?,
+            acceleration: ranges("acceleration")?,
+        },
+        scales: numbers("scale")?,
+        stages,
+        emitted: read_program(&text("emitted")?)?,
+        text: printed,
+        bounds: bounds.collect(),
+    })
+}

@@ -1,0 +1,282 @@
+//! Certificates hold, are tight enough, and are caught when they lie.
+
+mod support;
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::bound::{Budget, magnitudes};
+use dalembert_codegen::certify::certificate::{Certificate, Refuted, same};
+use dalembert_codegen::certify::edits::{Edit, Place, Stage, difference};
+use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::certify::json::{read_edit, read_program, write_edit};
+use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
+use dalembert_codegen::certify::ranges::{Finding, ranges};
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::Start;
+use dalembert_codegen::graph::Folding;
+use dalembert_codegen::schedule::Program;
+use dalembert_model::robot::Robot;
+
+fn robot() -> Robot {
+    let mut robot = support::robot("planar3r");
+    for joint in &mut robot.joints {
+        let number = |n: i64| Some(dalembert_model::number::Rational::from_integer(n.into()));
+        joint.limits.velocity = number(2);
+        joint.limits.acceleration = number(10);
+    }
+    robot
+}
+
+fn exact(robot: &Robot) -> Program {
+    let generated = support::from(robot, Function::InverseDynamics, Start::Auto);
+    generated.functions[0].program.clone()
+}
+
+fn settings() -> Settings {
+    Settings {
+        samples: 64,
+        guesses: 4,
+        retries: 6,
+        budget: Budget {
+            points: 1 << 14,
+            ..Budget::GLANCE
+        },
+        ..Settings::default()
+    }
+}
+
+struct Case {
+    robot: Robot,
+    limits: InputBox,
+    program: Program,
+    scales: Vec<f64>,
+    pruned: Pruned,
+}
+
+fn case(tolerance: f64) -> Case {
+    let robot = robot();
+    let limits = InputBox::of(&robot).unwrap();
+    let program = exact(&robot);
+    let whole = Stage {
+        program: program.clone(),
+        edits: Vec::new(),
+    };
+    let graph = whole.edited(Folding::Syntactic);
+    let scales = magnitudes(&graph, &limits, &[1.0; 3], 0.0, Budget::GLANCE);
+    let allowances: Vec<f64> = scales.iter().map(|t| t * tolerance).collect();
+    let pruned = prune(&program, &limits, &allowances, &settings());
+    Case {
+        robot,
+        limits,
+        program,
+        scales,
+        pruned,
+    }
+}
+
+impl Case {
+    fn certificate(&self, scalar: ScalarType) -> Certificate {
+        let Pruned {
+            stages, program, ..
+        } = &self.pruned;
+        Certificate::make(
+            &self.robot,
+            stages,
+            program,
+            scalar,
+            &self.limits,
+            &self.scales,
+        )
+    }
+}
+
+#[test]
+fn a_pruned_program_is_cheaper_certified_and_not_refuted() {
+    let case = case(0.1);
+    let (before, after) = (case.program.counts(), case.pruned.program.counts());
+    assert!(after.operations() < before.operations(), "{after}");
+    let certificate = case.certificate(ScalarType::F64);
+    certificate.check(&case.robot).unwrap();
+    let attack = attack(&certificate, 2000, 3, 1).unwrap();
+    assert_eq!(attack.violation, None, "{:?}", attack.observed);
+    for (bound, seen) in certificate.bounds.iter().zip(&attack.observed) {
+        assert!(bound.model <= 0.1);
+        assert!(bound.model <= 3.0 * seen, "{} {seen}", bound.model);
+    }
+}
+
+#[test]
+fn a_bound_made_too_small_is_caught_by_the_check_and_by_the_sampler() {
+    let case = case(0.1);
+    let honest = case.certificate(ScalarType::F64);
+    let mut worst = 0;
+    for (i, bound) in honest.bounds.iter().enumerate() {
+        if bound.model > honest.bounds[worst].model {
+            worst = i;
+        }
+    }
+    let mut lie = honest.clone();
+    lie.bounds[worst].model /= 4.0;
+    assert!(matches!(lie.check(&case.robot), Err(Refuted::Bound { .. })));
+    let found = attack(&lie, 2000, 3, 1).unwrap();
+    assert_eq!(found.violation.map(|v| v.0), Some(worst));
+
+    let mut rounding = honest.clone();
+    rounding.bounds[0].rounding /= 2.0;
+    assert!(matches!(
+        rounding.check(&case.robot),
+        Err(Refuted::Bound { .. })
+    ));
+}
+
+#[test]
+fn every_other_lie_is_caught() {
+    let case = case(0.1);
+    let honest = case.certificate(ScalarType::F64);
+
+    let mut other = case.robot.clone();
+    other.joints[0].mass = dalembert_model::number::Rational::from_integer(3.into());
+    assert_eq!(honest.check(&other), Err(Refuted::Robot));
+
+    let mut forgotten = honest.clone();
+    forgotten.stages[0].edits.pop();
+    assert_eq!(forgotten.check(&case.robot), Err(Refuted::Step(0)));
+
+    let mut text = honest.clone();
+    text.text = text.text.replacen(" + ", " - ", 1);
+    assert!(matches!(text.check(&case.robot), Err(Refuted::Text(_))));
+
+    let mut exact = honest.clone();
+    let output = &mut exact.stages[0].program.outputs[0];
+    output.negative = !output.negative;
+    assert!(matches!(exact.check(&case.robot), Err(Refuted::Exact(_))));
+
+    let mut edit = honest.clone();
+    let last = edit.stages[0].program.steps.len() - 1;
+    let (place, value) = (
+        Place::Step(0),
+        dalembert_codegen::schedule::Operand::Step(last),
+    );
+    edit.stages[0].edits = vec![Edit {
+        place,
+        negative: false,
+        value,
+    }];
+    assert!(matches!(edit.check(&case.robot), Err(Refuted::Edits(0, _))));
+
+    let mut short = honest;
+    short.bounds.pop();
+    assert_eq!(short.check(&case.robot), Err(Refuted::Shape));
+}
+
+/// Putting any single omission back into the same program raises its cost.
+#[test]
+fn every_omission_saves_something() {
+    let case = case(0.1);
+    for stage in &case.pruned.stages {
+        let cost = |stage: &Stage| {
+            let counts = stage.program(Folding::Syntactic).counts();
+            counts.operations() + 8 * counts.sincos
+        };
+        let paid = cost(stage);
+        assert!(!stage.edits.is_empty());
+        for index in 0..stage.edits.len() {
+            let mut without = stage.clone();
+            without.edits.remove(index);
+            assert!(cost(&without) > paid, "{}", write_edit(&stage.edits[index]));
+        }
+    }
+}
+
+/// Two methods that share nothing but the intervals: both are bounds, and the
+/// grid's is close to the truth.
+#[test]
+fn branch_and_bound_and_the_grid_bound_the_same() {
+    let case = case(0.1);
+    let graph = difference(&case.pruned.stages);
+    let budget = |points, linear| Budget {
+        boxes: 4000,
+        linear,
+        points,
+    };
+    let bound = |points, linear, limits: &InputBox| {
+        magnitudes(&graph, limits, &case.scales, 0.0, budget(points, linear))
+    };
+    let seen = attack(&case.certificate(ScalarType::F64), 2000, 3, 5).unwrap();
+    // The whole circle, and a part of it.
+    let mut part = case.limits.clone();
+    for q in &mut part.position {
+        *q = dalembert_codegen::certify::interval::Interval::new(-0.5, 0.25).unwrap();
+    }
+    let whole = bound(1 << 16, false, &case.limits);
+    for linear in [false, true] {
+        let boxes = bound(0, linear, &case.limits);
+        for i in 0..3 {
+            let truth = seen.observed[i] * case.scales[i];
+            assert!(boxes[i] >= truth * 0.999 - 1e-9 && whole[i] >= truth * 0.999 - 1e-9);
+        }
+    }
+    let (grid, boxes) = (bound(1 << 16, false, &part), bound(0, true, &part));
+    for i in 0..3 {
+        assert!(grid[i] <= whole[i]);
+        let (least, most) = (grid[i].min(boxes[i]), grid[i].max(boxes[i]));
+        assert!(most <= 3.0 * least + 1e-12, "{} {}", grid[i], boxes[i]);
+    }
+}
+
+/// Single precision against double: the bound holds and is within 30 of what
+/// is seen.
+#[test]
+fn rounding_is_bounded_and_not_wildly() {
+    let robot = robot();
+    let limits = InputBox::of(&robot).unwrap();
+    let program = exact(&robot);
+    let scales = [20.0, 10.0, 5.0];
+    let certificate = Certificate::make(&robot, &[], &program, ScalarType::F32, &limits, &scales);
+    certificate.check(&robot).unwrap();
+    let attack = attack(&certificate, 4000, 3, 2).unwrap();
+    assert_eq!(attack.violation, None);
+    for (bound, seen) in certificate.bounds.iter().zip(&attack.observed) {
+        assert_eq!(bound.model, 0.0);
+        let total = bound.total();
+        assert!(total <= 30.0 * seen, "{total} {seen}");
+    }
+}
+
+#[test]
+fn what_a_scalar_cannot_hold_is_found() {
+    let robot = robot();
+    let mut limits = InputBox::of(&robot).unwrap();
+    let program = exact(&robot);
+    let none = ranges(&program, ScalarType::F32, &limits, 8).findings;
+    assert_eq!(none, []);
+    for rate in &mut limits.velocity {
+        *rate = dalembert_codegen::certify::interval::Interval::symmetric(1e25);
+    }
+    let overflow = ranges(&program, ScalarType::F32, &limits, 8).findings;
+    assert!(matches!(overflow[0], Finding::Overflow { .. }) && overflow[0].is_error());
+    assert_eq!(ranges(&program, ScalarType::F64, &limits, 8).findings, []);
+}
+
+#[test]
+fn edits_and_programs_read_back() {
+    let case = case(0.1);
+    for stage in &case.pruned.stages {
+        for edit in &stage.edits {
+            let text = write_edit(edit);
+            assert_eq!(
+                read_edit(&text, &stage.program).as_ref(),
+                Ok(edit),
+                "{text}"
+            );
+        }
+        assert!(same(&stage.program, &stage.program));
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&case.certificate(ScalarType::F64).to_json()).unwrap();
+    let program = read_program(json["emitted"].as_str().unwrap()).unwrap();
+    assert_eq!(program, case.pruned.program);
+    let model: Vec<f64> = serde_json::from_value(json["model"].clone()).unwrap();
+    let bounds = case.certificate(ScalarType::F64).bounds;
+    assert!(model.iter().zip(&bounds).all(|(a, b)| *a == b.model));
+}
