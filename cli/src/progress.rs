@@ -69,10 +69,15 @@ impl Observer for Terminal {
             rounds,
             best,
         } = progress;
-        self.bar.set_length(*rounds as u64);
-        self.bar.set_position(*round as u64);
-        let best = best.map_or_else(String::new, |counts| format!(": {counts}"));
-        self.bar.set_message(format!("{function}, {part}{best}"));
+        let known = *rounds > 0;
+        self.bar.set_length(if known { *rounds as u64 } else { 1 });
+        self.bar.set_position(if known { *round as u64 } else { 0 });
+        let reached = match best {
+            Some(counts) => format!(": {counts}"),
+            None if known => String::new(),
+            None => format!(": {round} tried"),
+        };
+        self.bar.set_message(format!("{function}, {part}{reached}"));
     }
 
     fn stop(&self) -> bool {

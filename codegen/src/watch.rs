@@ -44,7 +44,8 @@ pub struct Progress {
     pub part: Part,
     /// Rounds of the part that are done.
     pub round: usize,
-    /// Its rounds at most: it ends earlier where nothing more is gained.
+    /// Its rounds at most, zero if that is not known: it ends earlier where
+    /// nothing more is gained.
     pub rounds: usize,
     /// The best program so far, once there is one.
     pub best: Option<Counts>,

@@ -113,12 +113,19 @@ fn what_the_fingerprints_find() {
 #[test]
 fn rounding_of_every_row() {
     let robot = support::robot("stanford");
-    let stanford = of("stanford", Function::InverseDynamics);
-    let errors = dalembert_codegen::explain::errors::measure(&robot, &stanford, 20);
-    assert_eq!(errors.len(), stanford.rows.len());
-    for (row, errors) in stanford.rows.iter().zip(errors) {
-        let step = row.step.key();
-        assert!(errors.normwise > 0.0 && errors.normwise < 1e3, "{step}");
-        assert!(errors.per_joint > 0.0 && errors.per_joint < 1e3, "{step}");
+    // Some symbols h_ikm and two loads c_i vanish: nothing to relate dust to.
+    for function in [Function::InverseDynamics, Function::DynamicCoefficients] {
+        let stanford = of("stanford", function);
+        let errors = dalembert_codegen::explain::errors::measure(&robot, &stanford, 20);
+        assert_eq!(errors.len(), stanford.rows.len());
+        for (row, errors) in stanford.rows.iter().zip(errors) {
+            let step = row.step.key();
+            assert!(errors.normwise > 0.0 && errors.normwise < 1e3, "{step}");
+            // Small symbols are differences of large numbers where poses are
+            // differentiated.
+            let bound = if row.step == Step::Search { 1e3 } else { 1e8 };
+            let error = errors.per_joint;
+            assert!(error > 0.0 && error < bound, "{function} {step}: {error}");
+        }
     }
 }

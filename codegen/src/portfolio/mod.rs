@@ -6,7 +6,7 @@
 
 pub mod tune;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::{Composite, Travel};
@@ -23,7 +23,7 @@ use crate::graph::{Builder, Counts, Folding, Graph, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
 use crate::trace::{Motion, trace_in};
-use crate::watch::Vigil;
+use crate::watch::{Part, Vigil};
 use tune::Tuned;
 
 /// One association of the chain formulas; all give the same values.
@@ -245,7 +245,14 @@ pub fn tuned(
 ) -> Tuned {
     let arm = skeleton(setting);
     let forms = Form::of(function);
-    let is_over = || watch.is_some_and(|watch| watch.is_over());
+    let tried = Cell::new(0);
+    let is_over = || {
+        tried.set(tried.get() + 1);
+        watch.is_some_and(|watch| {
+            watch.step(Part::Formulations, [tried.get(), 0], None);
+            watch.is_over()
+        })
+    };
     let merged = |chain: &Chain<Exact>, form: Form| {
         trace_chain(setting, function, chain, form, Folding::Semantic).0
     };
