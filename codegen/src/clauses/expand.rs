@@ -15,8 +15,8 @@ use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::emit::MathPath;
 use crate::generate::{GenerateError, Generated, Prefer, Request, generate};
 use crate::plan::{self, Plan};
-use crate::watch::Watch;
 use crate::scene;
+use crate::watch::Watch;
 
 /// The modules that an invocation asks for, or everything that is wrong with
 /// it next to modules whose functions have no bodies.

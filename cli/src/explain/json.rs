@@ -1,0 +1,112 @@
+//! The table of steps and the reasons, for programs.
+
+use dalembert_codegen::couplings::Couplings;
+use dalembert_codegen::explain::Explanation;
+use dalembert_codegen::explain::errors::Errors;
+use dalembert_codegen::explain::parameters::{Fate, LinkFate, Parameter, Together};
+use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::portfolio::Source;
+use dalembert_model::equations::Formulation;
+use dalembert_model::robot::Robot;
+use serde_json::{Map, Value, json};
+
+use super::{Measured, QUANTITIES, REASONS, tally};
+use crate::{count, table3};
+
+/// Everything.
+pub fn write(robot: &Robot, states: usize, explanations: &[Measured]) -> Value {
+    let functions: Map<String, Value> = explanations
+        .iter()
+        .map(|(e, errors)| (e.function.to_string(), explanation_json(robot, e, errors)))
+        .collect();
+    let couplings = explanations.iter().find_map(|(e, _)| e.couplings.as_ref());
+    json!({
+        "robot": robot.name,
+        "input": robot.short_hash(),
+        "states": states,
+        "functions": functions,
+        "coefficients": couplings.map(coefficients_json),
+    })
+}
+
+fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Value {
+    let mut rows = Vec::new();
+    if explanation.function == Function::InverseDynamics {
+        let [mul, add] = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
+        rows.push(json!({ "step": "lagrange_euler_table3", "mul": mul, "add": add }));
+    }
+    for (row, errors) in explanation.rows.iter().zip(errors) {
+        let mut value = json!({ "step": row.step.key() });
+        if let (Value::Object(value), Value::Object(counts)) =
+            (&mut value, count::counts(&row.counts))
+        {
+            value.extend(counts);
+        }
+        value["normwise_u"] = json!(errors.normwise);
+        value["per_joint_u"] = json!(errors.per_joint);
+        rows.push(value);
+    }
+    let merged = explanation.merged.iter().map(|(formulation, merged)| {
+        json!({
+            "formulation": Source::Textbook(*formulation).name(),
+            "operations": merged.operations,
+            "vanish": merged.vanish,
+            "constant": merged.constant,
+            "repeat": merged.repeat,
+        })
+    });
+    let links = explanation.parameters.links.iter().map(link_json);
+    json!({
+        "rows": rows,
+        "fingerprints": merged.collect::<Vec<_>>(),
+        "unit_of_length": explanation.parameters.unit,
+        "links": links.collect::<Vec<_>>(),
+    })
+}
+
+fn link_json(link: &LinkFate) -> Value {
+    let object = |list: Vec<(Parameter, f64)>| -> Map<String, Value> {
+        let entries = list.into_iter();
+        entries
+            .map(|(p, value)| (p.to_string(), json!(value)))
+            .collect()
+    };
+    let with = |fate: Fate| {
+        let chosen = link.left.iter().filter(|(_, _, f)| *f == fate);
+        object(chosen.map(|(p, value, _)| (*p, *value)).collect())
+    };
+    json!({
+        "joint": link.joint + 1,
+        "moved_to_the_link_before": object(link.moved.clone()),
+        "left": with(Fate::Stays),
+        "without_effect": with(Fate::NoEffect),
+        "together": link.together.map(|together| match together {
+            Together::Sum => "sum",
+            Together::Difference => "difference",
+        }),
+        "origin": link.origin,
+        "spins_freely": link.spins_freely,
+    })
+}
+
+fn coefficients_json(couplings: &Couplings) -> Value {
+    let of = |(quantity, key): (Quantity, &str)| {
+        let summary = couplings.summary(quantity);
+        let reasons: Map<String, Value> = REASONS
+            .into_iter()
+            .filter_map(|reason| {
+                let [zero, repeats] = tally(couplings, quantity, reason);
+                let counts = json!({ "zero": zero, "repeats": repeats });
+                (zero + repeats > 0).then(|| (reason.name().to_owned(), counts))
+            })
+            .collect();
+        let value = json!({
+            "total": summary.total,
+            "zero": summary.zero,
+            "distinct": summary.distinct,
+            "reasons": reasons,
+        });
+        (key.to_owned(), value)
+    };
+    QUANTITIES.into_iter().map(of).collect::<Map<_, _>>().into()
+}

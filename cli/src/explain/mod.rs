@@ -1,0 +1,77 @@
+//! `dalembert explain`: what each step brought, and why.
+//!
+//! - this file: what is measured and counted
+//! - [`text`]: the table and the reasons for readers
+//! - [`json`]: the same for programs
+
+mod json;
+mod text;
+
+use dalembert_codegen::couplings::{Couplings, Finding, Reason};
+use dalembert_codegen::explain::errors::{self, Errors};
+use dalembert_codegen::explain::{Explanation, explain};
+use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::generate::Request;
+use dalembert_codegen::plan;
+
+use crate::args::ExplainArgs;
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output, progress};
+
+/// One function with what rounding costs each of its rows.
+type Measured = (Explanation, Vec<Errors>);
+
+/// Runs the subcommand.
+pub fn run(args: &ExplainArgs) -> Outcome {
+    let robot = input::robot(&args.robot)?;
+    let mut request = Request {
+        effort: args.effort,
+        plan: plan::file::beside(&args.robot)
+            .map_err(|message| Failure::Input(format!("error: {message}")))?,
+        ..Request::default()
+    };
+    let session = progress::watch(&mut request);
+    let functions = match args.outputs.as_slice() {
+        [] => vec![Function::InverseDynamics],
+        chosen => chosen.to_vec(),
+    };
+    let mut explanations = Vec::new();
+    for function in functions {
+        let explanation = explain(&robot, function, &request)?;
+        let errors = errors::measure(&robot, &explanation, args.states);
+        explanations.push((explanation, errors));
+    }
+    drop(session);
+    if args.json {
+        output::print_json(&json::write(&robot, args.states, &explanations))
+    } else {
+        output::print(&text::write(&robot, args.states, &explanations))
+    }
+}
+
+const QUANTITIES: [(Quantity, &str); 3] = [
+    (Quantity::Inertia, "D"),
+    (Quantity::Christoffel, "h"),
+    (Quantity::Gravity, "c"),
+];
+
+const REASONS: [Reason; 5] = [
+    Reason::OwnSquare,
+    Reason::OwnProduct,
+    Reason::Prismatic,
+    Reason::Antisymmetry,
+    Reason::Geometry,
+];
+
+/// How many coefficients of a quantity vanish, and repeat, for a reason.
+fn tally(couplings: &Couplings, quantity: Quantity, wanted: Reason) -> [usize; 2] {
+    let mut tally = [0, 0];
+    for entry in couplings.entries.iter().filter(|e| e.quantity == quantity) {
+        match entry.finding {
+            Finding::Zero(reason) if reason == wanted => tally[0] += 1,
+            Finding::Repeats { reason, .. } if reason == wanted => tally[1] += 1,
+            _ => {}
+        }
+    }
+    tally
+}
