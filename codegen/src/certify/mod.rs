@@ -1,10 +1,16 @@
 //! Certificates: how far emitted code can be from the full model, proved.
 //!
 //! - [`interval`], [`trig`]: doubles rounded outward
-//! - [`input_box`]: the states for which a bound holds
+//! - [`input_box`]: the states for which a bound holds; [`scale`]: what errors
+//!   are relative to
 //! - [`edits`]: what was left out, and the program of its error
-//! - [`form`]: a program over a sub-box as polynomials in the rates
-//! - [`bound`]: branch and bound over the positions
+//! - [`bound`]: the largest magnitude of a program over a box: written out as
+//!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
+//!   and bound over polynomials in the rates ([`form`])
+//! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become
+//! - [`prune`]: the cheapest edits that a certificate admits
+//! - [`certificate`]: the claim and its check; [`json`]: its text
+//! - [`sample`], [`attack`]: attempts to refute it
 
 pub mod attack;
 pub mod bound;

@@ -89,9 +89,9 @@ impl Nodes {
     pub(super) fn run(&self, edits: &[Option<Value>]) -> Vec<f64> {
         let m = self.samples;
         let mut columns = vec![0.0; self.len() * m];
-        for node in 0..self.len() {
+        for (node, &edit) in edits.iter().enumerate() {
             let (before, rest) = columns.split_at_mut(node * m);
-            self.node(node, edits[node], before, &mut rest[..m]);
+            self.node(node, edit, before, &mut rest[..m]);
         }
         columns
     }

@@ -13,8 +13,8 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
     let inputs = nodes.inputs.len();
     let Scratch { folded, live } = scratch;
     folded.clear();
-    for node in 0..nodes.len() {
-        let value = match edits[node] {
+    for (node, &edit) in edits.iter().enumerate() {
+        let value = match edit {
             Some(Value::Known(c)) => Folded::alias(Value::Known(c)),
             Some(Value::Node(other, negative)) => {
                 Folded::alias(signed(folded[other as usize].value, negative))

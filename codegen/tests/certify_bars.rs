@@ -1,0 +1,57 @@
+//! Bars of the PUMA's certified trade. They only ever go down.
+//!
+//! Minutes without optimisation, so they run in release only.
+
+mod support;
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::certify::prune::{Settings, prune};
+use dalembert_codegen::certify::scale;
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::Start;
+
+fn bar(tolerance: f64, operations: usize) {
+    let robot = support::robot("puma560");
+    let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
+    let program = &generated.functions[0].program;
+    let limits = InputBox::of(&robot).unwrap();
+    let scales = scale::actuator(&robot, program).unwrap();
+    let allowances: Vec<f64> = scales.iter().map(|t| t * tolerance).collect();
+    let settings = Settings {
+        retries: 4,
+        ..Settings::default()
+    };
+    let pruned = prune(program, &limits, &allowances, &settings);
+    let counts = pruned.program.counts();
+    assert!(counts.operations() <= operations, "{counts}");
+    let certificate = Certificate::make(
+        &robot,
+        &pruned.stages,
+        &pruned.program,
+        ScalarType::F64,
+        &limits,
+        &scales,
+    );
+    certificate.check(&robot).unwrap();
+    let attack = attack(&certificate, 20_000, 4, 7).unwrap();
+    assert_eq!(attack.violation, None);
+    let worst = |values: Vec<f64>| values.into_iter().fold(0.0, f64::max);
+    let model = worst(certificate.bounds.iter().map(|b| b.model).collect());
+    let seen = worst(attack.observed);
+    assert!(model <= tolerance && model <= 3.0 * seen, "{model} {seen}");
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+fn puma_at_five_percent() {
+    bar(5e-2, 105);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+fn puma_at_one_percent() {
+    bar(1e-2, 150);
+}
