@@ -1,5 +1,5 @@
-//! What is generated and checked in is what the generator writes, byte for
-//! byte: the robots' source, and the code and counts in the README.
+//! What is generated and checked in is what the generator writes from the plans
+//! beside the robots, byte for byte: the robots' source, and the code and counts in the README.
 //!
 //! What differs is written anew before the test fails, so that running it once
 //! more is all that a change of the generator takes; the difference is then in
@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::plan;
 use dalembert_model::read;
 
 fn root() -> &'static Path {
@@ -44,7 +45,11 @@ fn checked_in_code_is_up_to_date() {
     for (name, file) in robots {
         let source = fs::read_to_string(&file).unwrap();
         let reading = read::parse(&source, &read::Options::default()).unwrap();
-        let generated = generate(&reading.robot, &Request::default()).unwrap();
+        let request = Request {
+            plan: plan::file::beside(&file).unwrap(),
+            ..Request::default()
+        };
+        let generated = generate(&reading.robot, &request).unwrap();
         let output = file.with_extension("rs");
         if !keep(&output, &generated.text) {
             stale.push(output);

@@ -31,7 +31,7 @@ fn json_says_the_same() {
     assert_eq!(json["passed"], true);
     let rows = json["rows"].as_array().unwrap();
     // Scalars and codes of each category.
-    assert!(rows.len() > 80 && rows.len() % 4 == 0);
+    assert!(rows.len() > 80 && rows.len().is_multiple_of(4));
     for row in rows {
         assert_eq!(row["verdict"], "ok");
         let joints = if row["category"] == "chain of 20 joints" {

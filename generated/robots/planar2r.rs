@@ -48,16 +48,16 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
     let t11 = t10 * 0.3333333333333333;
     let t12 = t11 + t9;
     let t13 = qd[0] + qd[1];
-    let t14 = t13 * t13;
-    let t15 = s2 * t14;
+    let t14 = s2 * t13;
+    let t15 = t13 * t14;
     let t16 = t10 * c2;
-    let t17 = t15 - t16;
+    let t17 = t16 - t15;
     let t18 = t17 * 0.5;
-    let t19 = t12 - t18;
-    let t20 = qdd[0] * 1.3333333333333333;
+    let t19 = qdd[0] * 1.3333333333333333;
+    let t20 = t18 + t19;
     let t21 = c1 * 14.715;
-    let t22 = t20 + t21;
-    let t23 = t19 + t22;
+    let t22 = t21 + t20;
+    let t23 = t12 + t22;
     [t23, t12]
 }
 
@@ -105,8 +105,8 @@ pub fn coriolis(q: &[f64; 2], qd: &[f64; 2]) -> [f64; 2] {
     let t2 = t1 * t1;
     let t3 = s2 * 0.5;
     let t4 = t3 * t2;
-    let t5 = qd[0] * qd[0];
-    let t6 = t3 * t5;
+    let t5 = t3 * qd[0];
+    let t6 = qd[0] * t5;
     let t7 = t6 - t4;
     [t7, t6]
 }
@@ -133,13 +133,13 @@ pub fn manipulator_equation(q: &[f64; 2], qd: &[f64; 2]) -> ManipulatorEquation 
     let t1 = c2 + 1.6666666666666667;
     let t2 = c2 * 0.5;
     let t3 = t2 + 0.3333333333333333;
-    let t4 = qd[0] + qd[1];
+    let t4 = qd[1] + qd[0];
     let t5 = t4 * t4;
-    let t6 = s2 * 0.5;
-    let t7 = t6 * t5;
-    let t8 = t6 * qd[0];
-    let t9 = qd[0] * t8;
-    let t10 = t9 - t7;
+    let t6 = qd[0] * qd[0];
+    let t7 = t5 - t6;
+    let t8 = s2 * 0.5;
+    let t9 = t7 * t8;
+    let t10 = t6 * t8;
     let t11 = s2 * s1;
     let t12 = c2 * c1;
     let t13 = t11 - t12;
@@ -151,7 +151,7 @@ pub fn manipulator_equation(q: &[f64; 2], qd: &[f64; 2]) -> ManipulatorEquation 
             [t1, t3],
             [t3, 0.3333333333333333],
         ],
-        h: [t10, t9],
+        h: [-t9, t10],
         c: [-t16, -t14],
     }
 }
@@ -253,16 +253,16 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
     let t11 = t10 * 0.33333334;
     let t12 = t11 + t9;
     let t13 = qd[0] + qd[1];
-    let t14 = t13 * t13;
-    let t15 = s2 * t14;
+    let t14 = s2 * t13;
+    let t15 = t13 * t14;
     let t16 = t10 * c2;
-    let t17 = t15 - t16;
+    let t17 = t16 - t15;
     let t18 = t17 * 0.5;
-    let t19 = t12 - t18;
-    let t20 = qdd[0] * 1.3333334;
+    let t19 = qdd[0] * 1.3333334;
+    let t20 = t18 + t19;
     let t21 = c1 * 14.715;
-    let t22 = t20 + t21;
-    let t23 = t19 + t22;
+    let t22 = t21 + t20;
+    let t23 = t12 + t22;
     [t23, t12]
 }
 
@@ -310,8 +310,8 @@ pub fn coriolis(q: &[f32; 2], qd: &[f32; 2]) -> [f32; 2] {
     let t2 = t1 * t1;
     let t3 = s2 * 0.5;
     let t4 = t3 * t2;
-    let t5 = qd[0] * qd[0];
-    let t6 = t3 * t5;
+    let t5 = t3 * qd[0];
+    let t6 = qd[0] * t5;
     let t7 = t6 - t4;
     [t7, t6]
 }
@@ -338,13 +338,13 @@ pub fn manipulator_equation(q: &[f32; 2], qd: &[f32; 2]) -> ManipulatorEquation 
     let t1 = c2 + 1.6666666;
     let t2 = c2 * 0.5;
     let t3 = t2 + 0.33333334;
-    let t4 = qd[0] + qd[1];
+    let t4 = qd[1] + qd[0];
     let t5 = t4 * t4;
-    let t6 = s2 * 0.5;
-    let t7 = t6 * t5;
-    let t8 = t6 * qd[0];
-    let t9 = qd[0] * t8;
-    let t10 = t9 - t7;
+    let t6 = qd[0] * qd[0];
+    let t7 = t5 - t6;
+    let t8 = s2 * 0.5;
+    let t9 = t7 * t8;
+    let t10 = t6 * t8;
     let t11 = s2 * s1;
     let t12 = c2 * c1;
     let t13 = t11 - t12;
@@ -356,7 +356,7 @@ pub fn manipulator_equation(q: &[f32; 2], qd: &[f32; 2]) -> ManipulatorEquation 
             [t1, t3],
             [t3, 0.33333334],
         ],
-        h: [t10, t9],
+        h: [-t9, t10],
         c: [-t16, -t14],
     }
 }

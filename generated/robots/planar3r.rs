@@ -13,12 +13,12 @@
 ///
 /// | function | mul | add | sincos | from |
 /// |---|---|---|---|---|
-/// | `inverse_dynamics` | 27 | 23 | 3 | regrouped |
-/// | `gravity` | 11 | 5 | 3 | regrouped |
+/// | `inverse_dynamics` | 26 | 24 | 3 | regrouped |
+/// | `gravity` | 9 | 5 | 3 | regrouped |
 /// | `inertia` | 5 | 8 | 2 | regrouped |
 /// | `coriolis` | 15 | 9 | 2 | regrouped |
-/// | `manipulator_equation` | 30 | 22 | 3 | regrouped |
-/// | `dynamic_coefficients` | 19 | 17 | 3 | regrouped |
+/// | `manipulator_equation` | 28 | 22 | 3 | regrouped |
+/// | `dynamic_coefficients` | 17 | 16 | 3 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
 /// the equations of motion at random points of a prime field, and this text, read
@@ -30,92 +30,90 @@ pub const N: usize = 3;
 
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
-/// 27 mul, 23 add, 3 sincos.
+/// 26 mul, 24 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 14, chance of a miss below 1e-47).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3]) -> [f64; 3] {
     let (s1, c1) = libm::sincos(q[0]);
     let (s2, c2) = libm::sincos(q[1]);
     let (s3, c3) = libm::sincos(q[2]);
-    let t1 = qd[0] * qd[0];
-    let t2 = s1 * 9.81;
+    let t1 = s1 * 9.81;
+    let t2 = qd[0] * qd[0];
     let t3 = t1 - t2;
-    let t4 = c2 * t3;
+    let t4 = t3 * c2;
     let t5 = c1 * 9.81;
-    let t6 = qdd[0] + t5;
-    let t7 = t6 * s2;
-    let t8 = t4 - t7;
+    let t6 = t5 + qdd[0];
+    let t7 = s2 * t6;
+    let t8 = t4 + t7;
     let t9 = qd[0] + qd[1];
     let t10 = t9 * t9;
-    let t11 = t8 + t10;
-    let t12 = t11 * s3;
+    let t11 = t8 - t10;
+    let t12 = s3 * t11;
     let t13 = t3 * s2;
-    let t14 = t6 * c2;
-    let t15 = t14 + t13;
-    let t16 = qdd[1] + qdd[0];
-    let t17 = t16 + t15;
+    let t14 = qdd[0] + qdd[1];
+    let t15 = t13 - t14;
+    let t16 = c2 * t6;
+    let t17 = t15 - t16;
     let t18 = t17 * c3;
-    let t19 = t18 + t12;
+    let t19 = t12 + t18;
     let t20 = t19 * 0.5;
-    let t21 = qdd[2] + t16;
-    let t22 = t21 * 0.3333333333333333;
-    let t23 = t22 + t20;
-    let t24 = t9 + qd[2];
-    let t25 = t24 * t24;
-    let t26 = t25 * 0.5;
-    let t27 = s3 * t26;
-    let t28 = t21 * 0.5;
-    let t29 = c3 * t28;
-    let t30 = t27 - t29;
-    let t31 = t23 - t30;
-    let t32 = t15 * 1.5;
-    let t33 = t16 * 1.3333333333333333;
-    let t34 = t33 + t32;
-    let t35 = t31 + t34;
-    let t36 = c3 * t26;
-    let t37 = s3 * t28;
-    let t38 = t36 + t37;
-    let t39 = t10 * 1.5;
-    let t40 = t38 + t39;
-    let t41 = s2 * t40;
-    let t42 = t16 * 1.5;
-    let t43 = t30 - t42;
-    let t44 = c2 * t43;
-    let t45 = t41 + t44;
-    let t46 = t35 - t45;
-    let t47 = qdd[0] * 2.3333333333333335;
-    let t48 = c1 * 24.525;
-    let t49 = t47 + t48;
-    let t50 = t46 + t49;
-    [t50, t35, t23]
+    let t21 = t14 + qdd[2];
+    let t22 = t21 * 0.5;
+    let t23 = t20 - t22;
+    let t24 = t19 + t23;
+    let t25 = s3 * t24;
+    let t26 = t11 * c3;
+    let t27 = s3 * t17;
+    let t28 = t27 - t26;
+    let t29 = t28 * 1.5;
+    let t30 = t9 + qd[2];
+    let t31 = t30 * 0.5;
+    let t32 = t30 * t31;
+    let t33 = t32 + t29;
+    let t34 = c3 * t33;
+    let t35 = t25 - t34;
+    let t36 = s2 * t35;
+    let t37 = c3 * t24;
+    let t38 = s3 * t33;
+    let t39 = t37 + t38;
+    let t40 = c2 * t39;
+    let t41 = t36 - t40;
+    let t42 = t5 + t41;
+    let t43 = t14 * 0.16666666666666666;
+    let t44 = t39 + t43;
+    let t45 = t21 * 0.3333333333333333;
+    let t46 = t20 - t45;
+    let t47 = t46 + t44;
+    let t48 = t42 - t47;
+    let t49 = qdd[0] * 0.8333333333333334;
+    let t50 = t48 + t49;
+    [t50, -t47, -t46]
 }
 
 /// Gravity load c(q): the torques that hold the arm still.
 ///
-/// 11 mul, 5 add, 3 sincos.
+/// 9 mul, 5 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 6, chance of a miss below 1e-50).
 #[must_use]
 pub fn gravity(q: &[f64; 3]) -> [f64; 3] {
     let (s1, c1) = libm::sincos(q[0]);
     let (s2, c2) = libm::sincos(q[1]);
     let (s3, c3) = libm::sincos(q[2]);
-    let t1 = c1 * 9.81;
-    let t2 = c2 * t1;
-    let t3 = s1 * 9.81;
-    let t4 = s2 * t3;
-    let t5 = t2 - t4;
-    let t6 = c3 * t5;
-    let t7 = c2 * t3;
-    let t8 = t1 * s2;
-    let t9 = t7 + t8;
-    let t10 = s3 * t9;
-    let t11 = t6 - t10;
-    let t12 = t11 * 0.5;
-    let t13 = t5 * 1.5;
-    let t14 = t12 + t13;
-    let t15 = c1 * 24.525;
-    let t16 = t14 + t15;
-    [t16, t14, t12]
+    let t1 = s2 * c1;
+    let t2 = s1 * c2;
+    let t3 = t1 + t2;
+    let t4 = s3 * t3;
+    let t5 = s2 * s1;
+    let t6 = c1 * c2;
+    let t7 = t5 - t6;
+    let t8 = c3 * t7;
+    let t9 = t4 + t8;
+    let t10 = t9 * 4.905;
+    let t11 = t7 * 14.715;
+    let t12 = t10 + t11;
+    let t13 = c1 * 24.525;
+    let t14 = t12 - t13;
+    [-t14, -t12, -t10]
 }
 
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
@@ -126,23 +124,23 @@ pub fn gravity(q: &[f64; 3]) -> [f64; 3] {
 pub fn inertia(q: &[f64; 3]) -> [[f64; 3]; 3] {
     let (s2, c2) = libm::sincos(q[1]);
     let (s3, c3) = libm::sincos(q[2]);
-    let t1 = c3 * 0.5;
-    let t2 = c2 * t1;
-    let t3 = s3 * 0.5;
-    let t4 = s2 * t3;
+    let t1 = s2 * 0.5;
+    let t2 = s3 * t1;
+    let t3 = c3 * 0.5;
+    let t4 = t3 * c2;
     let t5 = t2 - t4;
     let t6 = c2 * 1.5;
-    let t7 = t6 + t5;
+    let t7 = t5 - t6;
     let t8 = c3 + 1.6666666666666667;
-    let t9 = t8 + t7;
-    let t10 = t9 + 2.3333333333333335;
-    let t11 = t7 + t10;
-    let t12 = t1 + 0.3333333333333333;
-    let t13 = t5 + t12;
+    let t9 = t7 - t8;
+    let t10 = 2.3333333333333335 - t7;
+    let t11 = t10 - t9;
+    let t12 = t3 + 0.3333333333333333;
+    let t13 = t5 - t12;
     [
-        [t11, t9, t13],
-        [t9, t8, t12],
-        [t13, t12, 0.3333333333333333],
+        [t11, -t9, -t13],
+        [-t9, t8, t12],
+        [-t13, t12, 0.3333333333333333],
     ]
 }
 
@@ -154,31 +152,31 @@ pub fn inertia(q: &[f64; 3]) -> [[f64; 3]; 3] {
 pub fn coriolis(q: &[f64; 3], qd: &[f64; 3]) -> [f64; 3] {
     let (s2, c2) = libm::sincos(q[1]);
     let (s3, c3) = libm::sincos(q[2]);
-    let t1 = qd[0] + qd[1];
+    let t1 = qd[1] + qd[0];
     let t2 = t1 * t1;
     let t3 = qd[0] * qd[0];
     let t4 = t3 * c2;
-    let t5 = t4 + t2;
-    let t6 = t5 * s3;
-    let t7 = t3 * s2;
-    let t8 = t7 * c3;
+    let t5 = t2 + t4;
+    let t6 = s3 * t5;
+    let t7 = s2 * t3;
+    let t8 = c3 * t7;
     let t9 = t8 + t6;
     let t10 = t9 * 0.5;
-    let t11 = t1 + qd[2];
+    let t11 = qd[2] + t1;
     let t12 = t11 * t11;
     let t13 = t12 * 0.5;
-    let t14 = s3 * t13;
-    let t15 = t10 - t14;
-    let t16 = t7 * 1.5;
-    let t17 = t15 + t16;
+    let t14 = t13 * s3;
+    let t15 = t7 * 1.5;
+    let t16 = t15 - t14;
+    let t17 = t16 + t10;
     let t18 = c3 * t13;
     let t19 = t2 * 1.5;
     let t20 = t18 + t19;
-    let t21 = s2 * t20;
-    let t22 = c2 * t14;
-    let t23 = t21 + t22;
-    let t24 = t17 - t23;
-    [t24, t17, t10]
+    let t21 = t20 * s2;
+    let t22 = t21 - t17;
+    let t23 = t14 * c2;
+    let t24 = t22 + t23;
+    [-t24, t17, t10]
 }
 
 /// What [`manipulator_equation`] returns.
@@ -194,7 +192,7 @@ pub struct ManipulatorEquation {
 
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
-/// 30 mul, 22 add, 3 sincos.
+/// 28 mul, 22 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 14, chance of a miss below 1e-46).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 3], qd: &[f64; 3]) -> ManipulatorEquation {
@@ -224,35 +222,33 @@ pub fn manipulator_equation(q: &[f64; 3], qd: &[f64; 3]) -> ManipulatorEquation 
     let t21 = c3 * t20;
     let t22 = t21 + t19;
     let t23 = t22 * 0.5;
-    let t24 = t14 + qd[2];
-    let t25 = t24 * t24;
-    let t26 = t3 * t25;
-    let t27 = t23 - t26;
-    let t28 = t20 * 1.5;
-    let t29 = t27 + t28;
-    let t30 = t1 * t25;
-    let t31 = t15 * 1.5;
-    let t32 = t30 + t31;
-    let t33 = s2 * t32;
-    let t34 = c2 * t26;
-    let t35 = t33 + t34;
-    let t36 = t29 - t35;
-    let t37 = c1 * 9.81;
-    let t38 = c2 * t37;
-    let t39 = s1 * 9.81;
-    let t40 = s2 * t39;
-    let t41 = t38 - t40;
-    let t42 = c3 * t41;
-    let t43 = c2 * t39;
-    let t44 = s2 * t37;
-    let t45 = t43 + t44;
-    let t46 = s3 * t45;
-    let t47 = t42 - t46;
-    let t48 = t47 * 0.5;
-    let t49 = t41 * 1.5;
-    let t50 = t48 + t49;
-    let t51 = c1 * 24.525;
-    let t52 = t50 + t51;
+    let t24 = t20 * 1.5;
+    let t25 = t24 + t23;
+    let t26 = t14 + qd[2];
+    let t27 = t26 * t26;
+    let t28 = t3 * t27;
+    let t29 = t25 - t28;
+    let t30 = c2 * t28;
+    let t31 = t29 - t30;
+    let t32 = t1 * t27;
+    let t33 = t15 * 1.5;
+    let t34 = t32 + t33;
+    let t35 = s2 * t34;
+    let t36 = t31 - t35;
+    let t37 = s2 * s1;
+    let t38 = c2 * c1;
+    let t39 = t37 - t38;
+    let t40 = c3 * t39;
+    let t41 = s2 * c1;
+    let t42 = c2 * s1;
+    let t43 = t41 + t42;
+    let t44 = s3 * t43;
+    let t45 = t40 + t44;
+    let t46 = t45 * 4.905;
+    let t47 = t39 * 14.715;
+    let t48 = t46 + t47;
+    let t49 = c1 * 24.525;
+    let t50 = t48 - t49;
     ManipulatorEquation {
         d: [
             [t11, t9, t13],
@@ -260,7 +256,7 @@ pub fn manipulator_equation(q: &[f64; 3], qd: &[f64; 3]) -> ManipulatorEquation 
             [t13, t12, 0.3333333333333333],
         ],
         h: [t36, t29, t23],
-        c: [t52, t50, t48],
+        c: [-t50, -t48, -t46],
     }
 }
 
@@ -277,73 +273,70 @@ pub struct DynamicCoefficients {
 
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
-/// 19 mul, 17 add, 3 sincos.
+/// 17 mul, 16 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 12, chance of a miss below 1e-46).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 3]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincos(q[0]);
     let (s2, c2) = libm::sincos(q[1]);
     let (s3, c3) = libm::sincos(q[2]);
-    let t1 = c3 * 0.5;
-    let t2 = t1 + 1.5;
-    let t3 = c2 * t2;
-    let t4 = s3 * 0.5;
-    let t5 = s2 * t4;
-    let t6 = t3 - t5;
-    let t7 = c3 + 1.6666666666666667;
-    let t8 = t7 + t6;
-    let t9 = t8 + 2.3333333333333335;
-    let t10 = t6 + t9;
-    let t11 = c2 * t1;
-    let t12 = t5 - t11;
-    let t13 = t1 + 0.3333333333333333;
-    let t14 = t13 - t12;
-    let t15 = t2 * s2;
-    let t16 = c2 * t4;
-    let t17 = t15 + t16;
-    let t18 = t1 * s2;
-    let t19 = t16 + t18;
-    let t20 = t4 + t19;
-    let t21 = c1 * 9.81;
-    let t22 = c2 * t21;
-    let t23 = s1 * 9.81;
-    let t24 = s2 * t23;
-    let t25 = t22 - t24;
-    let t26 = c3 * t25;
-    let t27 = c2 * t23;
-    let t28 = s2 * t21;
-    let t29 = t27 + t28;
-    let t30 = s3 * t29;
-    let t31 = t26 - t30;
-    let t32 = t31 * 0.5;
-    let t33 = t25 * 1.5;
-    let t34 = t32 + t33;
-    let t35 = c1 * 24.525;
-    let t36 = t34 + t35;
+    let t1 = s3 * 0.5;
+    let t2 = t1 * s2;
+    let t3 = c3 * 0.5;
+    let t4 = t3 * c2;
+    let t5 = t2 - t4;
+    let t6 = c2 * 1.5;
+    let t7 = t5 - t6;
+    let t8 = c3 + 1.6666666666666667;
+    let t9 = t7 - t8;
+    let t10 = t7 + t9;
+    let t11 = t10 - 2.3333333333333335;
+    let t12 = t3 + 0.3333333333333333;
+    let t13 = t5 - t12;
+    let t14 = t1 * c2;
+    let t15 = s2 * t3;
+    let t16 = t14 + t15;
+    let t17 = s2 * 1.5;
+    let t18 = t16 + t17;
+    let t19 = t1 + t16;
+    let t20 = s2 * s1;
+    let t21 = c2 * c1;
+    let t22 = t20 - t21;
+    let t23 = c3 * t22;
+    let t24 = s2 * c1;
+    let t25 = c2 * s1;
+    let t26 = t24 + t25;
+    let t27 = s3 * t26;
+    let t28 = t23 + t27;
+    let t29 = t28 * 4.905;
+    let t30 = t22 * 14.715;
+    let t31 = t30 + t29;
+    let t32 = c1 * 24.525;
+    let t33 = t32 - t31;
     DynamicCoefficients {
         d: [
-            [t10, t8, t14],
-            [t8, t7, t13],
-            [t14, t13, 0.3333333333333333],
+            [-t11, -t9, -t13],
+            [-t9, t8, t12],
+            [-t13, t12, 0.3333333333333333],
         ],
         h: [
             [
-                [0.0, -t17, -t20],
-                [-t17, -t17, -t20],
-                [-t20, -t20, -t20],
+                [0.0, -t18, -t19],
+                [-t18, -t18, -t19],
+                [-t19, -t19, -t19],
             ],
             [
-                [t17, 0.0, -t4],
-                [0.0, 0.0, -t4],
-                [-t4, -t4, -t4],
+                [t18, 0.0, -t1],
+                [0.0, 0.0, -t1],
+                [-t1, -t1, -t1],
             ],
             [
-                [t20, t4, 0.0],
-                [t4, t4, 0.0],
+                [t19, t1, 0.0],
+                [t1, t1, 0.0],
                 [0.0, 0.0, 0.0],
             ],
         ],
-        c: [t36, t34, t32],
+        c: [t33, -t31, -t29],
     }
 }
 }
@@ -361,12 +354,12 @@ pub fn dynamic_coefficients(q: &[f64; 3]) -> DynamicCoefficients {
 ///
 /// | function | mul | add | sincos | from |
 /// |---|---|---|---|---|
-/// | `inverse_dynamics` | 27 | 23 | 3 | regrouped |
-/// | `gravity` | 11 | 5 | 3 | regrouped |
+/// | `inverse_dynamics` | 26 | 24 | 3 | regrouped |
+/// | `gravity` | 9 | 5 | 3 | regrouped |
 /// | `inertia` | 5 | 8 | 2 | regrouped |
 /// | `coriolis` | 15 | 9 | 2 | regrouped |
-/// | `manipulator_equation` | 30 | 22 | 3 | regrouped |
-/// | `dynamic_coefficients` | 19 | 17 | 3 | regrouped |
+/// | `manipulator_equation` | 28 | 22 | 3 | regrouped |
+/// | `dynamic_coefficients` | 17 | 16 | 3 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
 /// the equations of motion at random points of a prime field, and this text, read
@@ -378,92 +371,90 @@ pub const N: usize = 3;
 
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
-/// 27 mul, 23 add, 3 sincos.
+/// 26 mul, 24 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 14, chance of a miss below 1e-47).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 3], qd: &[f32; 3], qdd: &[f32; 3]) -> [f32; 3] {
     let (s1, c1) = libm::sincosf(q[0]);
     let (s2, c2) = libm::sincosf(q[1]);
     let (s3, c3) = libm::sincosf(q[2]);
-    let t1 = qd[0] * qd[0];
-    let t2 = s1 * 9.81;
+    let t1 = s1 * 9.81;
+    let t2 = qd[0] * qd[0];
     let t3 = t1 - t2;
-    let t4 = c2 * t3;
+    let t4 = t3 * c2;
     let t5 = c1 * 9.81;
-    let t6 = qdd[0] + t5;
-    let t7 = t6 * s2;
-    let t8 = t4 - t7;
+    let t6 = t5 + qdd[0];
+    let t7 = s2 * t6;
+    let t8 = t4 + t7;
     let t9 = qd[0] + qd[1];
     let t10 = t9 * t9;
-    let t11 = t8 + t10;
-    let t12 = t11 * s3;
+    let t11 = t8 - t10;
+    let t12 = s3 * t11;
     let t13 = t3 * s2;
-    let t14 = t6 * c2;
-    let t15 = t14 + t13;
-    let t16 = qdd[1] + qdd[0];
-    let t17 = t16 + t15;
+    let t14 = qdd[0] + qdd[1];
+    let t15 = t13 - t14;
+    let t16 = c2 * t6;
+    let t17 = t15 - t16;
     let t18 = t17 * c3;
-    let t19 = t18 + t12;
+    let t19 = t12 + t18;
     let t20 = t19 * 0.5;
-    let t21 = qdd[2] + t16;
-    let t22 = t21 * 0.33333334;
-    let t23 = t22 + t20;
-    let t24 = t9 + qd[2];
-    let t25 = t24 * t24;
-    let t26 = t25 * 0.5;
-    let t27 = s3 * t26;
-    let t28 = t21 * 0.5;
-    let t29 = c3 * t28;
-    let t30 = t27 - t29;
-    let t31 = t23 - t30;
-    let t32 = t15 * 1.5;
-    let t33 = t16 * 1.3333334;
-    let t34 = t33 + t32;
-    let t35 = t31 + t34;
-    let t36 = c3 * t26;
-    let t37 = s3 * t28;
-    let t38 = t36 + t37;
-    let t39 = t10 * 1.5;
-    let t40 = t38 + t39;
-    let t41 = s2 * t40;
-    let t42 = t16 * 1.5;
-    let t43 = t30 - t42;
-    let t44 = c2 * t43;
-    let t45 = t41 + t44;
-    let t46 = t35 - t45;
-    let t47 = qdd[0] * 2.3333333;
-    let t48 = c1 * 24.525;
-    let t49 = t47 + t48;
-    let t50 = t46 + t49;
-    [t50, t35, t23]
+    let t21 = t14 + qdd[2];
+    let t22 = t21 * 0.5;
+    let t23 = t20 - t22;
+    let t24 = t19 + t23;
+    let t25 = s3 * t24;
+    let t26 = t11 * c3;
+    let t27 = s3 * t17;
+    let t28 = t27 - t26;
+    let t29 = t28 * 1.5;
+    let t30 = t9 + qd[2];
+    let t31 = t30 * 0.5;
+    let t32 = t30 * t31;
+    let t33 = t32 + t29;
+    let t34 = c3 * t33;
+    let t35 = t25 - t34;
+    let t36 = s2 * t35;
+    let t37 = c3 * t24;
+    let t38 = s3 * t33;
+    let t39 = t37 + t38;
+    let t40 = c2 * t39;
+    let t41 = t36 - t40;
+    let t42 = t5 + t41;
+    let t43 = t14 * 0.16666667;
+    let t44 = t39 + t43;
+    let t45 = t21 * 0.33333334;
+    let t46 = t20 - t45;
+    let t47 = t46 + t44;
+    let t48 = t42 - t47;
+    let t49 = qdd[0] * 0.8333333;
+    let t50 = t48 + t49;
+    [t50, -t47, -t46]
 }
 
 /// Gravity load c(q): the torques that hold the arm still.
 ///
-/// 11 mul, 5 add, 3 sincos.
+/// 9 mul, 5 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 6, chance of a miss below 1e-50).
 #[must_use]
 pub fn gravity(q: &[f32; 3]) -> [f32; 3] {
     let (s1, c1) = libm::sincosf(q[0]);
     let (s2, c2) = libm::sincosf(q[1]);
     let (s3, c3) = libm::sincosf(q[2]);
-    let t1 = c1 * 9.81;
-    let t2 = c2 * t1;
-    let t3 = s1 * 9.81;
-    let t4 = s2 * t3;
-    let t5 = t2 - t4;
-    let t6 = c3 * t5;
-    let t7 = c2 * t3;
-    let t8 = t1 * s2;
-    let t9 = t7 + t8;
-    let t10 = s3 * t9;
-    let t11 = t6 - t10;
-    let t12 = t11 * 0.5;
-    let t13 = t5 * 1.5;
-    let t14 = t12 + t13;
-    let t15 = c1 * 24.525;
-    let t16 = t14 + t15;
-    [t16, t14, t12]
+    let t1 = s2 * c1;
+    let t2 = s1 * c2;
+    let t3 = t1 + t2;
+    let t4 = s3 * t3;
+    let t5 = s2 * s1;
+    let t6 = c1 * c2;
+    let t7 = t5 - t6;
+    let t8 = c3 * t7;
+    let t9 = t4 + t8;
+    let t10 = t9 * 4.905;
+    let t11 = t7 * 14.715;
+    let t12 = t10 + t11;
+    let t13 = c1 * 24.525;
+    let t14 = t12 - t13;
+    [-t14, -t12, -t10]
 }
 
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
@@ -474,23 +465,23 @@ pub fn gravity(q: &[f32; 3]) -> [f32; 3] {
 pub fn inertia(q: &[f32; 3]) -> [[f32; 3]; 3] {
     let (s2, c2) = libm::sincosf(q[1]);
     let (s3, c3) = libm::sincosf(q[2]);
-    let t1 = c3 * 0.5;
-    let t2 = c2 * t1;
-    let t3 = s3 * 0.5;
-    let t4 = s2 * t3;
+    let t1 = s2 * 0.5;
+    let t2 = s3 * t1;
+    let t3 = c3 * 0.5;
+    let t4 = t3 * c2;
     let t5 = t2 - t4;
     let t6 = c2 * 1.5;
-    let t7 = t6 + t5;
+    let t7 = t5 - t6;
     let t8 = c3 + 1.6666666;
-    let t9 = t8 + t7;
-    let t10 = t9 + 2.3333333;
-    let t11 = t7 + t10;
-    let t12 = t1 + 0.33333334;
-    let t13 = t5 + t12;
+    let t9 = t7 - t8;
+    let t10 = 2.3333333 - t7;
+    let t11 = t10 - t9;
+    let t12 = t3 + 0.33333334;
+    let t13 = t5 - t12;
     [
-        [t11, t9, t13],
-        [t9, t8, t12],
-        [t13, t12, 0.33333334],
+        [t11, -t9, -t13],
+        [-t9, t8, t12],
+        [-t13, t12, 0.33333334],
     ]
 }
 
@@ -502,31 +493,31 @@ pub fn inertia(q: &[f32; 3]) -> [[f32; 3]; 3] {
 pub fn coriolis(q: &[f32; 3], qd: &[f32; 3]) -> [f32; 3] {
     let (s2, c2) = libm::sincosf(q[1]);
     let (s3, c3) = libm::sincosf(q[2]);
-    let t1 = qd[0] + qd[1];
+    let t1 = qd[1] + qd[0];
     let t2 = t1 * t1;
     let t3 = qd[0] * qd[0];
     let t4 = t3 * c2;
-    let t5 = t4 + t2;
-    let t6 = t5 * s3;
-    let t7 = t3 * s2;
-    let t8 = t7 * c3;
+    let t5 = t2 + t4;
+    let t6 = s3 * t5;
+    let t7 = s2 * t3;
+    let t8 = c3 * t7;
     let t9 = t8 + t6;
     let t10 = t9 * 0.5;
-    let t11 = t1 + qd[2];
+    let t11 = qd[2] + t1;
     let t12 = t11 * t11;
     let t13 = t12 * 0.5;
-    let t14 = s3 * t13;
-    let t15 = t10 - t14;
-    let t16 = t7 * 1.5;
-    let t17 = t15 + t16;
+    let t14 = t13 * s3;
+    let t15 = t7 * 1.5;
+    let t16 = t15 - t14;
+    let t17 = t16 + t10;
     let t18 = c3 * t13;
     let t19 = t2 * 1.5;
     let t20 = t18 + t19;
-    let t21 = s2 * t20;
-    let t22 = c2 * t14;
-    let t23 = t21 + t22;
-    let t24 = t17 - t23;
-    [t24, t17, t10]
+    let t21 = t20 * s2;
+    let t22 = t21 - t17;
+    let t23 = t14 * c2;
+    let t24 = t22 + t23;
+    [-t24, t17, t10]
 }
 
 /// What [`manipulator_equation`] returns.
@@ -542,7 +533,7 @@ pub struct ManipulatorEquation {
 
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
-/// 30 mul, 22 add, 3 sincos.
+/// 28 mul, 22 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 14, chance of a miss below 1e-46).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 3], qd: &[f32; 3]) -> ManipulatorEquation {
@@ -572,35 +563,33 @@ pub fn manipulator_equation(q: &[f32; 3], qd: &[f32; 3]) -> ManipulatorEquation 
     let t21 = c3 * t20;
     let t22 = t21 + t19;
     let t23 = t22 * 0.5;
-    let t24 = t14 + qd[2];
-    let t25 = t24 * t24;
-    let t26 = t3 * t25;
-    let t27 = t23 - t26;
-    let t28 = t20 * 1.5;
-    let t29 = t27 + t28;
-    let t30 = t1 * t25;
-    let t31 = t15 * 1.5;
-    let t32 = t30 + t31;
-    let t33 = s2 * t32;
-    let t34 = c2 * t26;
-    let t35 = t33 + t34;
-    let t36 = t29 - t35;
-    let t37 = c1 * 9.81;
-    let t38 = c2 * t37;
-    let t39 = s1 * 9.81;
-    let t40 = s2 * t39;
-    let t41 = t38 - t40;
-    let t42 = c3 * t41;
-    let t43 = c2 * t39;
-    let t44 = s2 * t37;
-    let t45 = t43 + t44;
-    let t46 = s3 * t45;
-    let t47 = t42 - t46;
-    let t48 = t47 * 0.5;
-    let t49 = t41 * 1.5;
-    let t50 = t48 + t49;
-    let t51 = c1 * 24.525;
-    let t52 = t50 + t51;
+    let t24 = t20 * 1.5;
+    let t25 = t24 + t23;
+    let t26 = t14 + qd[2];
+    let t27 = t26 * t26;
+    let t28 = t3 * t27;
+    let t29 = t25 - t28;
+    let t30 = c2 * t28;
+    let t31 = t29 - t30;
+    let t32 = t1 * t27;
+    let t33 = t15 * 1.5;
+    let t34 = t32 + t33;
+    let t35 = s2 * t34;
+    let t36 = t31 - t35;
+    let t37 = s2 * s1;
+    let t38 = c2 * c1;
+    let t39 = t37 - t38;
+    let t40 = c3 * t39;
+    let t41 = s2 * c1;
+    let t42 = c2 * s1;
+    let t43 = t41 + t42;
+    let t44 = s3 * t43;
+    let t45 = t40 + t44;
+    let t46 = t45 * 4.905;
+    let t47 = t39 * 14.715;
+    let t48 = t46 + t47;
+    let t49 = c1 * 24.525;
+    let t50 = t48 - t49;
     ManipulatorEquation {
         d: [
             [t11, t9, t13],
@@ -608,7 +597,7 @@ pub fn manipulator_equation(q: &[f32; 3], qd: &[f32; 3]) -> ManipulatorEquation 
             [t13, t12, 0.33333334],
         ],
         h: [t36, t29, t23],
-        c: [t52, t50, t48],
+        c: [-t50, -t48, -t46],
     }
 }
 
@@ -625,73 +614,70 @@ pub struct DynamicCoefficients {
 
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
-/// 19 mul, 17 add, 3 sincos.
+/// 17 mul, 16 add, 3 sincos.
 /// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 12, chance of a miss below 1e-46).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 3]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincosf(q[0]);
     let (s2, c2) = libm::sincosf(q[1]);
     let (s3, c3) = libm::sincosf(q[2]);
-    let t1 = c3 * 0.5;
-    let t2 = t1 + 1.5;
-    let t3 = c2 * t2;
-    let t4 = s3 * 0.5;
-    let t5 = s2 * t4;
-    let t6 = t3 - t5;
-    let t7 = c3 + 1.6666666;
-    let t8 = t7 + t6;
-    let t9 = t8 + 2.3333333;
-    let t10 = t6 + t9;
-    let t11 = c2 * t1;
-    let t12 = t5 - t11;
-    let t13 = t1 + 0.33333334;
-    let t14 = t13 - t12;
-    let t15 = t2 * s2;
-    let t16 = c2 * t4;
-    let t17 = t15 + t16;
-    let t18 = t1 * s2;
-    let t19 = t16 + t18;
-    let t20 = t4 + t19;
-    let t21 = c1 * 9.81;
-    let t22 = c2 * t21;
-    let t23 = s1 * 9.81;
-    let t24 = s2 * t23;
-    let t25 = t22 - t24;
-    let t26 = c3 * t25;
-    let t27 = c2 * t23;
-    let t28 = s2 * t21;
-    let t29 = t27 + t28;
-    let t30 = s3 * t29;
-    let t31 = t26 - t30;
-    let t32 = t31 * 0.5;
-    let t33 = t25 * 1.5;
-    let t34 = t32 + t33;
-    let t35 = c1 * 24.525;
-    let t36 = t34 + t35;
+    let t1 = s3 * 0.5;
+    let t2 = t1 * s2;
+    let t3 = c3 * 0.5;
+    let t4 = t3 * c2;
+    let t5 = t2 - t4;
+    let t6 = c2 * 1.5;
+    let t7 = t5 - t6;
+    let t8 = c3 + 1.6666666;
+    let t9 = t7 - t8;
+    let t10 = t7 + t9;
+    let t11 = t10 - 2.3333333;
+    let t12 = t3 + 0.33333334;
+    let t13 = t5 - t12;
+    let t14 = t1 * c2;
+    let t15 = s2 * t3;
+    let t16 = t14 + t15;
+    let t17 = s2 * 1.5;
+    let t18 = t16 + t17;
+    let t19 = t1 + t16;
+    let t20 = s2 * s1;
+    let t21 = c2 * c1;
+    let t22 = t20 - t21;
+    let t23 = c3 * t22;
+    let t24 = s2 * c1;
+    let t25 = c2 * s1;
+    let t26 = t24 + t25;
+    let t27 = s3 * t26;
+    let t28 = t23 + t27;
+    let t29 = t28 * 4.905;
+    let t30 = t22 * 14.715;
+    let t31 = t30 + t29;
+    let t32 = c1 * 24.525;
+    let t33 = t32 - t31;
     DynamicCoefficients {
         d: [
-            [t10, t8, t14],
-            [t8, t7, t13],
-            [t14, t13, 0.33333334],
+            [-t11, -t9, -t13],
+            [-t9, t8, t12],
+            [-t13, t12, 0.33333334],
         ],
         h: [
             [
-                [0.0, -t17, -t20],
-                [-t17, -t17, -t20],
-                [-t20, -t20, -t20],
+                [0.0, -t18, -t19],
+                [-t18, -t18, -t19],
+                [-t19, -t19, -t19],
             ],
             [
-                [t17, 0.0, -t4],
-                [0.0, 0.0, -t4],
-                [-t4, -t4, -t4],
+                [t18, 0.0, -t1],
+                [0.0, 0.0, -t1],
+                [-t1, -t1, -t1],
             ],
             [
-                [t20, t4, 0.0],
-                [t4, t4, 0.0],
+                [t19, t1, 0.0],
+                [t1, t1, 0.0],
                 [0.0, 0.0, 0.0],
             ],
         ],
-        c: [t36, t34, t32],
+        c: [t33, -t31, -t29],
     }
 }
 }
