@@ -92,7 +92,11 @@ mod tests {
 
     #[test]
     fn a_pair_stays_on_the_circle() {
-        let pair = Rotor { sin: 0.6, cos: 0.8 }.turning(&3.0);
+        let pair = Rotor {
+            sin: 0.6_f64,
+            cos: 0.8,
+        }
+        .turning(&3.0);
         let [s, c] = [pair.sin, pair.cos];
         let one = s.mul(&s).add(&c.mul(&c));
         assert_eq!(one.value, 1.0);
