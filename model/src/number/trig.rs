@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn a_float_right_angle_keeps_its_tiny_cosine() {
-        let angle = Angle::Radians(Rational::from_float(1.570_796_326_794_896_6).unwrap());
+        let angle = Angle::Radians(Rational::from_float(core::f64::consts::FRAC_PI_2).unwrap());
         let (sin, cos) = sin_cos(&angle, 200);
         assert!((BigInt::one() << 200u32) - sin <= BigInt::one() << 100u32);
         // cos of the double next to π/2 is 6.1232339957367658…e-17
