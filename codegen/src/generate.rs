@@ -8,6 +8,8 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::Scene;
 
+use crate::certify::input_box::InputBox;
+use crate::certify::ranges::{Finding, ranges};
 use crate::emit::module::{self, ModuleOptions};
 use crate::emit::{MathPath, ScalarType};
 use crate::function::{Function, Quantity};
@@ -277,6 +279,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     for generated in &functions {
         for &scalar in &request.scalars {
             check_constants(&generated.program, scalar, &mut warnings)?;
+            warn_of_overflow(setting.robot(), &generated.program, scalar, &mut warnings);
         }
     }
     let name = request.module_name(robot);
@@ -455,6 +458,30 @@ fn check_constants(
         }
     }
     Ok(())
+}
+
+/// Intermediates that may overflow inside the robot's limits, where it has
+/// all of them: never a silent infinity.
+fn warn_of_overflow(
+    robot: &Robot,
+    program: &Program,
+    scalar: ScalarType,
+    warnings: &mut Vec<String>,
+) {
+    let Ok(limits) = InputBox::of(robot) else {
+        return;
+    };
+    let findings = ranges(program, scalar, &limits, 1).findings;
+    let mut overflows = findings
+        .iter()
+        .filter(|finding| matches!(finding, Finding::Overflow { .. }));
+    if let Some(first) = overflows.next() {
+        warnings.push(format!(
+            "`{}` in {scalar}, inside the robot's limits: {first}; {} more like it",
+            program.function,
+            overflows.count()
+        ));
+    }
 }
 
 fn roughly(constant: &Exact) -> String {

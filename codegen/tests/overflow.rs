@@ -1,0 +1,31 @@
+//! What a scalar cannot hold inside the robot's limits is said at generation.
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, generate};
+use dalembert_model::read;
+
+/// The warnings for the PUMA's torques with another limit of velocity.
+fn warnings(velocity: &str, scalar: ScalarType) -> Vec<String> {
+    let source = include_str!("../../generated/robots/puma560.toml");
+    let source = source
+        .replace("velocity = 2", &format!("velocity = {velocity}"))
+        .replace("velocity = 5", &format!("velocity = {velocity}"));
+    let robot = read::parse(&source, &read::Options::default())
+        .unwrap()
+        .robot;
+    let request = Request {
+        functions: vec![Function::InverseDynamics],
+        scalars: vec![scalar],
+        ..Request::default()
+    };
+    generate(&robot, &request).unwrap().warnings
+}
+
+#[test]
+fn overflow_is_flagged_for_the_scalar_that_it_threatens() {
+    let flagged = |list: &[String]| list.iter().any(|w| w.contains("may overflow"));
+    assert!(flagged(&warnings("1e20", ScalarType::F32)));
+    assert!(!flagged(&warnings("1e20", ScalarType::F64)));
+    assert!(!flagged(&warnings("2", ScalarType::F32)));
+}
