@@ -61,39 +61,15 @@ pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]
     }
     let mut values = Values::new(classes, choice);
     let mut found = Vec::new();
-    let mut groups: Vec<Vec<ClassId>> = ratios.into_values().filter(|g| g.len() > 1).collect();
-    groups.sort_unstable();
-    for group in groups {
-        for &a in &group {
-            for &b in &group {
-                if a == b {
-                    continue;
-                }
-                let (Some(x), Some(y)) = (values.of(a), values.of(b)) else {
-                    continue;
-                };
-                if !num_traits::Zero::is_zero(&x) {
-                    found.push((b, Way::Product(a, a), Exact::from(y / x)));
-                }
-            }
+    for (a, x, b, y) in values.pairs(ratios) {
+        if !num_traits::Zero::is_zero(&x) {
+            found.push((b, Way::Product(a, a), Exact::from(y / x)));
         }
     }
-    let mut groups: Vec<Vec<ClassId>> = shifts.into_values().filter(|g| g.len() > 1).collect();
-    groups.sort_unstable();
-    for group in groups {
-        for &a in &group {
-            for &b in &group {
-                if a == b {
-                    continue;
-                }
-                let (Some(x), Some(y)) = (values.of(a), values.of(b)) else {
-                    continue;
-                };
-                // b = c ± a, whichever it is.
-                found.push((b, Way::Sum(a, a), Exact::from(&y - &x)));
-                found.push((b, Way::Difference(a, a), Exact::from(&y + &x)));
-            }
-        }
+    for (a, x, b, y) in values.pairs(shifts) {
+        // b = c ± a, whichever it is.
+        found.push((b, Way::Sum(a, a), Exact::from(&y - &x)));
+        found.push((b, Way::Difference(a, a), Exact::from(&y + &x)));
     }
     let mut count = 0;
     for (class, kind, constant) in found {
@@ -218,6 +194,27 @@ impl<'a> Values<'a> {
             choice,
             known: HashMap::new(),
         }
+    }
+
+    /// The ordered pairs within each group, with their values, in an order
+    /// that does not depend on the map's.
+    fn pairs(
+        &mut self,
+        groups: HashMap<Field, Vec<ClassId>>,
+    ) -> Vec<(ClassId, Rational, ClassId, Rational)> {
+        let mut groups: Vec<Vec<ClassId>> = groups.into_values().filter(|g| g.len() > 1).collect();
+        groups.sort_unstable();
+        let mut pairs = Vec::new();
+        for group in groups {
+            for &a in &group {
+                for &b in group.iter().filter(|&&b| b != a) {
+                    if let (Some(x), Some(y)) = (self.of(a), self.of(b)) {
+                        pairs.push((a, x, b, y));
+                    }
+                }
+            }
+        }
+        pairs
     }
 
     /// The value that the class's canonical print stands for; `None` where a

@@ -92,8 +92,8 @@ impl Effort {
     }
 }
 
-/// Hotter than this destroys a program of 300 operations.
-const COOLING: Schedule = Schedule {
+/// No moves yet. Hotter than this destroys a program of 300 operations.
+pub(super) const COOLING: Schedule = Schedule {
     moves: 0,
     hot: 0.2,
     cold: 0.04,

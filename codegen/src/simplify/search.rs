@@ -3,6 +3,7 @@
 use super::classes::{ClassId, Classes, Way};
 use super::cost;
 use super::discover;
+use super::effort::COOLING;
 use super::extract::{CostModel, Extraction, Schedule};
 use super::random::Random;
 use crate::graph::Graph;
@@ -63,11 +64,7 @@ pub fn glance(program: &Graph, helpers: &[Graph]) -> Graph {
         patience: 0,
         pairs: 1_000,
         substitutes: 1_000,
-        schedule: Schedule {
-            moves: 0,
-            hot: 0.2,
-            cold: 0.04,
-        },
+        schedule: COOLING,
     };
     round(program, &[], helpers, &settings, &mut Random::new(1))
 }

@@ -162,17 +162,7 @@ fn scale_length(joint: &mut Joint, factor: &Rational) {
 }
 
 fn scale_inertia(tensor: &mut Inertia<Rational>, factor: &Rational) {
-    let Inertia {
-        xx,
-        yy,
-        zz,
-        xy,
-        yz,
-        xz,
-    } = tensor;
-    for entry in [xx, yy, zz, xy, yz, xz] {
-        *entry *= factor;
-    }
+    *tensor = tensor.map(|entry| entry * factor);
 }
 
 /// Two bodies as one: about their common centre of mass the reduced mass at

@@ -2,7 +2,7 @@
 
 use super::{Arm, Link, Rotor};
 use crate::number::{Exact, Rational};
-use crate::robot::{Inertia, Robot};
+use crate::robot::Robot;
 
 impl<S> Arm<S> {
     /// The arm of a robot, each exact parameter sent through `scalar`:
@@ -20,7 +20,6 @@ impl<S> Arm<S> {
             };
             let (alpha, theta) = (pair(&joint.alpha), pair(&joint.theta));
             let mut number = |value: &Rational| scalar(&Exact::from(value.clone()));
-            let tensor = &joint.inertia;
             Link {
                 kind: joint.kind,
                 alpha,
@@ -29,14 +28,7 @@ impl<S> Arm<S> {
                 d: number(&joint.d),
                 mass: number(&joint.mass),
                 com: [0, 1, 2].map(|axis| number(&joint.com[axis])),
-                inertia: Inertia {
-                    xx: number(&tensor.xx),
-                    yy: number(&tensor.yy),
-                    zz: number(&tensor.zz),
-                    xy: number(&tensor.xy),
-                    yz: number(&tensor.yz),
-                    xz: number(&tensor.xz),
-                },
+                inertia: joint.inertia.map(&mut number),
                 viscous: number(&joint.viscous),
                 armature: number(&joint.armature),
             }
