@@ -14,7 +14,6 @@ use super::expand::expand;
 use super::form::{Forms, Scratch};
 use super::grid;
 use super::input_box::InputBox;
-use super::interval::Interval;
 use crate::graph::{Graph, Input, Node};
 
 /// How much work a bound may take.
@@ -185,12 +184,4 @@ pub fn relative(x: f64, scale: f64) -> f64 {
     } else {
         f64::INFINITY
     }
-}
-
-/// The box's own bound without halving: quick and loose.
-pub fn once(graph: &Graph, whole: &InputBox) -> Vec<Interval> {
-    let forms = Forms::new(graph, whole.joints(), false);
-    let mut scratch = Scratch::default();
-    forms.evaluate(whole, &mut scratch);
-    forms.outputs(whole, &scratch)
 }

@@ -7,7 +7,8 @@
 //! - [`bound`]: the largest magnitude of a program over a box: written out as
 //!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
 //!   and bound over polynomials in the rates ([`form`])
-//! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become
+//! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
+//!   both over the sub-boxes of `subdivide`
 //! - [`prune`]: the cheapest edits that a certificate admits
 //! - [`certificate`]: the claim and its check; [`json`]: its text
 //! - [`sample`], [`attack`]: attempts to refute it
@@ -17,10 +18,8 @@ pub mod bound;
 pub mod certificate;
 pub mod edits;
 mod expand;
-mod grid;
-
 pub mod form;
-
+mod grid;
 pub mod input_box;
 pub mod interval;
 pub mod json;
@@ -29,4 +28,5 @@ pub mod ranges;
 pub mod sample;
 pub mod scale;
 pub mod sensitivity;
+mod subdivide;
 pub mod trig;

@@ -4,7 +4,8 @@
 //! computed, not only what is exact.
 
 use super::input_box::InputBox;
-use super::sensitivity::{forward, grid};
+use super::sensitivity::forward;
+use super::subdivide::sub_boxes;
 use crate::emit::ScalarType;
 use crate::schedule::{Operand, Program};
 
@@ -70,15 +71,8 @@ impl std::fmt::Display for Finding {
 
 /// The range table over a box, from at most `boxes` sub-boxes.
 pub fn ranges(program: &Program, scalar: ScalarType, limits: &InputBox, boxes: usize) -> Ranges {
-    let mut joints: Vec<usize> = program
-        .trig
-        .iter()
-        .flat_map(|trig| trig.angle.terms().map(|(joint, _)| joint))
-        .collect();
-    joints.sort_unstable();
-    joints.dedup();
     let mut magnitudes = vec![0.0f64; program.steps.len()];
-    for sub in grid(limits, &joints, boxes) {
+    for sub in sub_boxes(program, limits, boxes) {
         let run = forward(program, scalar, &sub);
         for (most, value) in magnitudes.iter_mut().zip(&run.values) {
             *most = most.max(value.magnitude());

@@ -18,6 +18,7 @@
 
 use super::input_box::InputBox;
 use super::interval::Interval;
+use super::subdivide::sub_boxes;
 use crate::emit::ScalarType;
 use crate::graph::Input;
 use crate::schedule::{Operand, Operation, Program};
@@ -48,41 +49,13 @@ pub fn rounding(
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
-    let mut joints: Vec<usize> = program
-        .trig
-        .iter()
-        .flat_map(|trig| trig.angle.terms().map(|(joint, _)| joint))
-        .collect();
-    joints.sort_unstable();
-    joints.dedup();
     let mut worst = vec![Rounding::default(); program.outputs.len()];
-    for sub in grid(limits, &joints, boxes) {
+    for sub in sub_boxes(program, limits, boxes) {
         for (worst, here) in worst.iter_mut().zip(over(program, scalar, &sub)) {
             *worst = worst.max(here);
         }
     }
     worst
-}
-
-/// Equal sub-boxes, as many as fit: halves joint after joint.
-pub(super) fn grid(limits: &InputBox, joints: &[usize], boxes: usize) -> Vec<InputBox> {
-    let mut all = vec![limits.clone()];
-    let mut turn = 0;
-    while !joints.is_empty() && all.len() * 2 <= boxes {
-        let joint = joints[turn % joints.len()];
-        turn += 1;
-        all = all
-            .into_iter()
-            .flat_map(|sub| {
-                sub.position[joint].split().map(|half| {
-                    let mut sub = sub.clone();
-                    sub.position[joint] = half;
-                    sub
-                })
-            })
-            .collect();
-    }
-    all
 }
 
 /// Half the least subnormal.

@@ -18,29 +18,31 @@
 //! The emitted program and the edited one are the same function but not the
 //! same arithmetic; rounding is bounded on the emitted one, edits between
 //! exact programs, and the two add up by the triangle inequality.
+//!
+//! - `split`: bounds by cause
+//! - `refuted`: why a certificate is no good
 
-use std::fmt;
+mod refuted;
+mod split;
 
 use dalembert_model::robot::Robot;
 
-use super::bound::{Budget, magnitudes, relative};
-use super::edits::{BadEdit, Stage, difference};
+use super::edits::Stage;
 use super::input_box::InputBox;
 use super::ranges::{Finding, ranges};
-use super::sensitivity::rounding;
 use crate::emit::{MathPath, ScalarType, function};
 use crate::graph::Points;
 use crate::graph::print::POINTS;
 use crate::plan::input_hash;
 use crate::schedule::Program;
-use crate::verify::exact::{Disproof, Proof, prove, run};
+use crate::verify::exact::{Proof, prove, run};
 use crate::verify::text::TextProgram;
+pub use refuted::Refuted;
+use split::bounds;
+pub use split::{ROUNDING_BOXES, Split};
 
 /// The seed of the points at which programs are compared.
 const SEED: u64 = 0x6365_7274;
-
-/// Sub-boxes of the rounding bound.
-pub const ROUNDING_BOXES: usize = 4096;
 
 /// What a bound rests on besides arithmetic.
 pub const ASSUMPTIONS: [&str; 4] = [
@@ -54,24 +56,6 @@ pub const ASSUMPTIONS: [&str; 4] = [
 pub const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
      at a grid with Riesz's and Bernstein's inequalities, or branch and bound with intervals; \
      rounding: interval adjoints over sub-boxes";
-
-/// A bound by cause, relative to T.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Split {
-    /// Terms left out.
-    pub model: f64,
-    /// Sines and cosines.
-    pub sincos: f64,
-    /// Operations and constants.
-    pub rounding: f64,
-}
-
-impl Split {
-    /// E
-    pub fn total(self) -> f64 {
-        (self.model + self.sincos + self.rounding) * (1.0 + 1e-15)
-    }
-}
 
 /// A claim about one emitted function.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,69 +90,6 @@ pub struct Checked {
     /// What the scalar cannot hold; only warnings.
     pub findings: Vec<Finding>,
 }
-
-/// Why a certificate is no good.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Refuted {
-    /// It is for another robot.
-    Robot,
-    /// A list has not as many entries as there are outputs or joints.
-    Shape,
-    /// The exact program is not the formula.
-    Exact(Disproof),
-    /// Edits cannot be applied.
-    Edits(usize, BadEdit),
-    /// A stage's edited program is not what follows.
-    Step(usize),
-    /// The text is not the emitted program.
-    Text(String),
-    /// The scalar cannot hold a value.
-    Range(Finding),
-    /// A claim is smaller than what can be shown.
-    Bound {
-        /// The output's name.
-        entry: String,
-        /// What is claimed.
-        claimed: Split,
-        /// What was found.
-        found: Split,
-    },
-}
-
-impl fmt::Display for Refuted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refuted::Robot => f.write_str("the certificate is for another robot"),
-            Refuted::Shape => f.write_str("a list is not as long as it should be"),
-            Refuted::Exact(disproof) => write!(f, "the exact program: {disproof}"),
-            Refuted::Edits(stage, bad) => write!(f, "stage {}: {bad}", stage + 1),
-            Refuted::Step(stage) => write!(
-                f,
-                "stage {}: the edited program is not the one that follows",
-                stage + 1
-            ),
-            Refuted::Text(why) => write!(f, "the printed text: {why}"),
-            Refuted::Range(finding) => write!(f, "{finding}"),
-            Refuted::Bound {
-                entry,
-                claimed,
-                found,
-            } => write!(
-                f,
-                "{entry}: claimed model {:e}, sincos {:e}, rounding {:e}; \
-                 what can be shown is {:e}, {:e}, {:e}",
-                claimed.model,
-                claimed.sincos,
-                claimed.rounding,
-                found.model,
-                found.sincos,
-                found.rounding
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Refuted {}
 
 impl Certificate {
     /// Bounds the emitted program's error and writes the claim down.
@@ -277,30 +198,6 @@ impl Certificate {
                 .all(|p| p.joints == n && p.outputs.len() == outputs);
         if fits { Ok(()) } else { Err(Refuted::Shape) }
     }
-}
-
-/// Bounds by cause, relative to the scales.
-fn bounds(
-    stages: &[Stage],
-    emitted: &Program,
-    scalar: ScalarType,
-    limits: &InputBox,
-    scales: &[f64],
-) -> Vec<Split> {
-    let edited = stages.iter().any(|stage| !stage.edits.is_empty());
-    let model = if edited {
-        magnitudes(&difference(stages), limits, scales, 0.0, Budget::CERTIFY)
-    } else {
-        vec![0.0; scales.len()]
-    };
-    let rounding = rounding(emitted, scalar, limits, ROUNDING_BOXES);
-    let all = model.iter().zip(&rounding).zip(scales);
-    all.map(|((&model, rounding), &scale)| Split {
-        model: relative(model, scale),
-        sincos: relative(rounding.sincos, scale),
-        rounding: relative(rounding.arithmetic, scale),
-    })
-    .collect()
 }
 
 /// Whether two programs agree at points that no search has seen.

@@ -1,0 +1,71 @@
+//! Why a certificate is no good.
+
+use std::fmt;
+
+use super::split::Split;
+use crate::certify::edits::BadEdit;
+use crate::certify::ranges::Finding;
+use crate::verify::exact::Disproof;
+
+/// Why a certificate is no good.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refuted {
+    /// It is for another robot.
+    Robot,
+    /// A list has not as many entries as there are outputs or joints.
+    Shape,
+    /// The exact program is not the formula.
+    Exact(Disproof),
+    /// Edits cannot be applied.
+    Edits(usize, BadEdit),
+    /// A stage's edited program is not what follows.
+    Step(usize),
+    /// The text is not the emitted program.
+    Text(String),
+    /// The scalar cannot hold a value.
+    Range(Finding),
+    /// A claim is smaller than what can be shown.
+    Bound {
+        /// The output's name.
+        entry: String,
+        /// What is claimed.
+        claimed: Split,
+        /// What was found.
+        found: Split,
+    },
+}
+
+impl fmt::Display for Refuted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refuted::Robot => f.write_str("the certificate is for another robot"),
+            Refuted::Shape => f.write_str("a list is not as long as it should be"),
+            Refuted::Exact(disproof) => write!(f, "the exact program: {disproof}"),
+            Refuted::Edits(stage, bad) => write!(f, "stage {}: {bad}", stage + 1),
+            Refuted::Step(stage) => write!(
+                f,
+                "stage {}: the edited program is not the one that follows",
+                stage + 1
+            ),
+            Refuted::Text(why) => write!(f, "the printed text: {why}"),
+            Refuted::Range(finding) => write!(f, "{finding}"),
+            Refuted::Bound {
+                entry,
+                claimed,
+                found,
+            } => write!(
+                f,
+                "{entry}: claimed model {:e}, sincos {:e}, rounding {:e}; \
+                 what can be shown is {:e}, {:e}, {:e}",
+                claimed.model,
+                claimed.sincos,
+                claimed.rounding,
+                found.model,
+                found.sincos,
+                found.rounding
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Refuted {}

@@ -1,0 +1,167 @@
+//! Coefficients over a sub-box.
+
+use super::{Forms, Scratch, Work};
+use crate::certify::input_box::InputBox;
+use crate::certify::interval::Interval;
+use crate::graph::{AngleSum, Input};
+
+/// Where the Taylor polynomial of a sine is worse than its range.
+const FARTHEST: f64 = 0.8;
+
+impl Forms {
+    /// Evaluates over a sub-box.
+    pub fn evaluate(&self, sub: &InputBox, scratch: &mut Scratch) {
+        let Scratch { values, factors } = scratch;
+        values.clear();
+        values.resize(self.coefficients, Interval::ZERO);
+        factors.clear();
+        factors.extend(self.factors.iter().map(|rest| self.range(rest, sub)));
+        for work in &self.work {
+            match *work {
+                Work::Add(out, x) => {
+                    let x = values[x as usize];
+                    accumulate(&mut values[out as usize], x);
+                }
+                Work::Sub(out, x) => {
+                    let x = -values[x as usize];
+                    accumulate(&mut values[out as usize], x);
+                }
+                Work::Mul(out, x, y, factor) => {
+                    let mut product = if x == y {
+                        values[x as usize].square()
+                    } else {
+                        values[x as usize] * values[y as usize]
+                    };
+                    if factor != 0 {
+                        product = product * factors[factor as usize];
+                    }
+                    accumulate(&mut values[out as usize], product);
+                }
+                Work::Constant(out, value) => values[out as usize] = value,
+                Work::Leaf(out, input) => self.evaluate_leaf(out as usize, input, sub, values),
+            }
+        }
+    }
+
+    fn evaluate_leaf(&self, out: usize, input: Input, sub: &InputBox, values: &mut [Interval]) {
+        match input {
+            Input::Velocity(_) | Input::Acceleration(_) => {
+                // As a variable its coefficient is one.
+                values[out] = if self.rates {
+                    Interval::ONE
+                } else {
+                    sub.input(input)
+                };
+            }
+            Input::Position(joint) if self.linear => {
+                let q = sub.position[joint];
+                values[out] = Interval::point(q.mid());
+                values[out + 1] = Interval::point(q.radius());
+            }
+            Input::Sin(angle) | Input::Cos(angle) if self.linear => {
+                let (centre, reach) = centre(angle, sub);
+                if reach > FARTHEST {
+                    values[out] = sub.input(input);
+                    return;
+                }
+                let (sin, cos) = (centre.sin(), centre.cos());
+                let whole = sub.input(input);
+                let (value, slope) = match input {
+                    Input::Sin(_) => (sin, cos),
+                    _ => (cos, -sin),
+                };
+                // −δ²/2·f(ξ), with |δ| at most the reach.
+                let squared = Interval::new(0.0, (0.5 * reach * reach).next_up());
+                let rest = -(whole * squared.unwrap_or(Interval::ALL));
+                values[out] = value + rest;
+                for (k, (joint, negative)) in angle.terms().enumerate() {
+                    let radius = Interval::point(sub.position[joint].radius());
+                    let slope = slope * radius;
+                    values[out + 1 + k] = if negative { -slope } else { slope };
+                }
+            }
+            _ => values[out] = sub.input(input),
+        }
+    }
+
+    /// The range of a product of variables.
+    fn range(&self, variables: &[u8], sub: &InputBox) -> Interval {
+        let mut product = Interval::ONE;
+        let mut at = 0;
+        while at < variables.len() {
+            let variable = variables[at];
+            let power = variables[at..]
+                .iter()
+                .take_while(|&&v| v == variable)
+                .count();
+            let x = self.variable(variable, sub);
+            for _ in 0..power / 2 {
+                product = product * x.square();
+            }
+            if power % 2 == 1 {
+                product = product * x;
+            }
+            at += power;
+        }
+        product
+    }
+
+    fn variable(&self, variable: u8, sub: &InputBox) -> Interval {
+        let (n, index) = (self.joints, usize::from(variable));
+        match index {
+            0 => Interval::ONE,
+            _ if index <= n => sub.velocity[index - 1],
+            _ if index <= 2 * n => sub.acceleration[index - 1 - n],
+            _ => Interval::symmetric(1.0),
+        }
+    }
+
+    /// The range of each output over the sub-box evaluated last.
+    pub fn outputs(&self, sub: &InputBox, scratch: &Scratch) -> Vec<Interval> {
+        self.outputs
+            .iter()
+            .map(|(negative, terms)| {
+                let mut sum = Interval::ZERO;
+                for &((rates, position), x) in terms {
+                    let mut term = scratch.values[x as usize];
+                    if rates[1] != 0 {
+                        term = term * self.range(&rates, sub);
+                    }
+                    if position != 0 {
+                        term = term * Interval::symmetric(1.0);
+                    }
+                    accumulate(&mut sum, term);
+                }
+                if *negative { -sum } else { sum }
+            })
+            .collect()
+    }
+}
+
+/// A sum that starts from zero stays exact.
+#[inline]
+fn accumulate(sum: &mut Interval, term: Interval) {
+    *sum = if *sum == Interval::ZERO {
+        term
+    } else {
+        *sum + term
+    };
+}
+
+/// An enclosure of the angle at the sub-box's middle, and how far at most it
+/// is from there.
+fn centre(angle: AngleSum, sub: &InputBox) -> (Interval, f64) {
+    let mut centre = Interval::ZERO;
+    let mut reach = 0.0;
+    for (index, (joint, negative)) in angle.terms().enumerate() {
+        let q = sub.position[joint];
+        let mid = Interval::point(q.mid());
+        let mid = if negative { -mid } else { mid };
+        (centre, reach) = if index == 0 {
+            (mid, q.radius())
+        } else {
+            (centre + mid, (reach + q.radius()).next_up())
+        };
+    }
+    (centre, reach)
+}

@@ -1,0 +1,96 @@
+//! A program over a box as polynomials in the rates.
+//!
+//! Torques are polynomials of low degree in velocities and accelerations,
+//! whose coefficients depend on the positions. Plain intervals forget that
+//! two values contain the same velocity; so every node is kept as
+//!
+//! Σ coefficient · monomial,
+//!
+//! the monomials being products of at most two rates and at most one position
+//! variable e_j ∈ \[−1, 1\] (q_j = middle + radius·e_j), the coefficients
+//! intervals that hold for every position in the sub-box. What a product has
+//! beyond that degree is put into its coefficient as an interval.
+//!
+//! **Soundness.** The claim kept by every operation: for each state in the
+//! sub-box there are coefficients in the intervals with which the polynomial
+//! has the node's value. Sums and products of polynomials keep it, since
+//! interval arithmetic does; replacing a variable by its range keeps it;
+//! sin(c + δ) = sin c + δ·cos c − δ²/2·sin ξ (Taylor) gives it for sines.
+//!
+//! Which monomials occur is decided once, from the graph alone; a sub-box is
+//! then a flat run over arrays.
+//!
+//! - `compile`: which monomials occur
+//! - `evaluate`: their coefficients over a sub-box
+
+mod compile;
+mod evaluate;
+
+use super::interval::Interval;
+use crate::graph::{Graph, Input};
+
+/// At most two rates and one position; 0 is none. Rates are 1 … 2n, sorted.
+type Monomial = ([u8; 2], u8);
+
+/// One accumulation into a coefficient.
+#[derive(Clone, Copy, Debug)]
+enum Work {
+    /// out += x
+    Add(u32, u32),
+    /// out −= x
+    Sub(u32, u32),
+    /// out += x·y·factor; factor 0 is one.
+    Mul(u32, u32, u32, u32),
+    /// An input's coefficients.
+    Leaf(u32, Input),
+    /// A constant.
+    Constant(u32, Interval),
+}
+
+/// A graph compiled to polynomials.
+#[derive(Clone, Debug)]
+pub struct Forms {
+    joints: usize,
+    work: Vec<Work>,
+    /// Ranges that products put into coefficients, by what they are made of.
+    factors: Vec<Vec<u8>>,
+    coefficients: usize,
+    /// Of each output: its sign, and monomial and coefficient index.
+    outputs: Vec<(bool, Vec<(Monomial, u32)>)>,
+    /// Position joints that matter.
+    pub(super) positions: Vec<usize>,
+    /// Whether positions are variables.
+    linear: bool,
+    /// Whether rates are variables.
+    rates: bool,
+}
+
+/// Room for one evaluation.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    values: Vec<Interval>,
+    factors: Vec<Interval>,
+}
+
+impl Forms {
+    /// Compiles a graph's live part. `linear` keeps one position variable a
+    /// monomial, which costs more and converges faster.
+    pub fn new(graph: &Graph, joints: usize, linear: bool) -> Forms {
+        Forms::compile(graph, joints, linear, true)
+            .or_else(|| Forms::compile(graph, joints, false, false))
+            .unwrap_or_else(|| Forms::empty(joints))
+    }
+
+    fn empty(joints: usize) -> Forms {
+        Forms {
+            joints,
+            work: Vec::new(),
+            factors: vec![Vec::new()],
+            coefficients: 0,
+            outputs: Vec::new(),
+            positions: Vec::new(),
+            linear: false,
+            rates: false,
+        }
+    }
+}
