@@ -193,6 +193,9 @@ pub struct CertifyArgs {
     /// The robot file that it is for
     #[arg(long, value_name = "FILE")]
     pub robot: PathBuf,
+    /// The scene of the robot file that it is for [default: the one it names]
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
     /// Also run the code at this many states and look for an error above E
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub samples: usize,

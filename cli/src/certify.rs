@@ -10,6 +10,10 @@ use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::interval::Interval;
 use dalembert_codegen::certify::json::{VERSION, read_edit, read_program, text_hash};
 use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::generate::GenerateError;
+use dalembert_codegen::plan::SceneKey;
+use dalembert_codegen::scene::Setting;
+use dalembert_model::scene::Scale;
 use serde_json::Value;
 
 use crate::args::CertifyArgs;
@@ -21,15 +25,22 @@ const MOST_BYTES: u64 = 64 << 20;
 
 /// Runs the subcommand.
 pub fn run(args: &CertifyArgs) -> Outcome {
-    let robot = input::robot(&args.robot)?;
+    let reading = input::reading(&args.robot)?;
     let certificate = read(&args.certificate)?;
     let name = args.certificate.display();
+    let scene = args.scene.clone();
+    let scene = scene.or(certificate.scene.as_ref().map(|scene| scene.name.clone()));
+    let scene = scene
+        .map(|scene| input::scene(&args.robot, &reading, &scene))
+        .transpose()?;
+    let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
     let checked = certificate
-        .check(&robot)
+        .check_in(&setting)
         .map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
+    let of = scene.map_or_else(String::new, |scene| format!(" in scene {}", scene.name));
     let mut text = format!(
-        "{name} holds for `{}` of {}\n  {}\n",
-        certificate.emitted.function, robot.name, checked.proof
+        "{name} holds for `{}` of {}{of}\n  {}\n",
+        certificate.emitted.function, reading.robot.name, checked.proof
     );
     for finding in &checked.findings {
         text += &format!("warning: {finding}\n");
@@ -157,6 +168,22 @@ fn parse(json: &Value) -> Result<Certificate, String> {
     Ok(Certificate {
         robot: text("robot")?,
         input: text("input")?,
+        scene: match json.get("scene") {
+            None => None,
+            Some(_) => Some(SceneKey {
+                name: text("scene")?,
+                hash: text("scene_hash")?,
+            }),
+        },
+        relative_to: match json.get("relative_to") {
+            None => None,
+            Some(_) => {
+                let word = text("relative_to")?;
+                let scale = Scale::WORDS.into_iter().find(|(known, _)| *known == word);
+                let scale = scale.ok_or_else(|| format!("`{word}` is no scale"))?;
+                Some(scale.1)
+            }
+        },
         scalar: ScalarType::from_name(&scalar).ok_or_else(|| format!("`{scalar}` is no scalar"))?,
         limits: InputBox {
             position: ranges("position")?,

@@ -13,6 +13,7 @@ use dalembert_codegen::verify::floating::GivenState;
 use dalembert_codegen::verify::states::JointState;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scene;
 use serde_json::Value;
 
 use crate::args::Choice;
@@ -32,18 +33,23 @@ pub fn robot_and_request(path: &Path, choice: &Choice) -> Result<(Robot, Request
     let reading = reading(path)?;
     let mut request = request(path, choice)?;
     if let Some(name) = &choice.scene {
-        let scene = scene::find(&reading.scenes, name).map_err(|error| {
-            Failure::Input(format!(
-                "error: {}: {}\n  = help: {}",
-                path.display(),
-                error.message(),
-                error.help()
-            ))
-        })?;
+        let scene = scene(path, &reading, name)?;
         let (outputs, scalars) = (!choice.outputs.is_empty(), choice.scalar.is_some());
         request = request.in_scene(scene, outputs, scalars);
     }
     Ok((reading.robot, request))
+}
+
+/// A scene of a robot file.
+pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Scene, Failure> {
+    scene::find(&reading.scenes, name).map_err(|error| {
+        Failure::Input(format!(
+            "error: {}: {}\n  = help: {}",
+            path.display(),
+            error.message(),
+            error.help()
+        ))
+    })
 }
 
 /// Reads a robot file; its warnings and notes go to standard error.

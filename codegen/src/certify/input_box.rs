@@ -3,10 +3,12 @@
 use std::fmt;
 
 use dalembert_model::number::{Rational, Rounded};
-use dalembert_model::robot::{Joint, JointKind, Position, Robot};
+use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
 
 use super::interval::Interval;
+use crate::function::{Argument, Function};
 use crate::graph::{AngleSum, Input};
+use crate::scene::Setting;
 
 /// Intervals of joint positions, velocities and accelerations, one a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,28 +50,71 @@ impl InputBox {
     /// # Errors
     /// A limit of motion that the robot does not have.
     pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
+        InputBox::reading(
+            &Setting::whole(robot),
+            &Function::InverseDynamics.arguments(),
+        )
+    }
+
+    /// The states of a setting that a function reads: its box, or the robot's
+    /// limits. Locked joints stand still where they are, and a rate that is
+    /// zero, or not an argument, is zero.
+    ///
+    /// # Errors
+    /// As [`InputBox::of`].
+    pub fn within(setting: &Setting, function: Function) -> Result<InputBox, MissingLimit> {
+        InputBox::reading(setting, &setting.arguments(function))
+    }
+
+    fn reading(setting: &Setting, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
         let mut limits = InputBox {
             position: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
         };
-        for (joint, row) in robot.joints.iter().enumerate() {
+        for (joint, row) in setting.robot().joints.iter().enumerate() {
             let missing = |limit| MissingLimit { joint, limit };
+            if let Some(at) = setting.scene().and_then(|scene| scene.locked(joint)) {
+                limits.position.push(around(at));
+                limits.velocity.push(Interval::ZERO);
+                limits.acceleration.push(Interval::ZERO);
+                continue;
+            }
             limits
                 .position
                 .push(position(row).ok_or(missing("position"))?);
-            let rate = |limit: &Option<Rational>| {
-                let most = f64::nearest_rational(limit.as_ref()?);
-                Some(Interval::symmetric(most))
+            let rate = |argument, limit: &Option<Rational>, what| {
+                if !arguments.contains(&argument) {
+                    return Ok(Interval::ZERO);
+                }
+                let most = limit.as_ref().map(f64::nearest_rational);
+                most.map(Interval::symmetric).ok_or(missing(what))
             };
-            limits
-                .velocity
-                .push(rate(&row.limits.velocity).ok_or(missing("velocity"))?);
-            limits
-                .acceleration
-                .push(rate(&row.limits.acceleration).ok_or(missing("acceleration"))?);
+            let Limits {
+                velocity,
+                acceleration,
+                ..
+            } = &row.limits;
+            let velocity = rate(Argument::Velocity, velocity, "velocity")?;
+            limits.velocity.push(velocity);
+            let acceleration = rate(Argument::Acceleration, acceleration, "acceleration")?;
+            limits.acceleration.push(acceleration);
         }
         Ok(limits)
+    }
+
+    /// Whether every state of another box is in this one.
+    pub fn holds(&self, other: &InputBox) -> bool {
+        let pairs = |mine: &[Interval], theirs: &[Interval]| {
+            mine.len() == theirs.len()
+                && mine
+                    .iter()
+                    .zip(theirs)
+                    .all(|(a, b)| a.low() <= b.low() && b.high() <= a.high())
+        };
+        pairs(&self.position, &other.position)
+            && pairs(&self.velocity, &other.velocity)
+            && pairs(&self.acceleration, &other.acceleration)
     }
 
     /// The number of joints.
@@ -104,11 +149,20 @@ impl InputBox {
     }
 }
 
-fn position(joint: &Joint) -> Option<Interval> {
-    let value = |position: &Position| match position {
+fn value(position: &Position) -> f64 {
+    match position {
         Position::Angle(angle) => angle.to_f64(),
         Position::Length(length) => f64::nearest_rational(length),
-    };
+    }
+}
+
+/// A position that need not be a double.
+fn around(at: &Position) -> Interval {
+    let near = value(at);
+    Interval::new(near.next_down(), near.next_up()).unwrap_or(Interval::point(near))
+}
+
+fn position(joint: &Joint) -> Option<Interval> {
     match (&joint.limits.position, joint.kind) {
         (Some([low, high]), _) => Interval::new(value(low), value(high)),
         (None, JointKind::Revolute) => Some(Interval::symmetric(std::f64::consts::PI)),

@@ -29,6 +29,10 @@ impl Certificate {
         field("certificate", VERSION.to_string());
         field("robot", string(&self.robot));
         field("input", string(&self.input));
+        if let Some(scene) = &self.scene {
+            field("scene", string(&scene.name));
+            field("scene_hash", string(&scene.hash));
+        }
         field("function", string(self.emitted.function.name()));
         field("scalar", string(self.scalar.name()));
         field("method", string(METHOD));
@@ -43,6 +47,9 @@ impl Certificate {
         field("velocity", ranges(&self.limits.velocity));
         field("acceleration", ranges(&self.limits.acceleration));
         field("scale", list(self.scales.iter().copied().map(number)));
+        if let Some(scale) = self.relative_to {
+            field("relative_to", string(scale.word()));
+        }
         for (name, part) in [
             (
                 "model",
@@ -86,7 +93,7 @@ fn plan_text(certificate: &Certificate, program: &Program) -> String {
             scalar: certificate.scalar,
             source: Source::Regrouped,
             stages: Vec::new(),
-            scene: None,
+            scene: certificate.scene.clone(),
             program: program.clone(),
         }],
     }

@@ -1,7 +1,7 @@
 //! T: what errors are relative to.
 
 use dalembert_model::number::{Rational, Rounded};
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{Limits, Robot};
 
 use super::attack::{run, text};
 use super::input_box::{InputBox, MissingLimit};
@@ -14,36 +14,44 @@ use crate::simplify::random::Random;
 use crate::verify::states::JointState;
 use crate::verify::text::TextError;
 
-/// The torque limits of the actuators, for a program whose results are
-/// torques of its rows.
+/// The torque limits of the actuators. For an entry of D the inertia, for one
+/// of h_ikm the coefficient, that alone takes the whole limit at the largest
+/// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
 ///
 /// # Errors
-/// A joint without a torque limit, or a result that is no torque.
+/// A joint without a limit that this needs.
 pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, MissingLimit> {
-    let torque = |&joint: &usize| {
-        let limit: Option<&Rational> = robot.joints[joint].limits.torque.as_ref();
-        let missing = MissingLimit {
-            joint,
-            limit: "torque",
-        };
-        // Down, so that an error relative to it is rounded up.
-        let value = limit.map(|limit| f64::nearest_rational(limit).next_down());
-        value.ok_or(missing)
+    let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
+        let value = robot.joints.get(joint).map(|row| value(&row.limits));
+        let value = value.and_then(Option::as_ref).map(f64::nearest_rational);
+        let above = value.filter(|&value| value > 0.0);
+        above.ok_or(MissingLimit { joint, limit })
     };
-    let vectors = program.function.quantities().iter();
+    // Down, so that an error relative to it is rounded up.
+    let torque = |joint| Ok(read(joint, "torque", |limits| &limits.torque)?.next_down());
+    let velocity = |joint| read(joint, "velocity", |limits| &limits.velocity);
+    let acceleration = |joint| read(joint, "acceleration", |limits| &limits.acceleration);
+    let inertia = |i, k| Ok((torque(i)? / acceleration(k)?).next_down());
+    let rows = &program.rows;
     let mut scales = Vec::new();
-    for quantity in vectors {
-        match quantity {
-            Quantity::Torque | Quantity::Coriolis | Quantity::Gravity => {
-                for joint in &program.rows {
-                    scales.push(torque(joint)?);
+    for quantity in program.function.quantities() {
+        for &i in rows {
+            match quantity {
+                Quantity::Torque | Quantity::Coriolis | Quantity::Gravity => {
+                    scales.push(torque(i)?);
                 }
-            }
-            Quantity::Inertia | Quantity::Christoffel => {
-                return Err(MissingLimit {
-                    joint: 0,
-                    limit: "torque (a matrix has none)",
-                });
+                Quantity::Inertia => {
+                    for &k in rows {
+                        let both = [inertia(i, k)?, inertia(k, i)?];
+                        scales.push(both[0].min(both[1]));
+                    }
+                }
+                Quantity::Christoffel => {
+                    for (&k, &m) in rows.iter().flat_map(|k| rows.iter().map(move |m| (k, m))) {
+                        let rates = (velocity(k)? * velocity(m)?).next_up();
+                        scales.push((torque(i)? / rates).next_down());
+                    }
+                }
             }
         }
     }

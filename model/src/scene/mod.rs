@@ -101,6 +101,14 @@ impl Scale {
     /// Every scale with the word that robot files use for it.
     pub const WORDS: [(&'static str, Self); 2] =
         [("actuator", Scale::Actuator), ("range", Scale::Range)];
+
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Scale::Actuator => "actuator",
+            Scale::Range => "range",
+        }
+    }
 }
 
 /// A function that a scene asks for.

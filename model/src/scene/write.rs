@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt::Write;
 
-use super::{Float, Scale, Scene};
+use super::{Float, Scene};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 use crate::robot::Position;
@@ -77,10 +77,7 @@ pub fn write(scene: &Scene) -> String {
             [one] => number(one),
             each => list(each.iter().map(number)),
         };
-        let scale = match tolerance.relative_to {
-            Scale::Actuator => "actuator",
-            Scale::Range => "range",
-        };
+        let scale = tolerance.relative_to.word();
         line(
             "tolerance",
             &format!("{{ value = {value}, relative_to = \"{scale}\" }}"),

@@ -5,7 +5,9 @@
 //! |emitted code in its scalar − full model| / T over the box, split by cause.
 //! [`Certificate::check`] trusts nothing in it:
 //!
-//! 1. the exact program equals the equations of motion (prime field);
+//! 1. the exact program equals the equations of motion (prime field); with a
+//!    scene, those of the full robot with the scene's values in their places,
+//!    and the box is the scene's or larger;
 //! 2. each stage's edits apply, and what they give equals the next stage's
 //!    program, the last one the emitted program (prime field, other points
 //!    than any search uses);
@@ -19,27 +21,33 @@
 //! same arithmetic; rounding is bounded on the emitted one, edits between
 //! exact programs, and the two add up by the triangle inequality.
 //!
+//! - [`subject`]: what a claim is about, and how its bounds are found
 //! - `split`: bounds by cause
 //! - `refuted`: why a certificate is no good
 
 mod refuted;
 mod split;
+pub mod subject;
 
 use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scale;
 
 use super::edits::Stage;
 use super::input_box::InputBox;
 use super::ranges::{Finding, ranges};
-use crate::emit::{MathPath, ScalarType, function};
+use super::scale;
+use crate::emit::ScalarType;
 use crate::graph::Points;
 use crate::graph::print::POINTS;
-use crate::plan::input_hash;
+use crate::plan::{SceneKey, input_hash};
+use crate::scene::Setting;
 use crate::schedule::Program;
-use crate::verify::exact::{Proof, prove, run};
+use crate::verify::exact::{Proof, prove_in, run};
 use crate::verify::text::TextProgram;
 pub use refuted::Refuted;
-use split::bounds;
-pub use split::{ROUNDING_BOXES, Split};
+pub use split::Split;
+pub use subject::ROUNDING_BOXES;
+use subject::Subject;
 
 /// The seed of the points at which programs are compared.
 const SEED: u64 = 0x6365_7274;
@@ -62,14 +70,19 @@ pub const METHOD: &str = "edits: program of the error, written out as a trigonom
 pub struct Certificate {
     /// The robot's name.
     pub robot: String,
-    /// The robot's input hash in hexadecimal.
+    /// The robot's input hash in hexadecimal; in a scene that of the robot
+    /// with the scene's payload, gravity and box.
     pub input: String,
+    /// The scene, unless it is about the whole robot.
+    pub scene: Option<SceneKey>,
     /// The scalar of the emitted code.
     pub scalar: ScalarType,
     /// Where it holds.
     pub limits: InputBox,
     /// T of each output, in its unit.
     pub scales: Vec<f64>,
+    /// What the scales are, if they are one of these: then that is checked.
+    pub relative_to: Option<Scale>,
     /// The exact program and its edits, program after program.
     pub stages: Vec<Stage>,
     /// The program that is emitted, with exact constants.
@@ -103,38 +116,40 @@ impl Certificate {
         limits: &InputBox,
         scales: &[f64],
     ) -> Certificate {
-        let stages = if stages.is_empty() {
-            vec![Stage {
-                program: emitted.clone(),
-                edits: Vec::new(),
-            }]
-        } else {
-            stages.to_vec()
-        };
-        let bounds = bounds(&stages, emitted, scalar, limits, scales);
-        Certificate {
-            robot: robot.name.clone(),
-            input: input_hash(robot),
-            scalar,
-            limits: limits.clone(),
-            scales: scales.to_vec(),
+        let subject = Subject {
+            setting: &Setting::whole(robot),
             stages,
-            emitted: emitted.clone(),
-            text: function::write(emitted, scalar, &MathPath::default(), &[]),
-            bounds,
-        }
+            emitted,
+            limits,
+            scales,
+            relative_to: None,
+        };
+        subject.certificate(scalar, &subject.model())
+    }
+
+    /// Checks every part of the claim about a whole robot.
+    ///
+    /// # Errors
+    /// The first part that is not so.
+    pub fn check(&self, robot: &Robot) -> Result<Checked, Refuted> {
+        self.check_in(&Setting::whole(robot))
     }
 
     /// Checks every part of the claim.
     ///
     /// # Errors
     /// The first part that is not so.
-    pub fn check(&self, robot: &Robot) -> Result<Checked, Refuted> {
-        if self.input != input_hash(robot) {
+    pub fn check_in(&self, setting: &Setting) -> Result<Checked, Refuted> {
+        if self.scene != setting.scene().map(SceneKey::of) {
+            return Err(Refuted::Scene);
+        }
+        if self.input != input_hash(setting.robot()) {
             return Err(Refuted::Robot);
         }
-        self.check_shape(robot)?;
-        let proof = prove(robot, &self.stages[0].program).map_err(Refuted::Exact)?;
+        self.check_shape(setting.robot())?;
+        self.check_box(setting)?;
+        self.check_scales(setting)?;
+        let proof = prove_in(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
         for (index, stage) in self.stages.iter().enumerate() {
             stage.check().map_err(|bad| Refuted::Edits(index, bad))?;
             let next = self.stages.get(index + 1).map(|next| &next.program);
@@ -151,13 +166,15 @@ impl Certificate {
         if let Some(&finding) = findings.iter().find(|finding| finding.is_error()) {
             return Err(Refuted::Range(finding));
         }
-        let found = bounds(
-            &self.stages,
-            &self.emitted,
-            self.scalar,
-            &self.limits,
-            &self.scales,
-        );
+        let subject = Subject {
+            setting,
+            stages: &self.stages,
+            emitted: &self.emitted,
+            limits: &self.limits,
+            scales: &self.scales,
+            relative_to: self.relative_to,
+        };
+        let found = subject.bounds(self.scalar, &subject.model());
         for (index, (&claimed, &found)) in self.bounds.iter().zip(&found).enumerate() {
             // A claim survives the shortest decimal of its double.
             let less = |claim: f64, found: f64| claim.is_nan() || claim < found;
@@ -195,8 +212,43 @@ impl Certificate {
                 .iter()
                 .map(|stage| &stage.program)
                 .chain([&self.emitted])
-                .all(|p| p.joints == n && p.outputs.len() == outputs);
+                .all(|p| {
+                    p.joints == n
+                        && p.outputs.len() == outputs
+                        && p.rows == self.emitted.rows
+                        && p.arguments == self.emitted.arguments
+                });
         if fits { Ok(()) } else { Err(Refuted::Shape) }
+    }
+
+    /// A claim about a scene is one about all of its box.
+    fn check_box(&self, setting: &Setting) -> Result<(), Refuted> {
+        if setting.scene().is_none() {
+            return Ok(());
+        }
+        let whole = InputBox::within(setting, self.emitted.function);
+        match whole {
+            Ok(whole) if self.limits.holds(&whole) => Ok(()),
+            _ => Err(Refuted::Box),
+        }
+    }
+
+    /// A larger T would make E smaller.
+    fn check_scales(&self, setting: &Setting) -> Result<(), Refuted> {
+        let exact = &self.stages[0].program;
+        let found = match self.relative_to {
+            None => return Ok(()),
+            Some(Scale::Actuator) => scale::actuator(setting.robot(), exact).ok(),
+            Some(Scale::Range) => scale::range(exact, &self.limits).ok(),
+        };
+        let found = found.ok_or(Refuted::Shape)?;
+        let mut pairs = self.scales.iter().zip(&found);
+        match pairs.position(|(claimed, found)| claimed.is_nan() || claimed > found) {
+            None => Ok(()),
+            Some(index) => Err(Refuted::Scale {
+                entry: self.emitted.entry(index),
+            }),
+        }
     }
 }
 

@@ -12,6 +12,15 @@ use crate::verify::exact::Disproof;
 pub enum Refuted {
     /// It is for another robot.
     Robot,
+    /// It is for another scene, or for the scene as it was.
+    Scene,
+    /// Its box is smaller than the scene's.
+    Box,
+    /// Its T is larger than what it says that it is.
+    Scale {
+        /// The output's name.
+        entry: String,
+    },
     /// A list has not as many entries as there are outputs or joints.
     Shape,
     /// The exact program is not the formula.
@@ -39,6 +48,13 @@ impl fmt::Display for Refuted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Refuted::Robot => f.write_str("the certificate is for another robot"),
+            Refuted::Scene => f.write_str(
+                "the certificate is for another scene, or for the scene before it was edited",
+            ),
+            Refuted::Box => f.write_str("the box is smaller than the scene's"),
+            Refuted::Scale { entry } => {
+                write!(f, "T of {entry} is larger than what it is said to be")
+            }
             Refuted::Shape => f.write_str("a list is not as long as it should be"),
             Refuted::Exact(disproof) => write!(f, "the exact program: {disproof}"),
             Refuted::Edits(stage, bad) => write!(f, "stage {}: {bad}", stage + 1),

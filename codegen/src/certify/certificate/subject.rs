@@ -1,0 +1,81 @@
+//! What a certificate is about, and how its bounds are found.
+
+use dalembert_model::scene::Scale;
+
+use super::{Certificate, Split};
+use crate::certify::bound::{Budget, magnitudes, relative};
+use crate::certify::edits::{Stage, difference};
+use crate::certify::input_box::InputBox;
+use crate::certify::sensitivity::rounding;
+use crate::emit::{MathPath, ScalarType, function};
+use crate::plan::{SceneKey, input_hash};
+use crate::scene::Setting;
+use crate::schedule::Program;
+
+/// Sub-boxes of the rounding bound.
+pub const ROUNDING_BOXES: usize = 4096;
+
+/// What a claim is about, whatever the scalar.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The full model.
+    pub setting: &'a Setting,
+    /// What was edited; none for an exact program.
+    pub stages: &'a [Stage],
+    /// The program that is emitted, with exact constants.
+    pub emitted: &'a Program,
+    /// Where it holds.
+    pub limits: &'a InputBox,
+    /// T of each output.
+    pub scales: &'a [f64],
+    /// What the scales are, if they are one of these.
+    pub relative_to: Option<Scale>,
+}
+
+impl Subject<'_> {
+    /// The largest errors of the edits, one an output, in its unit: the part
+    /// of the bounds that every scalar shares, and the longest to find.
+    pub fn model(&self) -> Vec<f64> {
+        if self.stages.iter().all(|stage| stage.edits.is_empty()) {
+            return vec![0.0; self.scales.len()];
+        }
+        let error = difference(self.stages);
+        magnitudes(&error, self.limits, self.scales, 0.0, Budget::CERTIFY)
+    }
+
+    /// Bounds by cause, relative to the scales, with the edits' at hand.
+    pub fn bounds(&self, scalar: ScalarType, model: &[f64]) -> Vec<Split> {
+        let rounding = rounding(self.emitted, scalar, self.limits, ROUNDING_BOXES);
+        let all = model.iter().zip(&rounding).zip(self.scales);
+        all.map(|((&model, rounding), &scale)| Split {
+            model: relative(model, scale),
+            sincos: relative(rounding.sincos, scale),
+            rounding: relative(rounding.arithmetic, scale),
+        })
+        .collect()
+    }
+
+    /// The claim for a scalar, with the [`model`](Subject::model) at hand.
+    pub fn certificate(&self, scalar: ScalarType, model: &[f64]) -> Certificate {
+        let exact = Stage {
+            program: self.emitted.clone(),
+            edits: Vec::new(),
+        };
+        Certificate {
+            robot: self.setting.robot().name.clone(),
+            input: input_hash(self.setting.robot()),
+            scene: self.setting.scene().map(SceneKey::of),
+            scalar,
+            limits: self.limits.clone(),
+            scales: self.scales.to_vec(),
+            relative_to: self.relative_to,
+            stages: match self.stages {
+                [] => vec![exact],
+                stages => stages.to_vec(),
+            },
+            emitted: self.emitted.clone(),
+            text: function::write(self.emitted, scalar, &MathPath::default(), &[]),
+            bounds: self.bounds(scalar, model),
+        }
+    }
+}
