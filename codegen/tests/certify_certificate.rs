@@ -169,23 +169,49 @@ fn every_other_lie_is_caught() {
     assert_eq!(short.check(&case.robot), Err(Refuted::Shape));
 }
 
-/// Putting any single omission back into the same program raises its cost.
+/// Putting any single omission back into the same program raises its cost,
+/// by what the list says, and no omission alone errs more than the list says.
 #[test]
 fn every_omission_saves_something() {
     let case = case(0.1);
-    for stage in &case.pruned.stages {
-        let cost = |stage: &Stage| {
-            let counts = stage.program(Folding::Syntactic).counts();
-            counts.operations() + 8 * counts.sincos
-        };
-        let paid = cost(stage);
-        assert!(!stage.edits.is_empty());
-        for index in 0..stage.edits.len() {
-            let mut without = stage.clone();
-            without.edits.remove(index);
-            assert!(cost(&without) > paid, "{}", write_edit(&stage.edits[index]));
-        }
+    let omissions = case.pruned.omissions(&case.limits);
+    let edits: usize = case.pruned.stages.iter().map(|s| s.edits.len()).sum();
+    assert!(edits > 0 && omissions.len() == edits);
+    for omission in &omissions {
+        let stage = &case.pruned.stages[omission.stage];
+        let counts = |stage: &Stage| stage.program(Folding::Syntactic).counts();
+        let mut back = stage.clone();
+        back.edits.retain(|edit| edit.place != omission.edit.place);
+        let (paid, more) = (counts(stage), counts(&back));
+        let words = &omission.words;
+        assert!(omission.operations + omission.sincos > 0, "{words}");
+        assert_eq!(more.operations(), paid.operations() + omission.operations);
+        assert_eq!(more.sincos, paid.sincos + omission.sincos);
     }
+    let first = &omissions[0];
+    let alone = Stage {
+        program: case.program.clone(),
+        edits: vec![first.edit.clone()],
+    };
+    let emitted = alone.program(Folding::Semantic);
+    let certificate = Certificate::make(
+        &case.robot,
+        &[alone],
+        &emitted,
+        ScalarType::F64,
+        &case.limits,
+        &[1.0; 3],
+    );
+    let seen = attack(&certificate, 500, 2, 3).unwrap().observed;
+    for (bound, seen) in first.errors.iter().zip(seen) {
+        assert!(seen <= *bound && *bound <= 3.0 * seen + 1e-12);
+    }
+    assert_eq!(
+        first.words.split(" -> ").count(),
+        2,
+        "{} names what is replaced and by what",
+        first.words
+    );
 }
 
 /// Two methods that share nothing but the intervals: both are bounds, and the

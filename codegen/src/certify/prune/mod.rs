@@ -9,9 +9,11 @@
 //! - `columns`: programs at many states
 //! - `price`: operations that stay
 //! - `greedy`: the ranking
+//! - `omissions`: what was left out, for reports
 
 mod columns;
 mod greedy;
+mod omissions;
 mod price;
 
 use super::bound::{self, Budget};
@@ -25,6 +27,7 @@ use crate::simplify::{Effort, simplify};
 use crate::verify::states::JointState;
 use columns::{Nodes, Value};
 use greedy::Greedy;
+pub use omissions::Omission;
 
 /// How hard to search, counted, never timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
