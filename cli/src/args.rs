@@ -100,6 +100,10 @@ pub struct GenerateArgs {
     /// Write nothing: compare with FILE and exit with 1 if it differs
     #[arg(long, requires = "output")]
     pub check: bool,
+    /// With a scene that has a tolerance: write its certificates (JSON) to this
+    /// file [default: beside the output, as NAME.certificate.json]
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// Search anew and keep the programs in a plan beside the robot file:
     /// every later run, macro and build script replays them
     #[arg(long, conflicts_with = "check")]

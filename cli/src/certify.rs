@@ -13,12 +13,13 @@ use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::generate::GenerateError;
 use dalembert_codegen::plan::SceneKey;
 use dalembert_codegen::scene::Setting;
+use dalembert_model::read::Reading;
 use dalembert_model::scene::Scale;
 use serde_json::Value;
 
 use crate::args::CertifyArgs;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::{generate, input, output};
 
 /// The largest certificate that is read.
 const MOST_BYTES: u64 = 64 << 20;
@@ -26,39 +27,35 @@ const MOST_BYTES: u64 = 64 << 20;
 /// Runs the subcommand.
 pub fn run(args: &CertifyArgs) -> Outcome {
     let reading = input::reading(&args.robot)?;
-    let certificate = read(&args.certificate)?;
+    let certificates = read(&args.certificate)?;
+    for certificate in &certificates {
+        one(args, &reading, certificate)?;
+    }
+    Ok(())
+}
+
+fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outcome {
     let name = args.certificate.display();
-    let scene = args.scene.clone();
-    let scene = scene.or(certificate.scene.as_ref().map(|scene| scene.name.clone()));
-    let scene = scene
-        .map(|scene| input::scene(&args.robot, &reading, &scene))
-        .transpose()?;
+    let own = certificate.scene.as_ref().map(|scene| &scene.name);
+    let scene = args.scene.as_ref().or(own);
+    let scene = scene.map(|scene| input::scene(&args.robot, reading, scene));
+    let scene = scene.transpose()?;
     let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
     let checked = certificate
         .check_in(&setting)
         .map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
     let of = scene.map_or_else(String::new, |scene| format!(" in scene {}", scene.name));
     let mut text = format!(
-        "{name} holds for `{}` of {}{of}\n  {}\n",
-        certificate.emitted.function, reading.robot.name, checked.proof
+        "{name} holds for `{}` in {} of {}{of}\n  {}\n",
+        certificate.emitted.function, certificate.scalar, reading.robot.name, checked.proof
     );
     for finding in &checked.findings {
         text += &format!("warning: {finding}\n");
     }
-    let mut rows = vec![
-        ["output", "model", "sincos", "rounding", "E"]
-            .map(String::from)
-            .to_vec(),
-    ];
-    for (index, bound) in certificate.bounds.iter().enumerate() {
-        let mut row = vec![certificate.emitted.entry(index)];
-        let parts = [bound.model, bound.sincos, bound.rounding, bound.total()];
-        row.extend(parts.map(|x| format!("{x:.3e}")));
-        rows.push(row);
-    }
+    let mut rows = generate::bounds(certificate);
     let mut seen = None;
     if args.samples > 0 {
-        let attack = attack(&certificate, args.samples, 8, 1)
+        let attack = attack(certificate, args.samples, 8, 1)
             .map_err(|error| Failure::Check(format!("error: {name}: {error}")))?;
         rows[0].push("observed".into());
         for (row, observed) in rows[1..].iter_mut().zip(&attack.observed) {
@@ -83,9 +80,9 @@ pub fn run(args: &CertifyArgs) -> Outcome {
     Ok(())
 }
 
-/// Reads a certificate. Nothing in it is trusted: [`Certificate::check`] does
+/// Reads certificates: one, or a list. Nothing in them is trusted: [`Certificate::check`] does
 /// the rest.
-fn read(path: &Path) -> Result<Certificate, Failure> {
+fn read(path: &Path) -> Result<Vec<Certificate>, Failure> {
     let name = path.display();
     let fail = |why: String| Failure::Input(format!("error: {name}: {why}"));
     let size = fs::metadata(path).map_err(|error| fail(error.to_string()))?;
@@ -97,7 +94,13 @@ fn read(path: &Path) -> Result<Certificate, Failure> {
         let (line, column) = (error.line(), error.column());
         Failure::Input(format!("error: {error}\n --> {name}:{line}:{column}"))
     })?;
-    parse(&json).map_err(fail)
+    let several = json.as_array().map(Vec::as_slice);
+    let all = several.unwrap_or(std::slice::from_ref(&json));
+    if all.is_empty() {
+        return Err(fail("there is no certificate in it".into()));
+    }
+    let read: Result<Vec<Certificate>, String> = all.iter().map(parse).collect();
+    read.map_err(fail)
 }
 
 fn parse(json: &Value) -> Result<Certificate, String> {

@@ -1,9 +1,16 @@
 //! `dalembert generate`: Rust source, written, printed or compared.
 
 use std::fs;
+use std::path::Path;
 
-use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::plan::{self, Entry, Plan, SceneKey};
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::choose::Admitted;
+use dalembert_codegen::certify::prune::omissions;
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::generate::{GenerateError, Generated, GeneratedFunction, Request, generate};
+use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::schedule::Program;
 use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
@@ -17,27 +24,48 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     // A comparison with what a whole search gives needs a whole search.
     let session = (!args.check).then(|| progress::watch(&mut request));
     let generated = generate(&robot, &request)?;
+    let certificates = certificates(&robot, &request, &generated)?;
     drop(session);
     output::note(&report(&robot, &request, &generated));
     if args.save_plan {
         save_plan(args, &robot, &request, &generated, kept)?;
     }
-    let Some(file) = &args.output else {
-        return output::print(&generated.text);
-    };
+    let beside = args
+        .output
+        .as_ref()
+        .map(|file| file.with_extension("certificate.json"));
+    let beside = args.certificate.clone().or(beside);
+    match (beside, certificates) {
+        (Some(file), Some(text)) => put(args, &file, &text)?,
+        (Some(_), None) if args.certificate.is_some() => {
+            return Err(Failure::Input(
+                "error: there is nothing to certify: --certificate is for a scene with a tolerance"
+                    .into(),
+            ));
+        }
+        _ => {}
+    }
+    match &args.output {
+        None => output::print(&generated.text),
+        Some(file) => put(args, file, &generated.text),
+    }
+}
+
+/// Writes a file, or compares it.
+fn put(args: &GenerateArgs, file: &Path, text: &str) -> Outcome {
     let name = file.display();
     if !args.check {
-        output::write_file(file, &generated.text)?;
+        output::write_file(file, text)?;
         output::note(&format!("\nwrote {name}"));
         return Ok(());
     }
     match fs::read(file) {
-        Ok(bytes) if bytes == generated.text.as_bytes() => {
+        Ok(bytes) if bytes == text.as_bytes() => {
             output::note(&format!("\n{name} is up to date"));
             Ok(())
         }
         Ok(bytes) => {
-            let line = first_difference(&bytes, &generated.text);
+            let line = first_difference(&bytes, text);
             Err(Failure::Check(format!(
                 "\nerror: {name}:{line}: the file is not what would be generated; run without --check to write it"
             )))
@@ -46,6 +74,33 @@ pub fn run(args: &GenerateArgs) -> Outcome {
             "\nerror: {name} cannot be compared: {error}"
         ))),
     }
+}
+
+/// The certificates of a scene with a tolerance, checked: those of a plan
+/// were not until now.
+fn certificates(
+    robot: &Robot,
+    request: &Request,
+    generated: &Generated,
+) -> Result<Option<String>, Failure> {
+    let admitted = generated
+        .functions
+        .iter()
+        .filter_map(|f| f.admitted.as_ref());
+    let certificates: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
+    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    for certificate in &certificates {
+        let function = certificate.emitted.function;
+        certificate.check_in(&setting).map_err(|why| {
+            Failure::Check(format!("error: the certificate of `{function}`: {why}"))
+        })?;
+    }
+    let texts: Vec<String> = certificates.iter().map(|c| c.to_json()).collect();
+    Ok(match texts.as_slice() {
+        [] => None,
+        [one] => Some(one.clone()),
+        all => Some(format!("[{}]\n", all.join(", ").replace("\n, ", ",\n"))),
+    })
 }
 
 /// Keeps the programs; those of other requests for the same robot stay.
@@ -63,14 +118,23 @@ fn save_plan(
         entries: Vec::new(),
     });
     for function in &generated.functions {
-        for &scalar in &request.scalars {
+        for scalar in scalars(request, function) {
             plan.insert(Entry {
                 start: request.start,
                 scalar,
                 source: function.source,
                 stages: function.stages.clone(),
                 scene: request.scene.as_ref().map(SceneKey::of),
-                program: function.program.clone(),
+                program: exact(function).clone(),
+                edited: function.admitted.as_ref().and_then(|admitted| {
+                    let mut all = admitted.certificates.iter();
+                    let mine = all.find(|certificate| certificate.scalar == scalar)?;
+                    Some(Edited {
+                        stages: admitted.stages.clone(),
+                        program: admitted.program.clone(),
+                        bounds: mine.bounds.clone(),
+                    })
+                }),
             });
         }
     }
@@ -78,6 +142,21 @@ fn save_plan(
     output::write_file(&path, &plan.write())?;
     output::note(&format!("\nkept the programs in {}", path.display()));
     Ok(())
+}
+
+/// The scalars that a function was emitted in.
+fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
+    match &function.admitted {
+        None => request.scalars.clone(),
+        Some(admitted) => admitted.certificates.iter().map(|c| c.scalar).collect(),
+    }
+}
+
+/// The proved program: what a tolerance was applied to.
+fn exact(function: &GeneratedFunction) -> &Program {
+    let admitted = function.admitted.as_ref();
+    let first = admitted.and_then(|admitted| admitted.stages.first());
+    first.map_or(&function.program, |stage| &stage.program)
 }
 
 /// What a person wants to know about the code.
@@ -92,15 +171,66 @@ fn report(robot: &Robot, request: &Request, generated: &Generated) -> String {
     text += &counts(generated);
     text += "\nmul add sincos after each stage\n";
     text += &stages(generated);
+    for function in &generated.functions {
+        if let Some(admitted) = &function.admitted {
+            text += &tolerance(admitted);
+        }
+    }
     text += "\nproved: with exact constants, every function\n";
     for function in &generated.functions {
         text += &format!("  {}: {}\n", function.function, function.proof);
     }
-    text += "the text was read back: it is the proved program, each constant rounded once\n";
+    text += match generated.functions.iter().any(|f| f.admitted.is_some()) {
+        true => "the text was read back: it is the certified program, each constant rounded once\n",
+        false => "the text was read back: it is the proved program, each constant rounded once\n",
+    };
     for warning in &generated.warnings {
         text += &format!("warning: {warning}\n");
     }
     text
+}
+
+/// What a tolerance admitted: E by cause, and what was left out.
+fn tolerance(admitted: &Admitted) -> String {
+    let mut text = String::new();
+    for certificate in &admitted.certificates {
+        let function = certificate.emitted.function;
+        text += &format!("\n{function} in {}, certified\n", certificate.scalar);
+        text += &output::table(&bounds(certificate), 0);
+    }
+    let left_out = omissions(&admitted.stages);
+    if left_out.is_empty() {
+        text += "nothing was left out: no omission was found within the tolerance\n";
+        return text;
+    }
+    text += "\nleft out, and what putting it back costs\n";
+    let mut rows = Vec::new();
+    for omission in &left_out {
+        let pairs = match omission.sincos {
+            0 => String::new(),
+            pairs => format!("+ {pairs} sincos"),
+        };
+        rows.push(vec![
+            omission.words.clone(),
+            omission.operations.to_string(),
+            pairs,
+        ]);
+    }
+    text + &output::table(&rows, 1)
+}
+
+/// The bounds of a certificate, output by output.
+pub fn bounds(certificate: &Certificate) -> Vec<Vec<String>> {
+    let head = ["output", "T", "model", "sincos", "rounding", "E"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    let pairs = certificate.bounds.iter().zip(&certificate.scales);
+    for (index, (bound, scale)) in pairs.enumerate() {
+        let mut row = vec![certificate.emitted.entry(index), format!("{scale:.4e}")];
+        let parts = [bound.model, bound.sincos, bound.rounding, bound.total()];
+        row.extend(parts.map(|x| format!("{x:.3e}")));
+        rows.push(row);
+    }
+    rows
 }
 
 /// `, scene pick`, if there is one.

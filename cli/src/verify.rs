@@ -1,17 +1,19 @@
 //! `dalembert verify`: the exact proof, then the emitted text run bit for bit
 //! against the generic runtime and against given states.
 
+use dalembert_codegen::certify::attack::{Attack, attack};
+use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::generate::{GenerateError, Generated, generate};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::verify::floating::{BOUND, GIVEN_BOUND, Measure, Runtime};
+use dalembert_codegen::verify::floating::{BOUND, Emitted, GIVEN_BOUND, Measure, Runtime};
 use dalembert_codegen::verify::states::{SEED, STATES, seeded};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 
 use crate::args::VerifyArgs;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::{generate as report, input, output};
 
 /// A measured error and its bound.
 struct Check {
@@ -27,6 +29,26 @@ impl Check {
     }
 }
 
+/// A certificate and the largest errors that were seen.
+struct Claim<'g> {
+    certificate: &'g Certificate,
+    attack: Attack,
+}
+
+impl Claim<'_> {
+    fn is_of(&self, emitted: &Emitted) -> bool {
+        let function = self.certificate.emitted.function;
+        function == emitted.function && self.certificate.scalar == emitted.scalar
+    }
+
+    fn passed(&self) -> bool {
+        self.attack.violation.is_none()
+    }
+}
+
+/// Climbs to the largest error of each output.
+const CLIMBS: usize = 2;
+
 /// Runs the subcommand.
 pub fn run(args: &VerifyArgs) -> Outcome {
     let (robot, request) = input::robot_and_request(&args.robot, &args.choice)?;
@@ -40,7 +62,12 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     let states = seeded(setting.robot(), STATES, SEED);
     let runtime = Runtime::in_setting(setting);
     let mut checks = Vec::new();
+    let claims = claims(&generated)?;
     for emitted in &generated.emitted {
+        // What a tolerance left out is no rounding: its bound is E.
+        if claims.iter().any(|claim| claim.is_of(emitted)) {
+            continue;
+        }
         for measure in emitted.against_runtime(&runtime, &states) {
             checks.push(Check {
                 against: "runtime",
@@ -62,9 +89,14 @@ pub fn run(args: &VerifyArgs) -> Outcome {
         }
     }
     if args.json {
-        output::print_json(&json(&robot, &generated, &checks))?;
+        output::print_json(&json(&robot, &generated, &checks, &claims))?;
     } else {
-        output::print(&text(&robot, &generated, &checks))?;
+        output::print(&text(&robot, &generated, &checks, &claims))?;
+    }
+    if !claims.iter().all(Claim::passed) {
+        return Err(Failure::Check(
+            "error: a certificate is violated: a defect of this program".into(),
+        ));
     }
     if checks.iter().all(Check::passed) {
         Ok(())
@@ -75,10 +107,44 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     }
 }
 
-fn text(robot: &Robot, generated: &Generated, checks: &[Check]) -> String {
+/// The certificates of a scene with a tolerance, attacked.
+fn claims(generated: &Generated) -> Result<Vec<Claim<'_>>, Failure> {
+    let admitted = generated
+        .functions
+        .iter()
+        .filter_map(|f| f.admitted.as_ref());
+    let mut claims = Vec::new();
+    for certificate in admitted.flat_map(|admitted| &admitted.certificates) {
+        let attack = attack(certificate, STATES, CLIMBS, SEED)
+            .map_err(|error| Failure::Check(format!("error: {error}")))?;
+        claims.push(Claim {
+            certificate,
+            attack,
+        });
+    }
+    Ok(claims)
+}
+
+fn text(robot: &Robot, generated: &Generated, checks: &[Check], claims: &[Claim<'_>]) -> String {
     let mut text = format!("robot {}, input {}\n\n", robot.name, robot.short_hash());
     for function in &generated.functions {
         text += &format!("  {} {}\n", function.function, function.proof);
+    }
+    for claim in claims {
+        let certificate = claim.certificate;
+        text += &format!(
+            "\n{} in {}, certified, and the largest errors at {} states\n",
+            certificate.emitted.function, certificate.scalar, claim.attack.states
+        );
+        let mut rows = report::bounds(certificate);
+        rows[0].push("observed".into());
+        for (row, observed) in rows[1..].iter_mut().zip(&claim.attack.observed) {
+            row.push(format!("{observed:.3e}"));
+        }
+        text += &output::table(&rows, 0);
+    }
+    if checks.is_empty() {
+        return text;
     }
     text += "\nworst normwise error\n";
     let head = [
@@ -105,7 +171,7 @@ fn text(robot: &Robot, generated: &Generated, checks: &[Check]) -> String {
     text
 }
 
-fn json(robot: &Robot, generated: &Generated, checks: &[Check]) -> Value {
+fn json(robot: &Robot, generated: &Generated, checks: &[Check], claims: &[Claim<'_>]) -> Value {
     let proofs = generated.functions.iter().map(|f| {
         json!({
             "function": f.function.name(),
@@ -130,12 +196,26 @@ fn json(robot: &Robot, generated: &Generated, checks: &[Check]) -> Value {
             "passed": check.passed(),
         })
     });
+    let claims = claims.iter().map(|claim| {
+        let bounds = claim.certificate.bounds.iter();
+        json!({
+            "function": claim.certificate.emitted.function.name(),
+            "scalar": claim.certificate.scalar.name(),
+            "certified": bounds.map(|bound| bound.total()).collect::<Vec<_>>(),
+            "observed": claim.attack.observed,
+            "states": claim.attack.states,
+            "passed": claim.passed(),
+        })
+    });
+    let claims: Vec<Value> = claims.collect();
+    let passed = checks.iter().all(Check::passed) && claims.iter().all(|c| c["passed"] == true);
     json!({
         "robot": robot.name,
         "input": robot.short_hash(),
         "proofs": proofs.collect::<Vec<_>>(),
         "errors": errors.collect::<Vec<_>>(),
+        "certificates": claims,
         "warnings": generated.warnings,
-        "passed": checks.iter().all(Check::passed),
+        "passed": passed,
     })
 }

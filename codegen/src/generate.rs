@@ -8,6 +8,8 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::Scene;
 
+use crate::certify::certificate::Refuted;
+use crate::certify::choose::{Admitted, Refusal};
 use crate::certify::input_box::InputBox;
 use crate::certify::ranges::{Finding, ranges};
 use crate::emit::module::{self, ModuleOptions};
@@ -20,6 +22,7 @@ use crate::portfolio::{self, Source, Variant};
 use crate::scene::{Setting, SettingError};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{self, Effort, Simplified, Stage};
+use crate::tolerate::tolerate;
 use crate::verify::accuracy::Judge;
 use crate::verify::exact::{Disproof, Proof, prove_in};
 use crate::verify::floating::Emitted;
@@ -124,6 +127,9 @@ pub struct Request {
     /// What the robot is used for; everything if `None`. Its outputs and
     /// scalar are defaults that the ways in apply ([`Request::in_scene`]).
     pub scene: Option<Scene>,
+    /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
+    /// that it admits.
+    pub any_scalar: bool,
 }
 
 impl Request {
@@ -150,6 +156,7 @@ impl Default for Request {
             math: MathPath::default(),
             module: None,
             scene: None,
+            any_scalar: false,
         }
     }
 }
@@ -161,14 +168,17 @@ pub struct GeneratedFunction {
     pub function: Function,
     /// The formulation that the search started from.
     pub source: Source,
-    /// The final program with exact constants.
+    /// The final program with exact constants: what is emitted.
     pub program: Program,
     /// Its counts.
     pub counts: Counts,
     /// Counts of the formula as executed, then after each step.
     pub stages: Vec<Stage>,
-    /// That it is right.
+    /// That it is right; with a tolerance, that the program is that it was
+    /// made from.
     pub proof: Proof,
+    /// With a tolerance: what was left out, and the certificates.
+    pub admitted: Option<Admitted>,
 }
 
 /// Everything generated for a robot.
@@ -185,7 +195,7 @@ pub struct Generated {
 }
 
 /// Why nothing was generated.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,
@@ -217,6 +227,10 @@ pub enum GenerateError {
     Disproved(Function, Disproof),
     /// The printed text is not the program: a defect of this library.
     Text(Function, ScalarType, String),
+    /// No variant meets the scene's tolerance.
+    Tolerance(Function, Refusal),
+    /// The plan's variant is none of the plan's program.
+    Variant(Function, Refuted),
 }
 
 impl fmt::Display for GenerateError {
@@ -247,6 +261,10 @@ impl fmt::Display for GenerateError {
             GenerateError::Text(function, scalar, why) => {
                 write!(f, "`{function}` in {scalar}: {why}")
             }
+            GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
+            GenerateError::Variant(function, why) => {
+                write!(f, "the plan's variant of `{function}`: {why}")
+            }
         }
     }
 }
@@ -275,9 +293,10 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             functions.push(one(&setting, function, request)?);
         }
     }
+    let scalars = tolerate(&setting, &mut functions, request)?;
     let mut warnings = Vec::new();
     for generated in &functions {
-        for &scalar in &request.scalars {
+        for &scalar in &scalars {
             check_constants(&generated.program, scalar, &mut warnings)?;
             warn_of_overflow(setting.robot(), &generated.program, scalar, &mut warnings);
         }
@@ -288,15 +307,15 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         &setting,
         &functions,
         &ModuleOptions {
-            scalars: &request.scalars,
+            scalars: &scalars,
             math: &request.math,
             name: &name,
         },
     );
     let mut emitted = Vec::new();
-    for &scalar in &request.scalars {
+    for &scalar in &scalars {
         for generated in &functions {
-            emitted.push(read_back(&text, generated, scalar, &name, request)?);
+            emitted.push(read_back(&text, generated, scalar, &name, &scalars)?);
         }
     }
     Ok(Generated {
@@ -328,6 +347,7 @@ fn one(
         program,
         stages,
         proof,
+        admitted: None,
     })
 }
 
@@ -493,10 +513,10 @@ fn read_back(
     generated: &GeneratedFunction,
     scalar: ScalarType,
     name: &str,
-    request: &Request,
+    scalars: &[ScalarType],
 ) -> Result<Emitted, GenerateError> {
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
-    let module = module::name(name, scalar, &request.scalars);
+    let module = module::name(name, scalar, scalars);
     let section = module::section(text, &module)
         .ok_or_else(|| fail(format!("there is no module `{module}`")))?;
     let read = TextProgram::parse(section, generated.function, scalar)

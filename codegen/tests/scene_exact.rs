@@ -304,6 +304,7 @@ fn plans_tell_scenes_apart() {
         stages: first.functions[0].stages.clone(),
         scene: Some(SceneKey::of(&scene)),
         program: first.functions[0].program.clone(),
+        edited: None,
     });
     let read = Plan::parse(&kept.write()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(read, kept);

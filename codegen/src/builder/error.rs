@@ -8,7 +8,7 @@ use crate::generate::GenerateError;
 use crate::scene::UnknownScene;
 
 /// Why nothing was written.
-#[derive(Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq)]
 pub enum BuildError {
     /// No robot file was named.
     NoRobot,

@@ -52,7 +52,7 @@ impl InputBox {
     pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
         InputBox::reading(
             &Setting::whole(robot),
-            &Function::InverseDynamics.arguments(),
+            Function::InverseDynamics.arguments(),
         )
     }
 

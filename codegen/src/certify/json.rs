@@ -95,6 +95,7 @@ fn plan_text(certificate: &Certificate, program: &Program) -> String {
             stages: Vec::new(),
             scene: certificate.scene.clone(),
             program: program.clone(),
+            edited: None,
         }],
     }
     .write()

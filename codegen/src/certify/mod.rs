@@ -10,12 +10,14 @@
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
 //!   both over the sub-boxes of `subdivide`
 //! - [`prune`]: the cheapest edits that a certificate admits
+//! - [`choose`]: the cheapest variant that a tolerance admits
 //! - [`certificate`]: the claim and its check; [`json`]: its text
 //! - [`sample`], [`attack`]: attempts to refute it
 
 pub mod attack;
 pub mod bound;
 pub mod certificate;
+pub mod choose;
 pub mod edits;
 mod expand;
 pub mod form;

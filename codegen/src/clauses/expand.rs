@@ -151,6 +151,7 @@ fn functions(
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
         scene: None,
+        any_scalar: false,
     };
     if let Some(name) = &invocation.scene {
         match scene::find(&source.scenes, &name.to_string()) {
@@ -173,6 +174,8 @@ fn functions(
                 GenerateError::Constant { function, .. }
                 | GenerateError::TooLarge { function, .. }
                 | GenerateError::Disproved(function, _)
+                | GenerateError::Tolerance(function, _)
+                | GenerateError::Variant(function, _)
                 | GenerateError::Text(function, ..) => Some(*function),
             };
             let asked = invocation.outputs.iter();

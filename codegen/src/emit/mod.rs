@@ -10,6 +10,7 @@ pub mod literal;
 pub mod module;
 pub mod parts;
 mod scene;
+mod variant;
 
 pub use literal::ScalarType;
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
 use super::scene::describe;
-use super::{MathPath, ScalarType, function};
+use super::{MathPath, ScalarType, function, variant};
 use crate::generate::GeneratedFunction;
 use crate::scene::Setting;
 
@@ -92,7 +92,7 @@ fn module(
             text.push_str(&structure);
             text.push('\n');
         }
-        let doc = function_doc(generated);
+        let doc = function_doc(generated, scalar);
         text.push_str(&function::write(
             &generated.program,
             scalar,
@@ -178,22 +178,40 @@ fn header(
             generated.source.name()
         ));
     }
-    lines.extend([
-        String::new(),
-        "Every function was proved before it was printed: with exact constants it equals".into(),
-        "the equations of motion at random points of a prime field, and this text, read".into(),
-        "back, is the proved program with each constant rounded once.".into(),
-    ]);
+    lines.push(String::new());
+    let proved = match functions.iter().any(|function| function.admitted.is_some()) {
+        false => [
+            "Every function was proved before it was printed: with exact constants it equals",
+            "the equations of motion at random points of a prime field, and this text, read",
+            "back, is the proved program with each constant rounded once.",
+        ],
+        true => [
+            "Every function was proved before anything was left out of it: with exact",
+            "constants it equals the equations of motion at random points of a prime field.",
+            "What was left out, within the scene's tolerance, each function says.",
+        ],
+    };
+    lines.extend(proved.map(String::from));
     lines
 }
 
-fn function_doc(generated: &GeneratedFunction) -> Vec<String> {
-    vec![
+fn function_doc(generated: &GeneratedFunction, scalar: ScalarType) -> Vec<String> {
+    let mut lines = vec![
         generated.function.summary().to_owned(),
         String::new(),
         format!("{}.", generated.counts),
-        format!("Checked: {}.", generated.proof),
-    ]
+        match &generated.admitted {
+            None => format!("Checked: {}.", generated.proof),
+            Some(_) => format!(
+                "Checked, before anything was left out: {}.",
+                generated.proof
+            ),
+        },
+    ];
+    if let Some(admitted) = &generated.admitted {
+        lines.extend(variant::describe(admitted, scalar));
+    }
+    lines
 }
 
 /// A decimal as the robot file would have it; a fraction if it is none.

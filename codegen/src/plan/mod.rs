@@ -7,14 +7,18 @@
 //!
 //! - this file: [`Plan`]: its entries and how one is found
 //! - [`mod@file`]: where it is kept
-//! - [`parse`], [`write`](Plan::write): the text
+//! - [`parse`], [`write`](Plan::write): the text; `variant` reads what a
+//!   tolerance left of a program
 
 pub mod file;
 pub mod parse;
+mod variant;
 pub(crate) mod write;
 
 pub use parse::PlanError;
 
+use crate::certify::certificate::Split;
+use crate::certify::edits;
 use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::generate::Start;
@@ -50,6 +54,23 @@ pub struct Entry {
     pub scene: Option<SceneKey>,
     /// The program.
     pub program: Program,
+    /// The variant to emit instead, where a scene has a tolerance.
+    pub edited: Option<Edited>,
+}
+
+/// A variant that a scene's tolerance admits. That edits and programs belong
+/// together is proved again whenever it is used; the bounds are taken as they
+/// are kept, since they take longer to find than a compiler may wait. The
+/// command finds them anew.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edited {
+    /// The entry's program and those that followed, with their edits; none if
+    /// nothing was left out.
+    pub stages: Vec<edits::Stage>,
+    /// The program to emit.
+    pub program: Program,
+    /// The bounds of each output in the entry's scalar.
+    pub bounds: Vec<Split>,
 }
 
 /// Which scene an entry is for. The hash of a plan is the robot's alone, so

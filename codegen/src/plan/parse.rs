@@ -6,6 +6,7 @@ use std::fmt;
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 
+use super::variant::Variant;
 use super::{Entry, Plan, SceneKey};
 use crate::emit::ScalarType;
 use crate::function::Function;
@@ -67,6 +68,8 @@ struct Reader {
     entries: Vec<Entry>,
     /// The program that is being read: not returned yet.
     open: Option<Entry>,
+    /// What is being read of the last entry's variant.
+    variant: Option<Variant>,
 }
 
 impl Reader {
@@ -78,6 +81,19 @@ impl Reader {
             return Ok(());
         }
         let words: Vec<&str> = line.split(' ').collect();
+        if let Some(variant) = &mut self.variant {
+            if let Some(edited) = variant.line(line, &words)? {
+                if let Some(entry) = self.entries.last_mut() {
+                    entry.edited = Some(edited);
+                }
+                self.variant = None;
+            }
+            return Ok(());
+        }
+        if let ("edited", None, Some(entry)) = (words[0], &self.open, self.entries.last()) {
+            self.variant = Some(Variant::of(entry));
+            return Ok(());
+        }
         match (words[0], &mut self.open) {
             ("plan", None) => {
                 if words[1..] != ["1"] {
@@ -92,21 +108,7 @@ impl Reader {
             ("scene", Some(entry)) => scene(&words[1..], entry)?,
             ("stage", Some(entry)) => entry.stages.push(stage(&words[1..])?),
             ("return", Some(entry)) => {
-                for word in &words[1..] {
-                    let (negative, word) = match word.strip_prefix('~') {
-                        Some(rest) => (true, rest),
-                        None => (false, *word),
-                    };
-                    let value = operand(word, &entry.program)?;
-                    entry.program.outputs.push(Output { negative, value });
-                }
-                let program = &mut entry.program;
-                let expected = program.function.outputs(program.rows.len());
-                if program.outputs.len() != expected {
-                    let found = program.outputs.len();
-                    return Err(format!("expected {expected} results, found {found}"));
-                }
-                program.collect_trig();
+                results(&words[1..], &mut entry.program)?;
                 self.entries.extend(self.open.take());
             }
             (_, Some(entry)) => {
@@ -122,12 +124,34 @@ impl Reader {
         if self.open.is_some() {
             return Err("the last program has no `return`".into());
         }
+        if self.variant.is_some() {
+            return Err("the last variant has not a `bound` for every result".into());
+        }
         Ok(Plan {
             robot: self.robot.ok_or("there is no line `robot`")?,
             input: self.input.ok_or("there is no line `input`")?,
             entries: self.entries,
         })
     }
+}
+
+/// The results that end a program.
+pub(super) fn results(words: &[&str], program: &mut Program) -> Result<(), String> {
+    for word in words {
+        let (negative, word) = match word.strip_prefix('~') {
+            Some(rest) => (true, rest),
+            None => (false, *word),
+        };
+        let value = operand(word, program)?;
+        program.outputs.push(Output { negative, value });
+    }
+    let expected = program.function.outputs(program.rows.len());
+    if program.outputs.len() != expected {
+        let found = program.outputs.len();
+        return Err(format!("expected {expected} results, found {found}"));
+    }
+    program.collect_trig();
+    Ok(())
 }
 
 fn program(words: &[&str]) -> Result<Entry, String> {
@@ -143,6 +167,7 @@ fn program(words: &[&str]) -> Result<Entry, String> {
     let function = Function::from_name(function).ok_or_else(|| unknown("function", function))?;
     Ok(Entry {
         scene: None,
+        edited: None,
         start: Start::from_name(start).ok_or_else(|| unknown("formulation", start))?,
         scalar: ScalarType::from_name(scalar).ok_or_else(|| unknown("scalar", scalar))?,
         source: Source::from_name(source).ok_or_else(|| unknown("source", source))?,
@@ -208,7 +233,7 @@ fn stage(words: &[&str]) -> Result<Stage, String> {
     })
 }
 
-fn step(words: &[&str], program: &Program) -> Result<Step, String> {
+pub(super) fn step(words: &[&str], program: &Program) -> Result<Step, String> {
     let &[left, symbol, right] = words else {
         return Err("expected an operation such as `t1 + s2`".into());
     };

@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
-use super::Plan;
+use super::{Edited, Plan};
+use crate::certify::certificate::Split;
+use crate::certify::json::write_edit;
 use crate::emit::function::input_name;
-use crate::schedule::Operand;
+use crate::schedule::{Operand, Program};
 
 impl Plan {
     /// The text; [`Plan::parse`] reads it back.
@@ -47,18 +49,46 @@ impl Plan {
                     c.mul, c.add, c.div, c.sincos
                 );
             }
-            for step in &program.steps {
-                let (left, right) = (operand(&step.left), operand(&step.right));
-                let _ = writeln!(text, "{left} {} {right}", step.operation.symbol());
+            steps(&mut text, program);
+            if let Some(edited) = &entry.edited {
+                variant(&mut text, edited);
             }
-            text.push_str("return");
-            for output in &program.outputs {
-                let sign = if output.negative { "~" } else { "" };
-                let _ = write!(text, " {sign}{}", operand(&output.value));
-            }
-            text.push('\n');
         }
         text
+    }
+}
+
+fn steps(text: &mut String, program: &Program) {
+    for step in &program.steps {
+        let (left, right) = (operand(&step.left), operand(&step.right));
+        let _ = writeln!(text, "{left} {} {right}", step.operation.symbol());
+    }
+    text.push_str("return");
+    for output in &program.outputs {
+        let sign = if output.negative { "~" } else { "" };
+        let _ = write!(text, " {sign}{}", operand(&output.value));
+    }
+    text.push('\n');
+}
+
+/// The edits of the program above, then program after program; the bounds.
+fn variant(text: &mut String, edited: &Edited) {
+    text.push_str("edited\n");
+    for (index, stage) in edited.stages.iter().enumerate() {
+        for edit in &stage.edits {
+            let _ = writeln!(text, "edit {}", write_edit(edit));
+        }
+        text.push_str("next\n");
+        let next = edited.stages.get(index + 1).map(|next| &next.program);
+        steps(text, next.unwrap_or(&edited.program));
+    }
+    for bound in &edited.bounds {
+        let Split {
+            model,
+            sincos,
+            rounding,
+        } = bound;
+        let _ = writeln!(text, "bound {model:e} {sincos:e} {rounding:e}");
     }
 }
 

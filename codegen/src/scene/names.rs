@@ -86,7 +86,8 @@ impl From<Float> for ScalarType {
 
 impl Request {
     /// The request in a scene: it takes the scene's outputs where none were
-    /// chosen otherwise, and the same for its scalar.
+    /// chosen otherwise, and the same for its scalar. With a tolerance and no
+    /// scalar chosen, the cheapest that it admits is taken.
     #[must_use]
     pub fn in_scene(mut self, scene: &Scene, chose_outputs: bool, chose_scalars: bool) -> Request {
         if !chose_outputs && !scene.outputs.is_empty() {
@@ -94,6 +95,10 @@ impl Request {
         }
         if let (false, Some(scalar)) = (chose_scalars, scene.scalar) {
             self.scalars = vec![scalar.into()];
+        }
+        self.any_scalar = !chose_scalars && scene.scalar.is_none();
+        if self.any_scalar && scene.tolerance.is_some() {
+            self.scalars = ScalarType::ALL.to_vec();
         }
         self.scene = Some(scene.clone());
         self

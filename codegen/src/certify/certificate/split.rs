@@ -16,4 +16,14 @@ impl Split {
     pub fn total(self) -> f64 {
         (self.model + self.sincos + self.rounding) * (1.0 + 1e-15)
     }
+
+    /// The smaller of two bounds, cause by cause.
+    #[must_use]
+    pub fn min(self, other: Split) -> Split {
+        Split {
+            model: self.model.min(other.model),
+            sincos: self.sincos.min(other.sincos),
+            rounding: self.rounding.min(other.rounding),
+        }
+    }
 }

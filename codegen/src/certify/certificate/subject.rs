@@ -12,8 +12,31 @@ use crate::plan::{SceneKey, input_hash};
 use crate::scene::Setting;
 use crate::schedule::Program;
 
-/// Sub-boxes of the rounding bound.
-pub const ROUNDING_BOXES: usize = 4096;
+/// How fine a bound is: the finer, the tighter and the dearer. Every one is
+/// sound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fineness {
+    /// For the bound of the edits.
+    pub budget: Budget,
+    /// Sub-boxes of the rounding bound.
+    pub boxes: usize,
+}
+
+impl Fineness {
+    /// For certificates: seconds for a six-joint arm.
+    pub const CERTIFY: Fineness = Fineness {
+        budget: Budget::CERTIFY,
+        boxes: 4096,
+    };
+    /// For who waits, as a compiler does.
+    pub const GLANCE: Fineness = Fineness {
+        budget: Budget {
+            boxes: 2_000,
+            ..Budget::GLANCE
+        },
+        boxes: 64,
+    };
+}
 
 /// What a claim is about, whatever the scalar.
 #[derive(Clone, Copy, Debug)]
@@ -35,17 +58,17 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// The largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
-    pub fn model(&self) -> Vec<f64> {
+    pub fn model(&self, fineness: Fineness) -> Vec<f64> {
         if self.stages.iter().all(|stage| stage.edits.is_empty()) {
             return vec![0.0; self.scales.len()];
         }
         let error = difference(self.stages);
-        magnitudes(&error, self.limits, self.scales, 0.0, Budget::CERTIFY)
+        magnitudes(&error, self.limits, self.scales, 0.0, fineness.budget)
     }
 
     /// Bounds by cause, relative to the scales, with the edits' at hand.
-    pub fn bounds(&self, scalar: ScalarType, model: &[f64]) -> Vec<Split> {
-        let rounding = rounding(self.emitted, scalar, self.limits, ROUNDING_BOXES);
+    pub fn bounds(&self, scalar: ScalarType, model: &[f64], fineness: Fineness) -> Vec<Split> {
+        let rounding = rounding(self.emitted, scalar, self.limits, fineness.boxes);
         let all = model.iter().zip(&rounding).zip(self.scales);
         all.map(|((&model, rounding), &scale)| Split {
             model: relative(model, scale),
@@ -55,8 +78,8 @@ impl Subject<'_> {
         .collect()
     }
 
-    /// The claim for a scalar, with the [`model`](Subject::model) at hand.
-    pub fn certificate(&self, scalar: ScalarType, model: &[f64]) -> Certificate {
+    /// The claim for a scalar with these bounds, whether they hold or not.
+    pub fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
         let exact = Stage {
             program: self.emitted.clone(),
             edits: Vec::new(),
@@ -75,7 +98,7 @@ impl Subject<'_> {
             },
             emitted: self.emitted.clone(),
             text: function::write(self.emitted, scalar, &MathPath::default(), &[]),
-            bounds: self.bounds(scalar, model),
+            bounds,
         }
     }
 }

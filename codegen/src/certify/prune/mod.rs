@@ -27,7 +27,7 @@ use crate::simplify::{Effort, simplify};
 use crate::verify::states::JointState;
 use columns::{Nodes, Value};
 use greedy::Greedy;
-pub use omissions::Omission;
+pub use omissions::{Omission, omissions};
 
 /// How hard to search, counted, never timed.
 #[derive(Clone, Copy, Debug, PartialEq)]

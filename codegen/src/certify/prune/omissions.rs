@@ -1,12 +1,16 @@
 //! What was left out, one by one.
 
+use std::fmt;
+
+use dalembert_model::number::{Exact, Rounded};
+
 use super::Pruned;
 use crate::certify::bound::{Budget, magnitudes};
 use crate::certify::edits::{Edit, Place, Stage, difference};
 use crate::certify::input_box::InputBox;
 use crate::emit::function::input_name;
 use crate::graph::{Counts, Folding};
-use crate::plan::write::operand;
+use crate::schedule::{Operand, Operation, Program};
 
 /// One edit, what it saves and what it costs.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,43 +19,63 @@ pub struct Omission {
     pub stage: usize,
     /// The edit.
     pub edit: Edit,
-    /// The step or input that is replaced, and by what:
-    /// `t12 = qd[3] * t4 -> 0`.
+    /// What is replaced, as an expression cut short where it is deep, and by
+    /// what: `qd[3] * (s4 * …) -> 0`.
     pub words: String,
     /// Operations that come back if it alone is put back.
     pub operations: usize,
     /// Sines and cosines that come back with them.
     pub sincos: usize,
     /// The certified largest |error| of each output, in its unit, if it alone
-    /// is left out of its program.
+    /// is left out of its program; empty where nobody asked.
     pub errors: Vec<f64>,
 }
 
 impl Pruned {
     /// What was left out, stage after stage.
     pub fn omissions(&self, limits: &InputBox) -> Vec<Omission> {
-        let mut omissions = Vec::new();
-        for (index, stage) in self.stages.iter().enumerate() {
-            let paid = stage.program(Folding::Syntactic).counts();
-            for edit in &stage.edits {
-                let back = without(stage, edit);
-                let alone = Stage {
-                    program: stage.program.clone(),
-                    edits: vec![edit.clone()],
-                };
-                let ones = vec![1.0; stage.program.outputs.len()];
-                let graph = difference(std::slice::from_ref(&alone));
-                omissions.push(Omission {
-                    stage: index,
-                    edit: edit.clone(),
-                    words: words(stage, edit),
-                    operations: back.operations().saturating_sub(paid.operations()),
-                    sincos: back.sincos.saturating_sub(paid.sincos),
-                    errors: magnitudes(&graph, limits, &ones, 0.0, Budget::GLANCE),
-                });
-            }
+        let mut omissions = omissions(&self.stages);
+        for omission in &mut omissions {
+            let alone = Stage {
+                program: self.stages[omission.stage].program.clone(),
+                edits: vec![omission.edit.clone()],
+            };
+            let ones = vec![1.0; alone.program.outputs.len()];
+            let graph = difference(std::slice::from_ref(&alone));
+            omission.errors = magnitudes(&graph, limits, &ones, 0.0, Budget::GLANCE);
         }
         omissions
+    }
+}
+
+/// What was left out, stage after stage, without the errors, which take long.
+pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
+    let mut omissions = Vec::new();
+    for (index, stage) in stages.iter().enumerate() {
+        let paid = stage.program(Folding::Syntactic).counts();
+        for edit in &stage.edits {
+            let back = without(stage, edit);
+            omissions.push(Omission {
+                stage: index,
+                edit: edit.clone(),
+                words: words(&stage.program, edit),
+                operations: back.operations().saturating_sub(paid.operations()),
+                sincos: back.sincos.saturating_sub(paid.sincos),
+                errors: Vec::new(),
+            });
+        }
+    }
+    omissions
+}
+
+impl fmt::Display for Omission {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, saves {}", self.words, self.operations)?;
+        match self.sincos {
+            0 => Ok(()),
+            1 => f.write_str(" and a sine/cosine pair"),
+            more => write!(f, " and {more} sine/cosine pairs"),
+        }
     }
 }
 
@@ -65,25 +89,65 @@ fn without(stage: &Stage, edit: &Edit) -> Counts {
     back.program(Folding::Syntactic).counts()
 }
 
-fn words(stage: &Stage, edit: &Edit) -> String {
+/// Operations deeper than this below the one that is replaced are not shown.
+const DEPTH: usize = 2;
+
+fn words(program: &Program, edit: &Edit) -> String {
     let place = match edit.place {
         Place::Input(input) => input_name(input),
-        Place::Step(step) => match stage.program.steps.get(step) {
-            Some(work) => format!(
-                "t{} = {} {} {}",
-                step + 1,
-                readable(&operand(&work.left)),
-                work.operation.symbol(),
-                readable(&operand(&work.right))
-            ),
-            None => format!("t{}", step + 1),
-        },
+        Place::Step(step) => expression(program, &Operand::Step(step), DEPTH + 1).0,
     };
-    let sign = if edit.negative { "-" } else { "" };
-    format!("{place} -> {sign}{}", readable(&operand(&edit.value)))
+    let value = match (edit.negative, expression(program, &edit.value, DEPTH)) {
+        (false, (text, _)) => text,
+        (true, (text, Strength::Sum)) => format!("-({text})"),
+        (true, (text, _)) => format!("-{text}"),
+    };
+    format!("{place} -> {value}")
 }
 
-/// Without the mark of constants.
-fn readable(operand: &str) -> &str {
-    operand.strip_prefix('#').unwrap_or(operand)
+/// What binds an expression's parts, the weakest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Strength {
+    Sum,
+    Product,
+    Atom,
+}
+
+/// An operand in terms of inputs, `…` for what is too deep.
+fn expression(program: &Program, operand: &Operand, depth: usize) -> (String, Strength) {
+    let step = match operand {
+        Operand::Input(input) => return (input_name(*input), Strength::Atom),
+        Operand::Constant(constant) => return (roughly(constant), Strength::Atom),
+        Operand::Step(step) => program.steps.get(*step),
+    };
+    let Some(step) = step.filter(|_| depth > 0) else {
+        return ("…".into(), Strength::Atom);
+    };
+    let part = |operand, least| {
+        let (text, strength) = expression(program, operand, depth - 1);
+        if strength < least {
+            format!("({text})")
+        } else {
+            text
+        }
+    };
+    let (least, strength) = match step.operation {
+        Operation::Mul => ([Strength::Product; 2], Strength::Product),
+        Operation::Add => ([Strength::Sum; 2], Strength::Sum),
+        Operation::Sub => ([Strength::Sum, Strength::Product], Strength::Sum),
+    };
+    let (left, right) = (part(&step.left, least[0]), part(&step.right, least[1]));
+    let symbol = step.operation.symbol();
+    (format!("{left} {symbol} {right}"), strength)
+}
+
+/// Four digits are enough to recognise a constant.
+fn roughly(constant: &Exact) -> String {
+    let value = f64::nearest(constant);
+    let short = format!("{value:.3e}").parse::<f64>().unwrap_or(value);
+    if short == 0.0 || (1e-3..1e5).contains(&short.abs()) {
+        format!("{short}")
+    } else {
+        format!("{short:e}")
+    }
 }

@@ -1,0 +1,283 @@
+//! Choosing: the cheapest variant of a function that a tolerance admits.
+//!
+//! What rounding and sines cost is set aside first, twice over, since the
+//! program that is left is another one; [`prune`] may use the rest. What comes
+//! out is certified as a whole, and only that decides: as long as E is above
+//! the tolerance, more is set aside, and in the end nothing is left out.
+
+use std::fmt;
+
+use dalembert_model::number::{Rational, Rounded};
+use dalembert_model::scene::{Scale, Tolerance};
+
+use super::certificate::subject::{Fineness, Subject};
+use super::certificate::{Certificate, Refuted, Split};
+use super::edits::Stage;
+use super::input_box::{InputBox, MissingLimit};
+use super::prune::{Settings, prune};
+use super::scale;
+use super::sensitivity::rounding;
+use crate::emit::ScalarType;
+use crate::scene::Setting;
+use crate::schedule::Program;
+use crate::verify::text::TextError;
+
+/// What errors of a function are bounded in and relative to.
+#[derive(Clone, Debug)]
+pub struct Frame<'a> {
+    /// The full model.
+    pub setting: &'a Setting,
+    /// The exact program.
+    pub exact: &'a Program,
+    /// Where bounds hold.
+    pub limits: InputBox,
+    /// T of each output.
+    pub scales: Vec<f64>,
+    /// What T is.
+    pub relative_to: Scale,
+}
+
+/// A variant that meets its tolerance.
+#[derive(Clone, Debug)]
+pub struct Admitted {
+    /// What was edited, program after program; none if nothing was.
+    pub stages: Vec<Stage>,
+    /// The program to emit.
+    pub program: Program,
+    /// One a scalar, as they were asked for.
+    pub certificates: Vec<Certificate>,
+}
+
+/// Why no variant meets a tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// A limit that a bound needs.
+    Missing(MissingLimit),
+    /// The exact program cannot be read back: a defect of this library.
+    Text(TextError),
+    /// Already what sines and rounding cost cannot be shown to be less.
+    Above {
+        /// The output's name.
+        entry: String,
+        /// In which scalar.
+        scalar: ScalarType,
+        /// The output's tolerance.
+        tolerance: f64,
+        /// What can be shown of the exact program.
+        bound: Split,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Missing(missing) => missing.fmt(f),
+            Refusal::Text(error) => error.fmt(f),
+            Refusal::Above {
+                entry,
+                scalar,
+                tolerance,
+                bound,
+            } => write!(
+                f,
+                "no variant in {scalar} can be certified to keep {entry} within {tolerance:e}: with nothing \
+                 left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
+                 allow more, or choose a wider scalar",
+                bound.rounding, bound.sincos
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl<'a> Frame<'a> {
+    /// The box of a setting, and T over it.
+    ///
+    /// # Errors
+    /// [`Refusal::Missing`] limits, or a program that cannot be read back.
+    pub fn new(
+        setting: &'a Setting,
+        exact: &'a Program,
+        relative_to: Scale,
+    ) -> Result<Frame<'a>, Refusal> {
+        let limits = InputBox::within(setting, exact.function).map_err(Refusal::Missing)?;
+        let scales = match relative_to {
+            Scale::Actuator => scale::actuator(setting.robot(), exact).map_err(Refusal::Missing)?,
+            Scale::Range => scale::range(exact, &limits).map_err(Refusal::Text)?,
+        };
+        Ok(Frame {
+            setting,
+            exact,
+            limits,
+            scales,
+            relative_to,
+        })
+    }
+
+    /// The tolerance of each output: that of its joint, for an entry of D the
+    /// smaller of its two joints'.
+    pub fn tolerances(&self, tolerance: &Tolerance) -> Vec<f64> {
+        let rows = &self.exact.rows;
+        // Down: nothing is allowed that the decimal does not allow.
+        let of = |joint: usize| {
+            let value = tolerance.of(joint).map(f64::nearest_rational);
+            value.map_or(0.0, |value| {
+                let above = Rational::from_float(value)
+                    .is_some_and(|exact| tolerance.of(joint).is_some_and(|wanted| exact > *wanted));
+                if above { value.next_down() } else { value }
+            })
+        };
+        let mut all = Vec::new();
+        for quantity in self.exact.function.quantities() {
+            for index in 0..quantity.len(rows.len()) {
+                let mut rest = index;
+                let digits = (0..quantity.rank()).map(|_| {
+                    let joint = rows[rest % rows.len()];
+                    rest /= rows.len();
+                    of(joint)
+                });
+                all.push(digits.fold(f64::INFINITY, f64::min));
+            }
+        }
+        all
+    }
+
+    /// What is claimed of a variant.
+    fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
+        Subject {
+            setting: self.setting,
+            stages,
+            emitted,
+            limits: &self.limits,
+            scales: &self.scales,
+            relative_to: Some(self.relative_to),
+        }
+    }
+
+    /// The exact program's certificates, whatever they come to.
+    pub fn unedited(&self, scalars: &[ScalarType], fineness: Fineness) -> Admitted {
+        self.certified(&[], self.exact, scalars, fineness)
+    }
+
+    fn certified(
+        &self,
+        stages: &[Stage],
+        emitted: &Program,
+        scalars: &[ScalarType],
+        fineness: Fineness,
+    ) -> Admitted {
+        let subject = self.subject(stages, emitted);
+        let model = subject.model(fineness);
+        let certificate = |&scalar| subject.claim(scalar, subject.bounds(scalar, &model, fineness));
+        Admitted {
+            stages: stages.to_vec(),
+            program: emitted.clone(),
+            certificates: scalars.iter().map(certificate).collect(),
+        }
+    }
+
+    /// The variant of a plan, with its claims: program and edits are proved to
+    /// belong together, bounds are not found anew.
+    ///
+    /// # Errors
+    /// What [`Certificate::check_in`] would find.
+    pub fn replayed(
+        &self,
+        stages: &[Stage],
+        emitted: &Program,
+        claims: &[(ScalarType, Vec<Split>)],
+    ) -> Result<Admitted, Refuted> {
+        let first = stages.first().map_or(emitted, |stage| &stage.program);
+        if first != self.exact {
+            return Err(Refuted::Step(0));
+        }
+        let subject = self.subject(stages, emitted);
+        let mut certificates = Vec::new();
+        for (scalar, bounds) in claims {
+            let certificate = subject.claim(*scalar, bounds.clone());
+            certificate.check_shape(self.setting.robot())?;
+            certificate.check_edits()?;
+            certificates.push(certificate);
+        }
+        Ok(Admitted {
+            stages: stages.to_vec(),
+            program: emitted.clone(),
+            certificates,
+        })
+    }
+
+    /// The cheapest variant found of which every output in every scalar is
+    /// certified to stay within its tolerance.
+    ///
+    /// # Errors
+    /// [`Refusal::Above`] if the exact program is not.
+    pub fn choose(
+        &self,
+        tolerances: &[f64],
+        scalars: &[ScalarType],
+        settings: &Settings,
+        fineness: Fineness,
+    ) -> Result<Admitted, Refusal> {
+        let exact = self.unedited(scalars, fineness);
+        exact.within(tolerances)?;
+        for aside in [2.0, 8.0] {
+            let Some(allowances) = self.allowances(tolerances, scalars, aside, fineness) else {
+                break;
+            };
+            let pruned = prune(self.exact, &self.limits, &allowances, settings);
+            if pruned.stages.is_empty() {
+                break;
+            }
+            let variant = self.certified(&pruned.stages, &pruned.program, scalars, fineness);
+            if variant.within(tolerances).is_ok() {
+                return Ok(variant);
+            }
+        }
+        Ok(exact)
+    }
+
+    /// What is left for edits, in each output's unit; `None` if that is
+    /// nothing.
+    fn allowances(
+        &self,
+        tolerances: &[f64],
+        scalars: &[ScalarType],
+        aside: f64,
+        fineness: Fineness,
+    ) -> Option<Vec<f64>> {
+        let pairs = self.scales.iter().zip(tolerances);
+        let whole: Vec<f64> = pairs.map(|(scale, t)| scale * t).collect();
+        let mut allowances = whole.clone();
+        for &scalar in scalars {
+            let costs = rounding(self.exact, scalar, &self.limits, fineness.boxes);
+            for ((left, whole), cost) in allowances.iter_mut().zip(&whole).zip(&costs) {
+                let rest = whole - aside * (cost.arithmetic + cost.sincos);
+                *left = left.min(rest).max(0.0);
+            }
+        }
+        let some = allowances.iter().any(|&left| left > 0.0);
+        some.then_some(allowances)
+    }
+}
+
+impl Admitted {
+    /// Whether every E is within its output's tolerance.
+    ///
+    /// # Errors
+    /// [`Refusal::Above`] with the first that is not.
+    pub fn within(&self, tolerances: &[f64]) -> Result<(), Refusal> {
+        for certificate in &self.certificates {
+            let mut pairs = certificate.bounds.iter().zip(tolerances);
+            if let Some(index) = pairs.position(|(bound, &tolerance)| bound.total() > tolerance) {
+                return Err(Refusal::Above {
+                    entry: certificate.emitted.entry(index),
+                    scalar: certificate.scalar,
+                    tolerance: tolerances[index],
+                    bound: certificate.bounds[index],
+                });
+            }
+        }
+        Ok(())
+    }
+}

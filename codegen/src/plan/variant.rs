@@ -1,0 +1,91 @@
+//! Reads what a tolerance left of a program: `edited`, then for each program
+//! its edits and, after `next`, what they gave; then the bounds.
+
+use super::parse::{results, step};
+use super::{Edited, Entry};
+use crate::certify::certificate::Split;
+use crate::certify::edits::{Edit, Stage};
+use crate::certify::json::read_edit;
+use crate::schedule::Program;
+
+/// A variant that is being read.
+pub(super) struct Variant {
+    stages: Vec<Stage>,
+    /// The last program, whole unless it is being read.
+    program: Program,
+    edits: Vec<Edit>,
+    is_open: bool,
+    bounds: Vec<Split>,
+}
+
+impl Variant {
+    /// Of an entry's program.
+    pub(super) fn of(entry: &Entry) -> Variant {
+        Variant {
+            stages: Vec::new(),
+            program: entry.program.clone(),
+            edits: Vec::new(),
+            is_open: false,
+            bounds: Vec::new(),
+        }
+    }
+
+    /// Reads a line; the variant is whole with the last of its bounds.
+    pub(super) fn line(&mut self, line: &str, words: &[&str]) -> Result<Option<Edited>, String> {
+        match (words[0], self.is_open) {
+            ("edit", false) => {
+                let edit = line.split_once(' ').map_or("", |(_, edit)| edit);
+                self.edits.push(read_edit(edit, &self.program)?);
+            }
+            ("next", false) => {
+                let empty = Program {
+                    trig: Vec::new(),
+                    steps: Vec::new(),
+                    outputs: Vec::new(),
+                    ..self.program.clone()
+                };
+                self.stages.push(Stage {
+                    program: std::mem::replace(&mut self.program, empty),
+                    edits: std::mem::take(&mut self.edits),
+                });
+                self.is_open = true;
+            }
+            ("return", true) => {
+                results(&words[1..], &mut self.program)?;
+                self.is_open = false;
+            }
+            (_, true) => {
+                let step = step(words, &self.program)?;
+                self.program.steps.push(step);
+            }
+            ("bound", false) if self.edits.is_empty() => {
+                self.bounds.push(bound(&words[1..])?);
+                if self.bounds.len() == self.program.outputs.len() {
+                    return Ok(Some(Edited {
+                        stages: std::mem::take(&mut self.stages),
+                        program: self.program.clone(),
+                        bounds: std::mem::take(&mut self.bounds),
+                    }));
+                }
+            }
+            (word, false) => {
+                return Err(format!(
+                    "expected `edit`, `next` or `bound`, found `{word}`"
+                ));
+            }
+        }
+        Ok(None)
+    }
+}
+
+fn bound(words: &[&str]) -> Result<Split, String> {
+    let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
+    match numbers.as_slice() {
+        &[model, sincos, rounding] if numbers.iter().all(|x| *x >= 0.0) => Ok(Split {
+            model,
+            sincos,
+            rounding,
+        }),
+        _ => Err("expected three numbers of zero or more".into()),
+    }
+}

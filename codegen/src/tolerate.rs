@@ -1,0 +1,123 @@
+//! The tolerance of a scene: its functions' programs give way to the cheapest
+//! variants that it admits, each with its certificates.
+//!
+//! How hard to look is a matter of the request's effort, as for the exact
+//! programs: little while a compiler waits, minutes for a plan.
+
+use dalembert_model::scene::Tolerance;
+
+use crate::certify::certificate::subject::Fineness;
+use crate::certify::choose::{Admitted, Frame, Refusal};
+use crate::certify::prune::Settings;
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::generate::{GenerateError, GeneratedFunction, Request};
+use crate::plan::{Edited, SceneKey};
+use crate::scene::Setting;
+use crate::simplify::Effort;
+
+/// Replaces the programs, if the scene has a tolerance. Returns the scalars to
+/// emit.
+pub(crate) fn tolerate(
+    setting: &Setting,
+    functions: &mut [GeneratedFunction],
+    request: &Request,
+) -> Result<Vec<ScalarType>, GenerateError> {
+    let scene = setting.scene();
+    let Some(tolerance) = scene.and_then(|scene| scene.tolerance.as_ref()) else {
+        return Ok(request.scalars.clone());
+    };
+    let mut choices = vec![request.scalars.clone()];
+    if request.any_scalar && request.scalars.len() > 1 {
+        // The narrow one first: it is the cheaper, in time if not in counts.
+        choices = vec![vec![ScalarType::F32], vec![ScalarType::F64]];
+    }
+    let last = choices.len() - 1;
+    for (index, scalars) in choices.into_iter().enumerate() {
+        let admit =
+            |function: &GeneratedFunction| one(setting, function, tolerance, &scalars, request);
+        let admitted: Result<Vec<Admitted>, GenerateError> = functions.iter().map(admit).collect();
+        match admitted {
+            Ok(admitted) => {
+                for (function, admitted) in functions.iter_mut().zip(admitted) {
+                    function.program = admitted.program.clone();
+                    function.counts = admitted.program.counts();
+                    function.admitted = Some(admitted);
+                }
+                return Ok(scalars);
+            }
+            Err(GenerateError::Tolerance(_, Refusal::Above { .. })) if index < last => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Err(GenerateError::Empty)
+}
+
+fn one(
+    setting: &Setting,
+    generated: &GeneratedFunction,
+    tolerance: &Tolerance,
+    scalars: &[ScalarType],
+    request: &Request,
+) -> Result<Admitted, GenerateError> {
+    let function = generated.function;
+    let fail = |refusal| GenerateError::Tolerance(function, refusal);
+    let frame = Frame::new(setting, &generated.program, tolerance.relative_to).map_err(fail)?;
+    if let Some(admitted) = kept(&frame, function, scalars, request)? {
+        return Ok(admitted);
+    }
+    let (settings, fineness) = match request.effort {
+        Effort::Quick => (QUICK, Fineness::GLANCE),
+        Effort::Thorough => (Settings::default(), Fineness::CERTIFY),
+    };
+    let tolerances = frame.tolerances(tolerance);
+    frame
+        .choose(&tolerances, scalars, &settings, fineness)
+        .map_err(fail)
+}
+
+/// For who waits: seconds for a six-joint arm.
+const QUICK: Settings = Settings {
+    samples: 64,
+    guesses: 6,
+    retries: 0,
+    stages: 1,
+    budget: Fineness::GLANCE.budget,
+    effort: Effort::Quick,
+};
+
+/// The plan's variant, if it has the same one for each of the scalars.
+fn kept(
+    frame: &Frame<'_>,
+    function: Function,
+    scalars: &[ScalarType],
+    request: &Request,
+) -> Result<Option<Admitted>, GenerateError> {
+    let (Some(plan), Some(scene)) = (&request.plan, frame.setting.scene()) else {
+        return Ok(None);
+    };
+    let scene_key = Some(SceneKey::of(scene));
+    let find = |&scalar: &ScalarType| {
+        let entry = plan.find(function, request.start, scalar, Some(scene))?;
+        (entry.scene == scene_key && entry.program == *frame.exact)
+            .then_some(entry.edited.as_ref())
+            .flatten()
+    };
+    let variants: Option<Vec<&Edited>> = scalars.iter().map(find).collect();
+    let Some([first, rest @ ..]) = variants.as_deref() else {
+        return Ok(None);
+    };
+    let same = |other: &&Edited| other.stages == first.stages && other.program == first.program;
+    if !rest.iter().all(same) {
+        return Ok(None);
+    }
+    let claims = variants
+        .iter()
+        .flatten()
+        .map(|variant| variant.bounds.clone());
+    let claims: Vec<_> = scalars.iter().copied().zip(claims).collect();
+    frame
+        .replayed(&first.stages, &first.program, &claims)
+        .map(Some)
+        .map_err(|refuted| GenerateError::Variant(function, refuted))
+}
