@@ -4,7 +4,7 @@
 //! computed, not only what is exact.
 
 use super::input_box::InputBox;
-use super::sensitivity::forward;
+use super::sensitivity::{Constants, forward};
 use super::subdivide::sub_boxes;
 use crate::emit::ScalarType;
 use crate::schedule::{Operand, Program};
@@ -72,8 +72,9 @@ impl std::fmt::Display for Finding {
 /// The range table over a box, from at most `boxes` sub-boxes.
 pub fn ranges(program: &Program, scalar: ScalarType, limits: &InputBox, boxes: usize) -> Ranges {
     let mut magnitudes = vec![0.0f64; program.steps.len()];
+    let constants = Constants::of(program, scalar);
     for sub in sub_boxes(program, limits, boxes) {
-        let run = forward(program, scalar, &sub);
+        let run = forward(program, scalar, &constants, &sub);
         for (most, value) in magnitudes.iter_mut().zip(&run.values) {
             *most = most.max(value.magnitude());
         }

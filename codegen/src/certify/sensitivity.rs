@@ -16,6 +16,8 @@
 //! contain x̂ *and* x, and adjoints computed from them contain the mixed ones:
 //! the sum below bounds the whole error, not only its first order.
 
+use dalembert_model::number::Exact;
+
 use super::input_box::InputBox;
 use super::interval::Interval;
 use super::subdivide::sub_boxes;
@@ -50,8 +52,12 @@ pub fn rounding(
     boxes: usize,
 ) -> Vec<Rounding> {
     let mut worst = vec![Rounding::default(); program.outputs.len()];
+    let constants = Constants::of(program, scalar);
     for sub in sub_boxes(program, limits, boxes) {
-        for (worst, here) in worst.iter_mut().zip(over(program, scalar, &sub)) {
+        for (worst, here) in worst
+            .iter_mut()
+            .zip(over(program, scalar, &constants, &sub))
+        {
             *worst = worst.max(here);
         }
     }
@@ -67,6 +73,28 @@ fn underflow(scalar: ScalarType) -> f64 {
     }
 }
 
+/// The constants that steps read, with what rounding takes from them: exact
+/// numbers are slow to bound, so it is done once and not in every sub-box.
+pub(super) struct Constants(Vec<[Option<(Interval, f64)>; 2]>);
+
+impl Constants {
+    pub(super) fn of(program: &Program, scalar: ScalarType) -> Constants {
+        let found = |operand: &Operand| match operand {
+            Operand::Constant(constant) => Some(rounded(constant, scalar)),
+            _ => None,
+        };
+        let steps = program.steps.iter();
+        Constants(steps.map(|s| [found(&s.left), found(&s.right)]).collect())
+    }
+}
+
+/// A constant with its literal, and how far they are apart.
+fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
+    let exact = Interval::exact(constant);
+    let rounded = Interval::point(scalar.round(constant));
+    (exact.hull(rounded), (exact - rounded).magnitude())
+}
+
 /// Values that contain what is computed and what is exact, and how far the
 /// two can be apart at the node itself.
 pub(super) struct Forward {
@@ -75,13 +103,22 @@ pub(super) struct Forward {
 }
 
 /// Runs a program with every operation widened by its rounding.
-pub(super) fn forward(program: &Program, scalar: ScalarType, sub: &InputBox) -> Forward {
+pub(super) fn forward(
+    program: &Program,
+    scalar: ScalarType,
+    constants: &Constants,
+    sub: &InputBox,
+) -> Forward {
     let u = scalar.unit_roundoff();
     let mut values: Vec<Interval> = Vec::with_capacity(program.steps.len());
     let mut own = Vec::with_capacity(program.steps.len());
-    for step in &program.steps {
-        let x = read(&step.left, &values, scalar, sub).0;
-        let y = read(&step.right, &values, scalar, sub).0;
+    for (step, known) in program.steps.iter().zip(&constants.0) {
+        let value = |operand, known: Option<(Interval, f64)>| match known {
+            Some((constant, _)) => constant,
+            None => read(operand, &values, scalar, sub).0,
+        };
+        let x = value(&step.left, known[0]);
+        let y = value(&step.right, known[1]);
         let (exact, eta) = match step.operation {
             Operation::Add => (x + y, 0.0),
             Operation::Sub => (x - y, 0.0),
@@ -105,11 +142,7 @@ fn read(
     let u = scalar.unit_roundoff();
     match operand {
         Operand::Step(index) => (values[*index], 0.0),
-        Operand::Constant(constant) => {
-            let exact = Interval::exact(constant);
-            let rounded = Interval::point(scalar.round(constant));
-            (exact.hull(rounded), (exact - rounded).magnitude())
-        }
+        Operand::Constant(constant) => rounded(constant, scalar),
         Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) => {
             let exact = sub.input(*input);
             // Each addition that forms the angle rounds; a sine moves no more
@@ -132,12 +165,22 @@ fn read(
 }
 
 /// Bounds over one sub-box.
-fn over(program: &Program, scalar: ScalarType, sub: &InputBox) -> Vec<Rounding> {
-    let Forward { values, own } = forward(program, scalar, sub);
+fn over(
+    program: &Program,
+    scalar: ScalarType,
+    constants: &Constants,
+    sub: &InputBox,
+) -> Vec<Rounding> {
+    let Forward { values, own } = forward(program, scalar, constants, sub);
     let operands: Vec<[(Interval, f64); 2]> = program
         .steps
         .iter()
-        .map(|step| [&step.left, &step.right].map(|operand| read(operand, &values, scalar, sub)))
+        .zip(&constants.0)
+        .map(|(step, [left, right])| {
+            [(&step.left, left), (&step.right, right)].map(|(operand, known)| {
+                known.unwrap_or_else(|| read(operand, &values, scalar, sub))
+            })
+        })
         .collect();
     let mut adjoints = vec![Interval::ZERO; program.steps.len()];
     let mut bounds = Vec::with_capacity(program.outputs.len());
