@@ -208,13 +208,21 @@ pub struct CertifyArgs {
 /// Arguments of `tradeoff`.
 #[derive(Debug, clap::Args)]
 pub struct TradeoffArgs {
-    /// The robot file; the box is its limits of motion
+    /// The robot file; the box is its limits of motion, unless a scene has one
     pub robot: PathBuf,
+    /// Only what this scene of the robot file needs; its tolerance gives way
+    /// to the list of tolerances
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
+    /// The function [default: the scene's first, or inverse_dynamics]
+    #[arg(long, value_name = "NAME", value_parser = function_parser())]
+    pub function: Option<Function>,
     /// What errors are relative to: `actuator` torque limits, or `range`, the
-    /// model's own largest torques in the box
-    #[arg(long, value_name = "SCALE", default_value = "actuator", value_parser = ["actuator", "range"])]
-    pub relative_to: String,
-    /// Tolerances, separated by commas [default: 1e-1 down to 1e-6]
+    /// model's own largest torques in the box [default: the scene's, or
+    /// actuator]
+    #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
+    pub relative_to: Option<String>,
+    /// Tolerances, separated by commas [default: 1e-12 to 1e-1]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub tolerances: Vec<f64>,
     /// Write table, chart and certificates to this folder
@@ -223,6 +231,10 @@ pub struct TradeoffArgs {
     /// States at which each variant is run
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     pub samples: usize,
+    /// Compile the variants and measure how long a call takes, as a ratio to
+    /// the exact f64 variant in the same run; needs cargo
+    #[arg(long)]
+    pub measure: bool,
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,

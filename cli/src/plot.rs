@@ -166,6 +166,7 @@ impl Chart {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// Text as XML has it.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;")
 }

@@ -32,12 +32,7 @@ pub fn watch(request: &mut Request) -> Session {
     if request.effort != Effort::Thorough {
         return Session(None);
     }
-    // On standard error; it hides itself where that is no terminal.
-    let bar = ProgressBar::new(1);
-    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(500));
+    let bar = bar(1);
     let stop = AtomicBool::new(false);
     let terminal = Arc::new(Terminal { bar, stop });
     let heard = terminal.clone();
@@ -45,6 +40,38 @@ pub fn watch(request: &mut Request) -> Session {
     let _ = ctrlc::set_handler(move || heard.interrupt());
     request.watch = Watch::by(terminal.clone());
     Session(Some(terminal))
+}
+
+/// The steps of a long run, on a terminal.
+pub struct Steps(ProgressBar);
+
+impl Steps {
+    /// So many of them.
+    pub fn new(steps: usize) -> Steps {
+        Steps(bar(steps as u64))
+    }
+
+    /// The next one begins.
+    pub fn begin(&self, what: &str) {
+        self.0.set_message(what.to_owned());
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Steps {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
+/// On standard error; it hides itself where that is no terminal.
+fn bar(length: u64) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
 }
 
 impl Terminal {

@@ -80,7 +80,7 @@ impl fmt::Display for Refusal {
                 bound,
             } => write!(
                 f,
-                "no variant in {scalar} can be certified to keep {entry} within {tolerance:e}: with nothing \
+                "no variant in {scalar} can be certified to keep {entry} within {tolerance:.1e}: with nothing \
                  left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
                  allow more, or choose a wider scalar",
                 bound.rounding, bound.sincos

@@ -1,0 +1,176 @@
+//! The variants, tolerance by tolerance.
+//!
+//! From the largest tolerance down: where nothing more can be left out, less
+//! tolerance leaves out nothing either, and no search is needed.
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::certificate::subject::Fineness;
+use dalembert_codegen::certify::choose::{Admitted, Frame};
+use dalembert_codegen::certify::prune::Settings;
+use dalembert_codegen::emit::ScalarType;
+
+use crate::args::TradeoffArgs;
+use crate::outcome::Failure;
+use crate::progress::Steps;
+
+/// One variant.
+pub struct Point {
+    /// Zero for the exact program.
+    pub tolerance: f64,
+    pub certificate: Certificate,
+    /// The largest E of an output, and the largest error that was seen.
+    pub certified: f64,
+    pub observed: f64,
+    /// Time of a call, and as a ratio to the exact f64 variant's.
+    pub time: Option<Time>,
+    /// Whether another one is neither dearer nor worse.
+    pub dominated: bool,
+}
+
+/// How long a call takes.
+#[derive(Clone, Copy)]
+pub struct Time {
+    pub nanoseconds: f64,
+    pub ratio: f64,
+}
+
+impl Point {
+    /// Where its certificate goes.
+    pub fn file(&self) -> String {
+        format!("{:e}-{}.json", self.tolerance, self.certificate.scalar)
+    }
+
+    /// Which kind of variant it is: scalar and sines.
+    pub fn kind(&self) -> usize {
+        match self.certificate.scalar {
+            ScalarType::F64 => 0,
+            ScalarType::F32 => 1,
+        }
+    }
+
+    /// How many values were replaced.
+    pub fn edits(&self) -> usize {
+        let stages = self.certificate.stages.iter();
+        stages.map(|stage| stage.edits.len()).sum()
+    }
+}
+
+/// Climbs to the largest error of each output.
+const CLIMBS: usize = 4;
+
+/// A scalar may share the others' variant if rounding takes less than this
+/// part of the tolerance.
+const SHARE: f64 = 1.0 / 16.0;
+
+pub struct Ladder<'a> {
+    args: &'a TradeoffArgs,
+    frame: &'a Frame<'a>,
+    settings: Settings,
+    /// The exact program in every scalar.
+    exact: Admitted,
+}
+
+impl<'a> Ladder<'a> {
+    pub fn new(args: &'a TradeoffArgs, frame: &'a Frame<'a>) -> Ladder<'a> {
+        Ladder {
+            args,
+            frame,
+            settings: Settings {
+                effort: args.effort,
+                ..Settings::default()
+            },
+            exact: frame.unedited(&ScalarType::ALL, Fineness::CERTIFY),
+        }
+    }
+
+    /// The points of all tolerances, which ascend; the exact program's first.
+    pub fn climb(&self, tolerances: &[f64]) -> Result<Vec<Point>, Failure> {
+        let steps = Steps::new(1 + tolerances.len());
+        let mut rungs = Vec::new();
+        let mut fruitful = true;
+        for &tolerance in tolerances.iter().rev() {
+            steps.begin(&format!("tolerance {tolerance:e}"));
+            let variants = self.variants(tolerance, fruitful);
+            fruitful = variants.iter().any(|variant| !variant.stages.is_empty());
+            rungs.push((tolerance, variants));
+        }
+        steps.begin("exact");
+        rungs.push((0.0, vec![self.exact.clone()]));
+        rungs.reverse();
+        let mut points = Vec::new();
+        for (tolerance, variants) in rungs {
+            let certificates = variants.into_iter().flat_map(|v| v.certificates);
+            for certificate in certificates {
+                points.push(self.point(tolerance, certificate)?);
+            }
+        }
+        points.sort_by(|a, b| {
+            let order = a.tolerance.total_cmp(&b.tolerance);
+            order.then(
+                a.certificate
+                    .scalar
+                    .name()
+                    .cmp(b.certificate.scalar.name())
+                    .reverse(),
+            )
+        });
+        Ok(points)
+    }
+
+    /// The cheapest variants that a tolerance admits, in each scalar that can
+    /// be that exact at all.
+    fn variants(&self, tolerance: f64, fruitful: bool) -> Vec<Admitted> {
+        let tolerances = vec![tolerance; self.frame.scales.len()];
+        let worst = |certificate: &Certificate| {
+            let totals = certificate.bounds.iter().map(|bound| bound.total());
+            totals.fold(0.0, f64::max)
+        };
+        let able = self.exact.certificates.iter();
+        let able: Vec<_> = able.filter(|c| worst(c) <= tolerance).collect();
+        let alike = able.iter().all(|c| worst(c) <= SHARE * tolerance);
+        let groups: Vec<Vec<ScalarType>> = match alike {
+            true => vec![able.iter().map(|c| c.scalar).collect()],
+            false => able.iter().map(|c| vec![c.scalar]).collect(),
+        };
+        let groups = groups.into_iter().filter(|scalars| !scalars.is_empty());
+        groups
+            .map(|scalars| {
+                let found = fruitful.then(|| {
+                    self.frame
+                        .choose(&tolerances, &scalars, &self.settings, Fineness::CERTIFY)
+                });
+                match found {
+                    Some(Ok(found)) => found,
+                    _ => self.exact_in(&scalars),
+                }
+            })
+            .collect()
+    }
+
+    fn exact_in(&self, scalars: &[ScalarType]) -> Admitted {
+        let mut exact = self.exact.clone();
+        exact.certificates.retain(|c| scalars.contains(&c.scalar));
+        exact
+    }
+
+    fn point(&self, tolerance: f64, certificate: Certificate) -> Result<Point, Failure> {
+        let attack = attack(&certificate, self.args.samples, CLIMBS, 1)
+            .map_err(|error| Failure::Check(format!("error: {error}")))?;
+        if let Some((index, _)) = attack.violation {
+            return Err(Failure::Check(format!(
+                "error: {} errs more than its certificate says: a defect of this program",
+                certificate.emitted.entry(index)
+            )));
+        }
+        let certified = certificate.bounds.iter().map(|b| b.total());
+        Ok(Point {
+            tolerance,
+            certified: certified.fold(0.0, f64::max),
+            observed: attack.observed.into_iter().fold(0.0, f64::max),
+            certificate,
+            time: None,
+            dominated: false,
+        })
+    }
+}

@@ -1,0 +1,158 @@
+//! `dalembert tradeoff`: what accuracy costs, certified and observed.
+//!
+//! - this file: what is asked for
+//! - [`ladder`]: the variants, tolerance by tolerance
+//! - [`report`]: the table, for people and as CSV
+//! - [`chart`]: the front as SVG
+//! - [`measure`]: the variants compiled and timed
+
+mod chart;
+mod ladder;
+mod measure;
+mod report;
+
+use std::fs;
+use std::path::Path;
+
+use dalembert_codegen::certify::choose::Frame;
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Request, generate};
+use dalembert_codegen::plan::{self, Plan, SceneKey};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::schedule::Program;
+use dalembert_model::read::Reading;
+use dalembert_model::scene::{Scale, Scene};
+
+use crate::args::TradeoffArgs;
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
+use ladder::Ladder;
+
+/// Tolerances unless others are asked for; zero is always there.
+const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
+
+/// Runs the subcommand.
+pub fn run(args: &TradeoffArgs) -> Outcome {
+    let reading = input::reading(&args.robot)?;
+    let scene = args.scene.as_ref();
+    let scene = scene.map(|name| input::scene(&args.robot, &reading, name));
+    let scene = scene.transpose()?;
+    let tolerances = tolerances(args)?;
+    let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
+    let exact = exact(args, &reading, scene)?;
+    let relative_to = relative_to(args, scene);
+    let frame = Frame::new(&setting, &exact, relative_to).map_err(|refusal| {
+        Failure::Input(format!(
+            "error: {}: {refusal}\n  = help: give the limits in the robot file, or the box of a scene",
+            args.robot.display()
+        ))
+    })?;
+    if let Some(folder) = &args.output {
+        // Before the work: a folder that cannot be is no news an hour later.
+        fs::create_dir_all(folder)
+            .map_err(|error| Failure::Input(format!("error: `{}`: {error}", folder.display())))?;
+    }
+    let compiler = args.measure.then(measure::Compiler::find).transpose()?;
+    let mut points = Ladder::new(args, &frame).climb(&tolerances)?;
+    if let Some(compiler) = compiler {
+        compiler.measure(&mut points)?;
+    }
+    report::mark(&mut points);
+    output::print(&report::table(&points))?;
+    let Some(folder) = &args.output else {
+        return Ok(());
+    };
+    let title = title(&reading, scene, exact.function, relative_to);
+    output::write_file(&folder.join("tradeoff.csv"), &report::csv(&points))?;
+    output::write_file(&folder.join("tradeoff.svg"), &chart::svg(&title, &points))?;
+    let certificates = folder.join("certificates");
+    fs::create_dir_all(&certificates)
+        .map_err(|error| Failure::Input(format!("error: `{}`: {error}", certificates.display())))?;
+    for point in &points {
+        let text = point.certificate.to_json();
+        output::write_file(&certificates.join(point.file()), &text)?;
+    }
+    output::note(&format!("wrote {}", folder.display()));
+    Ok(())
+}
+
+/// Ascending, each once.
+fn tolerances(args: &TradeoffArgs) -> Result<Vec<f64>, Failure> {
+    let mut tolerances = match args.tolerances.as_slice() {
+        [] => TOLERANCES.to_vec(),
+        given => given.to_vec(),
+    };
+    if let Some(bad) = tolerances.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
+        return Err(Failure::Input(format!(
+            "error: a tolerance is a number above zero, not {bad}\n  = help: --tolerances 1e-3,1e-2"
+        )));
+    }
+    tolerances.sort_by(f64::total_cmp);
+    tolerances.dedup();
+    Ok(tolerances)
+}
+
+/// What was asked for, else the scene's scale, else the actuators.
+fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
+    let own = scene.and_then(|scene| scene.tolerance.as_ref());
+    let own = own.map(|tolerance| tolerance.relative_to);
+    let asked = args.relative_to.as_deref();
+    let mut words = Scale::WORDS.into_iter();
+    let asked = words.find(|(word, _)| Some(*word) == asked);
+    asked
+        .map(|(_, scale)| scale)
+        .or(own)
+        .unwrap_or(Scale::Actuator)
+}
+
+fn title(reading: &Reading, scene: Option<&Scene>, function: Function, scale: Scale) -> String {
+    let scene = scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name));
+    let scale = match scale {
+        Scale::Actuator => "the actuators' limits",
+        Scale::Range => "the largest torques",
+    };
+    format!(
+        "{}{scene}: {function}, errors relative to {scale}",
+        reading.robot.name
+    )
+}
+
+/// The exact program, from the plan if there is one.
+fn exact(
+    args: &TradeoffArgs,
+    reading: &Reading,
+    scene: Option<&Scene>,
+) -> Result<Program, Failure> {
+    let first = scene.and_then(|scene| scene.outputs.first().copied());
+    let first = first.map_or(Function::InverseDynamics, Function::from);
+    let mut plan = kept(&args.robot)?;
+    // The same scene with nothing given up: what tolerances are applied to.
+    let bare = scene.map(|scene| Scene {
+        tolerance: None,
+        ..scene.clone()
+    });
+    if let (Some(plan), Some(scene), Some(bare)) = (&mut plan, scene, &bare) {
+        for entry in &mut plan.entries {
+            if entry.scene == Some(SceneKey::of(scene)) {
+                entry.scene = Some(SceneKey::of(bare));
+                entry.edited = None;
+            }
+        }
+    }
+    let request = Request {
+        functions: vec![args.function.unwrap_or(first)],
+        scalars: vec![ScalarType::F64],
+        effort: args.effort,
+        plan,
+        scene: bare,
+        ..Request::default()
+    };
+    let mut functions = generate(&reading.robot, &request)?.functions.into_iter();
+    let first = functions.next().map(|function| function.program);
+    first.ok_or_else(|| Failure::from(GenerateError::Empty))
+}
+
+fn kept(robot: &Path) -> Result<Option<Plan>, Failure> {
+    plan::file::beside(robot).map_err(|message| Failure::Input(format!("error: {message}")))
+}

@@ -1,0 +1,377 @@
+//! Accuracy given up on purpose, as a user runs it: scenes with a tolerance,
+//! `certify` and `tradeoff`.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use support::{robot, run, temporary};
+
+/// Two joints that need little, so that a search is quick.
+const SCENES: &str = r#"
+[scene.pick]
+outputs = ["inverse_dynamics"]
+lock = { 1 = 0 }
+box = { velocity = [1, 1, 1], acceleration = [1, 2, 2] }
+tolerance = { value = 0.1, relative_to = "range" }
+scalar = "f64"
+
+[scene.exactly]
+outputs = ["gravity"]
+tolerance = { value = 1e-17, relative_to = "range" }
+scalar = "f64"
+
+[scene.any]
+outputs = ["gravity"]
+tolerance = { value = [1e-3, 1e-3, 1e-2], relative_to = "range" }
+"#;
+
+/// The planar arm of three joints with scenes, in a folder of its own.
+fn arm(name: &str) -> (PathBuf, String) {
+    let folder = temporary(name);
+    let file = folder.join("arm.toml");
+    let planar = fs::read_to_string(robot("planar3r")).unwrap();
+    fs::write(&file, format!("{planar}{SCENES}")).unwrap();
+    let name = file.to_str().unwrap().to_owned();
+    (folder, name)
+}
+
+fn path(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().unwrap().to_owned()
+}
+
+fn json(file: &str) -> Value {
+    serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap()
+}
+
+/// The scene's code, its certificate beside it, and both again from a plan.
+#[test]
+fn a_scene_with_a_tolerance() {
+    let (folder, arm) = arm("scene_tolerance");
+    let output = path(&folder, "pick.rs");
+    let generate = ["generate", &arm, "--scene", "pick", "-o", &output];
+    let ran = run(&generate);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for part in [
+        "left out, and what putting it back costs",
+        "certified",
+        "pick.certificate.json",
+    ] {
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+    }
+    let text = fs::read_to_string(&output).unwrap();
+    for part in [
+        "pub mod planar3r_pick {",
+        "T is the model's own largest value",
+        "| output | T | E | left out | sin/cos | rounding |",
+        "| joint | q | q̇ | q̈ |",
+        "Left out, and the operations that each would bring back:",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let file = path(&folder, "pick.certificate.json");
+    let certificate = json(&file);
+    assert_eq!(certificate["scene"], "pick");
+    let total = certificate["total"].as_array().unwrap();
+    assert_eq!(total.len(), 2);
+    assert!(total.iter().all(|e| e.as_f64().unwrap() <= 0.1));
+    assert!(certificate["model"][0].as_f64().unwrap() > 1e-6);
+
+    let certify = ["certify", &file, "--robot", &arm, "--samples", "500"];
+    let ran = run(&certify);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        ran.out.contains("in scene pick") && ran.out.contains("observed"),
+        "{}",
+        ran.out
+    );
+    let verified = run(&["verify", &arm, "--scene", "pick", "--json"]);
+    assert_eq!(verified.code, 0, "{}", verified.err);
+    let verified: Value = serde_json::from_str(&verified.out).unwrap();
+    assert_eq!(verified["certificates"][0]["passed"], true);
+
+    // The plan has the variant and its bounds: the same bytes, nothing searched.
+    let ran = run(&[&generate[..], &["--save-plan"]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let plan = fs::read_to_string(folder.join("arm.plan")).unwrap();
+    assert!(
+        plan.contains("\nedited\nedit ") && plan.contains("\nbound "),
+        "{plan}"
+    );
+    let ran = run(&[&generate[..], &["--check"]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    // Bounds are taken as the plan has them, but not by the command.
+    let low = plan.replacen("\nbound ", "\nbound 1e-9 0 0\n# ", 1);
+    fs::write(folder.join("arm.plan"), low).unwrap();
+    let ran = run(&generate);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    assert!(ran.err.contains("what can be shown is"), "{}", ran.err);
+}
+
+/// By hand: a bound made smaller, a scale made larger, a box made smaller, an
+/// edit forgotten. The sampler sees the first one too, by itself.
+#[test]
+fn certificates_made_better_by_hand_are_caught() {
+    let (folder, arm) = arm("certificates");
+    let good = path(&folder, "good.json");
+    let generate = ["generate", &arm, "--scene", "pick", "--certificate", &good];
+    assert_eq!(run(&generate).code, 0);
+    let honest = json(&good);
+    let with = |key: &str, value: Value| {
+        let mut lie = honest.clone();
+        lie[key] = value;
+        let file = path(&folder, "lie.json");
+        fs::write(&file, lie.to_string()).unwrap();
+        run(&["certify", &file, "--robot", &arm])
+    };
+    let half = |key: &str, factor: f64| {
+        let numbers = honest[key].as_array().unwrap().iter();
+        numbers
+            .map(|x| x.as_f64().unwrap() * factor)
+            .collect::<Vec<f64>>()
+    };
+    for (key, value, why) in [
+        ("model", half("model", 0.5).into(), "what can be shown is"),
+        (
+            "rounding",
+            half("rounding", 0.5).into(),
+            "what can be shown is",
+        ),
+        (
+            "scale",
+            half("scale", 2.0).into(),
+            "is larger than what it is said to be",
+        ),
+        ("acceleration", honest["velocity"].clone(), "box is smaller"),
+        ("scene_hash", "0".into(), "another scene"),
+        ("input", "0".into(), "another robot"),
+    ] {
+        let ran = with(key, value);
+        assert_eq!(ran.code, 1, "{key}: {}", ran.err);
+        assert!(ran.err.contains(why), "{key}: {}", ran.err);
+    }
+    let mut forgotten = honest["stages"].clone();
+    forgotten[0]["edits"] = Value::Array(Vec::new());
+    let ran = with("stages", forgotten);
+    assert!(
+        ran.code == 1 && ran.err.contains("not the one that follows"),
+        "{}",
+        ran.err
+    );
+    // Not what a certificate looks like.
+    for (key, value, why) in [
+        ("model", Value::from(vec!["a"]), "no number"),
+        ("relative_to", "actuators".into(), "`actuators` is no scale"),
+        ("scale", Value::Null, "`scale` is no list"),
+        ("scene", "pck".into(), "did you mean `pick`?"),
+        ("certificate", 7.into(), "version"),
+        ("text", "".into(), "text_hash"),
+    ] {
+        let ran = with(key, value);
+        assert_eq!(ran.code, 2, "{key}: {}", ran.err);
+        assert!(ran.err.contains(why), "{key}: {}", ran.err);
+    }
+    for (text, why) in [
+        ("", "EOF"),
+        ("[]", "no certificate"),
+        ("{}", "`certificate` is missing"),
+    ] {
+        let file = path(&folder, "none.json");
+        fs::write(&file, text).unwrap();
+        let ran = run(&["certify", &file, "--robot", &arm]);
+        assert!(
+            ran.code == 2 && ran.err.contains(why),
+            "{text}: {}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_met_or_certified_is_said() {
+    let (folder, arm) = arm("refused");
+    let ran = run(&["generate", &arm, "--scene", "exactly"]);
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err
+            .contains("no variant in f64 can be certified to keep c_1 within 1.0e-17"),
+        "{}",
+        ran.err
+    );
+    assert!(ran.out.is_empty());
+
+    // Nobody chose a scalar: the narrow one is exact enough.
+    let ran = run(&["generate", &arm, "--scene", "any"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        ran.out.contains("3 joints, in `f32`") && !ran.out.contains("f64"),
+        "{}",
+        ran.out
+    );
+
+    let file = path(&folder, "none.json");
+    let ran = run(&[
+        "generate",
+        &arm,
+        "--outputs",
+        "gravity",
+        "--certificate",
+        &file,
+    ]);
+    assert!(
+        ran.code == 2 && ran.err.contains("nothing to certify"),
+        "{}",
+        ran.err
+    );
+}
+
+/// Every mistake in a scene ends with its line, whichever subcommand reads it.
+#[test]
+fn bad_scenes_name_the_line() {
+    let folder = temporary("bad_scenes");
+    let file = folder.join("arm.toml");
+    let planar = fs::read_to_string(robot("planar3r")).unwrap();
+    let name = file.to_str().unwrap();
+    let good = r#"tolerance = { value = 0.1, relative_to = "range" }"#;
+    for (scene, words) in [
+        (
+            "box = { position = [[1, 1], [0, 1], [0, 1]] }",
+            "the range is empty",
+        ),
+        ("box = { velocity = [1, -1, 1] }", "the range is empty"),
+        (
+            "box = { velocity = [1, 1] }",
+            "2 entries, but the robot has 3 joints",
+        ),
+        ("joints = [4]", "there is no joint `4`"),
+        ("lock = { elbw = 0 }", "did you mean `elbow`?"),
+        ("lock = { 2 = 4 }", "locked outside its limits"),
+        (
+            r#"tolerance = { value = 0, relative_to = "range" }"#,
+            "above zero",
+        ),
+        (
+            r#"tolerance = { value = -1e-3, relative_to = "range" }"#,
+            "above zero",
+        ),
+        (
+            r#"tolerance = { value = [1, 1], relative_to = "range" }"#,
+            "2 tolerances",
+        ),
+        ("tolerance = { value = 1e-3 }", "has no `relative_to`"),
+        (good, "needs the range of the velocity of joint 1"),
+        (
+            r#"tolerance = { value = 0.1, relative_to = "actuator" }"#,
+            "needs the torque limit of joint 1",
+        ),
+    ] {
+        let source = format!("{planar}\n[scene.bad]\n{scene}\n");
+        fs::write(&file, &source).unwrap();
+        let line = source.lines().count();
+        for subcommand in ["generate", "tradeoff"] {
+            let ran = run(&[subcommand, name, "--scene", "bad"]);
+            assert_eq!(ran.code, 2, "{scene}: {}", ran.err);
+            assert!(ran.err.contains(words), "{scene}: {}", ran.err);
+            assert!(
+                ran.err.contains(&format!("arm.toml:{line}:")),
+                "{scene}: {}",
+                ran.err
+            );
+        }
+    }
+}
+
+#[test]
+fn a_tradeoff_with_table_chart_and_certificates() {
+    let (folder, arm) = arm("tradeoff");
+    let output = path(&folder, "out");
+    let arguments = [
+        "tradeoff",
+        &arm,
+        "--scene",
+        "pick",
+        "--tolerances",
+        "1e-9,0.1,0.2",
+        "--samples",
+        "300",
+        "-o",
+        &output,
+    ];
+    let ran = run(&arguments);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..3], ["tolerance", "scalar", "sincos_by"]);
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let (mul, add) = (column("mul"), column("add"));
+    let operations =
+        |row: &[&str]| row[mul].parse::<usize>().unwrap() + row[add].parse::<usize>().unwrap();
+    let mut last = usize::MAX;
+    for row in rows[1..].iter().filter(|row| row[1] == "f64") {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        assert!(number("observed") <= number("certified"), "{row:?}");
+        let tolerance = number("tolerance");
+        assert!(
+            tolerance == 0.0 || number("certified") <= tolerance,
+            "{row:?}"
+        );
+        assert!(operations(row) <= last, "{csv}");
+        last = operations(row);
+    }
+    assert!(
+        last < operations(&rows[1]),
+        "nothing was given up for 0.2: {csv}"
+    );
+    let svg = fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    for part in [
+        "prefers-color-scheme:dark",
+        "@media print",
+        "f64, libm",
+        "dominated",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
+    let certificate = path(&folder, "out/certificates/2e-1-f64.json");
+    let ran = run(&["certify", &certificate, "--robot", &arm]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+
+    // The same bytes on every run.
+    assert_eq!(run(&arguments).code, 0);
+    assert_eq!(
+        fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap(),
+        csv
+    );
+    assert_eq!(
+        fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap(),
+        svg
+    );
+}
+
+#[test]
+fn tradeoff_says_what_it_lacks() {
+    let (_, arm) = arm("tradeoff_lacks");
+    for (arguments, words) in [
+        (vec![], "joint 1 has no limit `velocity`"),
+        (
+            vec!["--function", "gravity"],
+            "joint 1 has no limit `torque`",
+        ),
+        (vec!["--scene", "pik"], "did you mean `pick`?"),
+        (
+            vec!["--scene", "pick", "--tolerances", "0"],
+            "a number above zero, not 0",
+        ),
+        (
+            vec!["--scene", "pick", "--tolerances", "nan"],
+            "a number above zero, not NaN",
+        ),
+        (vec!["--scene", "pick", "--relative-to", "rang"], "'range'"),
+    ] {
+        let ran = run(&[&["tradeoff", &arm][..], &arguments].concat());
+        assert_eq!(ran.code, 2, "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(words), "{arguments:?}: {}", ran.err);
+    }
+}
