@@ -8,6 +8,7 @@ use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Prefer, Request, Start};
 use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::sincos::SinCos;
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -68,6 +69,12 @@ pub struct Choice {
     /// Search anew even if a plan is kept beside the robot file
     #[arg(long)]
     pub no_plan: bool,
+    /// Where sines come from; `polynomial` holds over the joints' limits
+    #[arg(long, value_name = "HOW", default_value = "libm", value_parser = ["libm", "polynomial"])]
+    pub sincos: String,
+    /// The largest error of each sine and cosine by polynomials
+    #[arg(long, value_name = "ERROR", default_value_t = 1e-6, value_parser = error_parser())]
+    pub sincos_error: f64,
 }
 
 impl Choice {
@@ -84,6 +91,10 @@ impl Choice {
         }
         if let Some(scalar) = self.scalar {
             request.scalars = vec![scalar];
+        }
+        if self.sincos == "polynomial" {
+            let error = self.sincos_error;
+            request.sincos = SinCos::Polynomial { error };
         }
         request
     }
@@ -265,6 +276,13 @@ fn start_parser() -> impl TypedValueParser<Value = Start> {
 fn scalar_parser() -> impl TypedValueParser<Value = ScalarType> {
     let names = PossibleValuesParser::new(ScalarType::ALL.map(ScalarType::name));
     names.try_map(|name| ScalarType::from_name(&name).ok_or("no such scalar"))
+}
+
+fn error_parser() -> impl TypedValueParser<Value = f64> {
+    clap::builder::StringValueParser::new().try_map(|text| match text.parse::<f64>() {
+        Ok(error) if error > 0.0 && error < 1.0 => Ok(error),
+        _ => Err("an error is a number above 0 and below 1, such as 1e-9"),
+    })
 }
 
 fn states_parser() -> impl TypedValueParser<Value = usize> {

@@ -1,7 +1,7 @@
 //! `dalembert count`: the operations of the generated functions.
 
 use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::generate::generate;
+use dalembert_codegen::generate::{GeneratedFunction, generate};
 use dalembert_codegen::graph::Counts;
 use serde_json::{Map, Value, json};
 
@@ -22,10 +22,11 @@ pub fn run(args: &CountArgs) -> Outcome {
     let generated = generate(&robot, &request)?;
     drop(session);
     if args.json {
+        let scalar = request.scalars.first().copied();
+        let of = |f: &GeneratedFunction| counts(&scalar.map_or(f.counts, |s| f.counts_in(s)));
         let functions = generated.functions.iter();
-        let functions: Map<String, Value> = functions
-            .map(|f| (f.function.to_string(), counts(&f.counts)))
-            .collect();
+        let functions: Map<String, Value> =
+            functions.map(|f| (f.function.to_string(), of(f))).collect();
         let scene = request.scene.as_ref().map(|scene| &scene.name);
         return output::print_json(&match scene {
             Some(scene) => json!({ "robot": robot.name, "scene": scene, "functions": functions }),
@@ -48,5 +49,7 @@ pub fn counts(counts: &Counts) -> Value {
         "add": counts.add,
         "div": counts.div,
         "sincos": counts.sincos,
+        "trig_mul": counts.trig_mul,
+        "trig_add": counts.trig_add,
     })
 }

@@ -255,7 +255,36 @@ pub fn counts(generated: &Generated) -> String {
             format!("exact, miss < 1e{}", function.proof.failure_exponent),
         ]);
     }
-    output::table(&rows, 2)
+    output::table(&rows, 2) + &sines(generated)
+}
+
+/// The table of the polynomials that give sines, if any do.
+fn sines(generated: &Generated) -> String {
+    let head = [
+        "function", "scalar", "trig_mul", "trig_add", "angles", "error",
+    ];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for function in &generated.functions {
+        for (scalar, sines) in &function.sines {
+            let counts = function.counts_in(*scalar);
+            let worst = sines.iter().map(|sine| sine.errors.worst());
+            rows.push(vec![
+                function.function.to_string(),
+                scalar.to_string(),
+                counts.trig_mul.to_string(),
+                counts.trig_add.to_string(),
+                sines.len().to_string(),
+                format!("{:.1e}", worst.fold(0.0, f64::max)),
+            ]);
+        }
+    }
+    match rows.len() {
+        1 => String::new(),
+        _ => format!(
+            "\nsines and cosines by polynomials, errors proved\n{}",
+            output::table(&rows, 2)
+        ),
+    }
 }
 
 fn stages(generated: &Generated) -> String {

@@ -28,6 +28,7 @@ mod outcome;
 mod output;
 mod plot;
 mod progress;
+mod sines;
 mod stress;
 mod table3;
 mod tradeoff;

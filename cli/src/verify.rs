@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use crate::args::VerifyArgs;
 use crate::outcome::{Failure, Outcome};
-use crate::{generate as report, input, output};
+use crate::{generate as report, input, output, sines};
 
 /// A measured error and its bound.
 struct Check {
@@ -88,10 +88,17 @@ pub fn run(args: &VerifyArgs) -> Outcome {
             }
         }
     }
+    let sines = sines::checks(&generated, &states);
     if args.json {
-        output::print_json(&json(&robot, &generated, &checks, &claims))?;
+        output::print_json(&json(&robot, &generated, &checks, &claims, &sines))?;
     } else {
-        output::print(&text(&robot, &generated, &checks, &claims))?;
+        let text = text(&robot, &generated, &checks, &claims);
+        output::print(&(text + &sines::table(&sines)))?;
+    }
+    if !sines.iter().all(sines::Check::passed) {
+        return Err(Failure::Check(
+            "error: a polynomial is further from its sine than was proved".into(),
+        ));
     }
     if !claims.iter().all(Claim::passed) {
         return Err(Failure::Check(
@@ -171,7 +178,13 @@ fn text(robot: &Robot, generated: &Generated, checks: &[Check], claims: &[Claim<
     text
 }
 
-fn json(robot: &Robot, generated: &Generated, checks: &[Check], claims: &[Claim<'_>]) -> Value {
+fn json(
+    robot: &Robot,
+    generated: &Generated,
+    checks: &[Check],
+    claims: &[Claim<'_>],
+    sines: &[sines::Check],
+) -> Value {
     let proofs = generated.functions.iter().map(|f| {
         json!({
             "function": f.function.name(),
@@ -208,13 +221,17 @@ fn json(robot: &Robot, generated: &Generated, checks: &[Check], claims: &[Claim<
         })
     });
     let claims: Vec<Value> = claims.collect();
-    let passed = checks.iter().all(Check::passed) && claims.iter().all(|c| c["passed"] == true);
+    let passed = checks.iter().all(Check::passed)
+        && claims.iter().all(|c| c["passed"] == true)
+        && sines.iter().all(sines::Check::passed);
+    let sines: Vec<Value> = sines.iter().map(sines::Check::json).collect();
     json!({
         "robot": robot.name,
         "input": robot.short_hash(),
         "proofs": proofs.collect::<Vec<_>>(),
         "errors": errors.collect::<Vec<_>>(),
         "certificates": claims,
+        "sines": sines,
         "warnings": generated.warnings,
         "passed": passed,
     })

@@ -22,6 +22,7 @@ use crate::portfolio::{self, Source, Variant};
 use crate::scene::{Setting, SettingError};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{self, Effort, Simplified, Stage};
+use crate::sincos::{self, AngleKernel, SinCos, Sines};
 use crate::tolerate::tolerate;
 use crate::verify::accuracy::Judge;
 use crate::verify::exact::{Disproof, Proof, prove_in};
@@ -119,7 +120,10 @@ pub struct Request {
     pub plan: Option<Plan>,
     /// Who waits, if anybody does.
     pub watch: Watch,
-    /// Where emitted code finds sine and cosine.
+    /// How emitted code gets sines and cosines: polynomials hold over the
+    /// robot's limits of position, or its scene's box.
+    pub sincos: SinCos,
+    /// Where emitted code finds sine and cosine, if it calls them.
     pub math: MathPath,
     /// The module's name; the robot's and the scene's if `None`. The f32
     /// module of a pair has `_f32` appended.
@@ -153,6 +157,7 @@ impl Default for Request {
             prefer: Prefer::Accuracy,
             plan: None,
             watch: Watch::default(),
+            sincos: SinCos::Libm,
             math: MathPath::default(),
             module: None,
             scene: None,
@@ -170,8 +175,10 @@ pub struct GeneratedFunction {
     pub source: Source,
     /// The final program with exact constants: what is emitted.
     pub program: Program,
-    /// Its counts.
+    /// Its counts, without the polynomials of sines.
     pub counts: Counts,
+    /// The polynomials of its sines in each scalar, if they are not libm's.
+    pub sines: Vec<(ScalarType, Sines)>,
     /// Counts of the formula as executed, then after each step.
     pub stages: Vec<Stage>,
     /// That it is right; with a tolerance, that the program is that it was
@@ -179,6 +186,25 @@ pub struct GeneratedFunction {
     pub proof: Proof,
     /// With a tolerance: what was left out, and the certificates.
     pub admitted: Option<Admitted>,
+}
+
+impl GeneratedFunction {
+    /// The polynomials of its sines in a scalar; none if they are libm's.
+    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
+        let mut all = self.sines.iter();
+        let found = all.find(|(known, _)| *known == scalar);
+        found.map_or(&[], |(_, sines)| sines)
+    }
+
+    /// Its counts with the polynomials of its sines in a scalar.
+    pub fn counts_in(&self, scalar: ScalarType) -> Counts {
+        let (trig_mul, trig_add) = sincos::counts(self.sines(scalar));
+        Counts {
+            trig_mul,
+            trig_add,
+            ..self.counts
+        }
+    }
 }
 
 /// Everything generated for a robot.
@@ -215,6 +241,8 @@ pub enum GenerateError {
         /// Its value, roughly.
         value: String,
     },
+    /// No polynomial gives a sine as exactly as was wanted.
+    SinCos(Function, String),
     /// A function would be too large to compile.
     TooLarge {
         /// Which function.
@@ -252,6 +280,7 @@ impl fmt::Display for GenerateError {
                 "`{function}` needs the constant {value}, which {scalar} cannot hold: \
                  choose other units or a wider scalar"
             ),
+            GenerateError::SinCos(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::TooLarge { function, outputs } => write!(
                 f,
                 "`{function}` would return {outputs} numbers: ask for `inverse_dynamics`, \
@@ -294,6 +323,9 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     let scalars = tolerate(&setting, &mut functions, request)?;
+    for generated in &mut functions {
+        generated.sines = sines(&setting, generated, &scalars, request)?;
+    }
     let mut warnings = Vec::new();
     for generated in &functions {
         for &scalar in &scalars {
@@ -344,11 +376,36 @@ fn one(
         function,
         source,
         counts: program.counts(),
+        sines: Vec::new(),
         program,
         stages,
         proof,
         admitted: None,
     })
+}
+
+/// The polynomials of a program's sines in each scalar.
+fn sines(
+    setting: &Setting,
+    generated: &GeneratedFunction,
+    scalars: &[ScalarType],
+    request: &Request,
+) -> Result<Vec<(ScalarType, Sines)>, GenerateError> {
+    let SinCos::Polynomial { error } = request.sincos else {
+        return Ok(Vec::new());
+    };
+    let fail = |why: String| GenerateError::SinCos(generated.function, why);
+    if generated.admitted.is_some() {
+        return Err(fail(
+            "the certificates of a scene's tolerance are for libm's sines: take `libm`".into(),
+        ));
+    }
+    let all = scalars.iter().map(|&scalar| {
+        let positions = sincos::positions(setting.robot(), scalar);
+        let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
+        Ok((scalar, sines.map_err(|why| fail(why.to_string()))?))
+    });
+    all.collect()
 }
 
 /// The plan's program, the first requested scalar's that it has.
@@ -521,8 +578,9 @@ fn read_back(
         .ok_or_else(|| fail(format!("there is no module `{module}`")))?;
     let read = TextProgram::parse(section, generated.function, scalar)
         .map_err(|error: TextError| fail(error.to_string()))?;
-    read.matches(&generated.program, scalar).map_err(fail)?;
-    if read.counts() != generated.counts {
+    read.matches_with(&generated.program, scalar, generated.sines(scalar))
+        .map_err(fail)?;
+    if read.counts() != generated.counts_in(scalar) {
         return Err(fail("the counts of the text differ".into()));
     }
     Ok(Emitted {

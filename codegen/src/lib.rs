@@ -9,6 +9,7 @@
 //! - [`simplify`]: fewer operations, same function
 //! - [`plan`]: programs kept from a long search
 //! - [`schedule`]: straight-line code
+//! - [`sincos`]: sine and cosine by polynomials with proved errors
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
 //! - [`certify`]: bounds of what was left out and of what rounding costs
@@ -37,6 +38,7 @@ pub mod portfolio;
 pub mod scene;
 pub mod schedule;
 pub mod simplify;
+pub mod sincos;
 #[cfg(feature = "stress")]
 pub mod stress;
 mod tolerate;

@@ -65,7 +65,7 @@ pub fn rounding(
 }
 
 /// Half the least subnormal.
-fn underflow(scalar: ScalarType) -> f64 {
+pub(crate) fn underflow(scalar: ScalarType) -> f64 {
     match scalar {
         // Half of 2^−1074 is no double: the whole.
         ScalarType::F64 => f64::from_bits(1),

@@ -148,6 +148,7 @@ fn functions(
         plan: source.plan.clone(),
         watch: Watch::default(),
         prefer: Prefer::default(),
+        sincos: crate::sincos::SinCos::Libm,
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
         scene: None,
@@ -173,6 +174,7 @@ fn functions(
                 | GenerateError::Scene(_) => None,
                 GenerateError::Constant { function, .. }
                 | GenerateError::TooLarge { function, .. }
+                | GenerateError::SinCos(function, _)
                 | GenerateError::Disproved(function, _)
                 | GenerateError::Tolerance(function, _)
                 | GenerateError::Variant(function, _)

@@ -7,10 +7,11 @@
 
 use std::fmt::Write;
 
-use super::{MathPath, ScalarType, parts};
+use super::{MathPath, ScalarType, parts, sines};
 use crate::function::{Argument, Function, Quantity};
 use crate::graph::Input;
 use crate::schedule::{Operand, Output, Program, Step, Trig};
+use crate::sincos::AngleKernel;
 
 /// A function of more operations than this is printed in blocks.
 pub const FLAT: usize = 1000;
@@ -22,8 +23,20 @@ pub const FLAT: usize = 1000;
 /// compiler's stack. A block closes its scopes.
 pub const BLOCK: usize = 500;
 
-/// Prints the function; `doc` stands above it, one line an item.
+/// Prints the function with libm's sines; `doc` stands above it, one line an
+/// item.
 pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[String]) -> String {
+    with_sines(program, scalar, math, &[], doc)
+}
+
+/// Prints the function; angles that are not among `sines` are `math`'s.
+pub fn with_sines(
+    program: &Program,
+    scalar: ScalarType,
+    math: &MathPath,
+    sines: &[AngleKernel],
+    doc: &[String],
+) -> String {
     let mut text = String::new();
     for line in doc {
         let space = if line.is_empty() { "" } else { " " };
@@ -32,7 +45,7 @@ pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[Stri
     push(&mut text, format_args!("#[must_use]"));
     push(&mut text, format_args!("{} {{", signature(program, scalar)));
     for trig in &program.trig {
-        write_trig(&mut text, trig, scalar, math);
+        write_trig(&mut text, trig, scalar, math, sines);
     }
     write_steps(&mut text, program, scalar);
     write_result(&mut text, program, scalar);
@@ -158,7 +171,13 @@ fn reads(program: &Program, argument: Argument) -> bool {
         || program.outputs.iter().any(|output| is(&output.value))
 }
 
-fn write_trig(text: &mut String, trig: &Trig, scalar: ScalarType, math: &MathPath) {
+fn write_trig(
+    text: &mut String,
+    trig: &Trig,
+    scalar: ScalarType,
+    math: &MathPath,
+    sines: &[AngleKernel],
+) {
     let angle = trig.angle;
     let mut terms = angle.terms();
     let argument = if angle.additions() == 0 {
@@ -178,14 +197,20 @@ fn write_trig(text: &mut String, trig: &Trig, scalar: ScalarType, math: &MathPat
         Some(format!("a{angle}"))
     }
     .unwrap_or_default();
-    let (path, suffix) = (&math.0, scalar.math_suffix());
-    let call = |name| format!("{path}::{name}{suffix}({argument})");
-    let line = match (trig.sin, trig.cos) {
-        (true, false) => format!("let s{angle} = {};", call("sin")),
-        (false, true) => format!("let c{angle} = {};", call("cos")),
-        _ => format!("let (s{angle}, c{angle}) = {};", call("sincos")),
+    let (names, call) = match (trig.sin, trig.cos) {
+        (true, false) => (format!("s{angle}"), "sin"),
+        (false, true) => (format!("c{angle}"), "cos"),
+        _ => (format!("(s{angle}, c{angle})"), "sincos"),
     };
-    push(text, format_args!("    {line}"));
+    if let Some(own) = sines.iter().find(|sine| sine.angle == angle) {
+        sines::write(text, &names, &argument, &own.kernel, scalar);
+        return;
+    }
+    let (path, suffix) = (&math.0, scalar.math_suffix());
+    push(
+        text,
+        format_args!("    let {names} = {path}::{call}{suffix}({argument});"),
+    );
 }
 
 fn operand(operand: &Operand, scalar: ScalarType) -> String {

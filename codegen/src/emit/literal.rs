@@ -63,6 +63,14 @@ impl ScalarType {
         }
     }
 
+    /// The nearest number of the type, as a double that holds it exactly.
+    pub fn nearest(self, value: f64) -> f64 {
+        match self {
+            ScalarType::F64 => value,
+            ScalarType::F32 => f64::from(value as f32),
+        }
+    }
+
     /// The shortest literal that reads back as the rounded constant.
     pub fn literal(self, value: &Exact) -> String {
         match self {

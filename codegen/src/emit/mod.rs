@@ -2,6 +2,7 @@
 //!
 //! - [`literal`]: scalar types and their literals, each rounded once
 //! - [`function`]: one program as one function
+//! - `sines`: sines and cosines as polynomials
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`module`]: the module of a robot with its header
 
@@ -10,6 +11,7 @@ pub mod literal;
 pub mod module;
 pub mod parts;
 mod scene;
+mod sines;
 mod variant;
 
 pub use literal::ScalarType;

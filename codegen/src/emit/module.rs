@@ -5,7 +5,7 @@ use std::fmt::Write;
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
 use super::scene::describe;
-use super::{MathPath, ScalarType, function, variant};
+use super::{MathPath, ScalarType, function, sines, variant};
 use crate::generate::GeneratedFunction;
 use crate::scene::Setting;
 
@@ -93,10 +93,11 @@ fn module(
             text.push('\n');
         }
         let doc = function_doc(generated, scalar);
-        text.push_str(&function::write(
+        text.push_str(&function::with_sines(
             &generated.program,
             scalar,
             options.math,
+            generated.sines(scalar),
             &doc,
         ));
     }
@@ -199,7 +200,7 @@ fn function_doc(generated: &GeneratedFunction, scalar: ScalarType) -> Vec<String
     let mut lines = vec![
         generated.function.summary().to_owned(),
         String::new(),
-        format!("{}.", generated.counts),
+        format!("{}.", generated.counts_in(scalar)),
         match &generated.admitted {
             None => format!("Checked: {}.", generated.proof),
             Some(_) => format!(
@@ -208,6 +209,7 @@ fn function_doc(generated: &GeneratedFunction, scalar: ScalarType) -> Vec<String
             ),
         },
     ];
+    lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
         lines.extend(variant::describe(admitted, scalar));
     }

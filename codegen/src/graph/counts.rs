@@ -16,10 +16,15 @@ pub struct Counts {
     pub div: usize,
     /// Sine and cosine evaluations: a pair for one angle, or one of the two.
     pub sincos: usize,
+    /// Multiplications of the polynomials that give them; none if libm does.
+    pub trig_mul: usize,
+    /// Additions of these.
+    pub trig_add: usize,
 }
 
 impl Counts {
-    /// Multiplications, additions and divisions.
+    /// Multiplications, additions and divisions, without those of the sines'
+    /// polynomials.
     pub fn operations(&self) -> usize {
         self.mul + self.add + self.div
     }
@@ -31,7 +36,12 @@ impl fmt::Display for Counts {
         if self.div > 0 {
             write!(f, ", {} div", self.div)?;
         }
-        write!(f, ", {} sincos", self.sincos)
+        write!(f, ", {} sincos", self.sincos)?;
+        if self.trig_mul + self.trig_add > 0 {
+            let (mul, add) = (self.trig_mul, self.trig_add);
+            write!(f, ", {mul} trig_mul, {add} trig_add")?;
+        }
+        Ok(())
     }
 }
 

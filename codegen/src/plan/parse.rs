@@ -229,6 +229,7 @@ fn stage(words: &[&str]) -> Result<Stage, String> {
             add,
             div,
             sincos,
+            ..Counts::default()
         },
     })
 }

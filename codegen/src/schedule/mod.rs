@@ -182,6 +182,7 @@ impl Program {
             add: self.steps.len() - mul + angles,
             div: 0,
             sincos: self.trig.len(),
+            ..Counts::default()
         }
     }
 }

@@ -11,13 +11,14 @@ use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 
-use super::interpret::{Machine, State};
+use super::interpret::{Machine, State, angle_value};
 use super::states::JointState;
-use super::text::{TextOperand, TextProgram};
+use super::text::{TextOperand, TextProgram, TextTrig};
 use crate::emit::ScalarType;
 use crate::function::{Function, Quantity};
-use crate::graph::Input;
+use crate::graph::{AngleSum, Input};
 use crate::scene::Setting;
+use crate::sincos::kernel::Kernel;
 use crate::trace::evaluate;
 
 /// The bound on the normwise error against the runtime, in units of u.
@@ -137,8 +138,18 @@ impl Emitted {
         self.text.run(state).into_iter().map(T::to_f64).collect()
     }
 
-    /// The errors against the runtime, a quantity each.
+    fn with_libm(&self) -> Emitted {
+        Emitted {
+            text: self.text.with_libm(),
+            ..*self
+        }
+    }
+
+    /// The errors against the runtime, a quantity each. Sines are libm's on
+    /// both sides: how far polynomials are from them is
+    /// [measured apart](Emitted::sines).
     pub fn against_runtime(&self, runtime: &Runtime, states: &[JointState]) -> Vec<Measure> {
+        let own = self.with_libm();
         let mut cases = Vec::with_capacity(states.len());
         for state in states {
             let state = match self.scalar {
@@ -153,7 +164,7 @@ impl Emitted {
                     *value = 0.0;
                 }
             }
-            cases.push((self.run(&state), reference));
+            cases.push((own.run(&state), reference));
         }
         let mut measures = Vec::new();
         let mut start = 0;
@@ -169,11 +180,12 @@ impl Emitted {
     }
 
     /// The errors against given states, a known quantity each. The symbols
-    /// h_ikm are compared as the load h that they give.
+    /// h_ikm are compared as the load h that they give; sines are libm's.
     pub fn against_given(&self, states: &[GivenState]) -> Vec<Measure> {
+        let own = self.with_libm();
         let mut pairs: BTreeMap<Quantity, Vec<Pair>> = BTreeMap::new();
         for given in states {
-            let results = self.run(&given.state);
+            let results = own.run(&given.state);
             let n = given.state.q.len();
             let mut start = 0;
             for &quantity in self.function.quantities() {
@@ -198,6 +210,22 @@ impl Emitted {
         pairs.into_iter().map(measure).collect()
     }
 
+    /// The largest |polynomial − libm's f64| of each angle over the states, in
+    /// the order of the text; none for angles that are libm's.
+    pub fn sines(&self, states: &[JointState]) -> Vec<(AngleSum, f64)> {
+        let angles = self.text.trig.iter();
+        let own = angles.filter_map(|trig| Some((trig, trig.kernel.as_ref()?)));
+        own.map(|(trig, kernel)| {
+            let error = |state: &JointState| match self.scalar {
+                ScalarType::F64 => off::<f64>(trig, kernel, state),
+                ScalarType::F32 => off::<f32>(trig, kernel, &state.in_single()),
+            };
+            let worst = states.iter().map(error).fold(0.0, f64::max);
+            (trig.angle, worst)
+        })
+        .collect()
+    }
+
     /// How many joints the results are over: all, or those of a scene.
     fn rows(&self) -> usize {
         let found = self.text.outputs.len();
@@ -214,6 +242,21 @@ impl Emitted {
             error,
         }
     }
+}
+
+/// How far an angle's polynomials are from libm at a state.
+fn off<T: Machine>(trig: &TextTrig, kernel: &Kernel, state: &JointState) -> f64 {
+    let q: Vec<T> = state.q.iter().map(|&x| T::literal(x)).collect();
+    let angle = angle_value(trig.angle, &q);
+    let (sin, cos) = kernel.run(angle);
+    let (true_sin, true_cos) = libm::sincos(angle.to_f64());
+    let off = |taken: bool, a: T, b: f64| match taken {
+        // A NaN loses every comparison: it must not go unnoticed.
+        true if a.to_f64().is_nan() => f64::INFINITY,
+        true => (a.to_f64() - b).abs(),
+        false => 0.0,
+    };
+    off(trig.sin, sin, true_sin).max(off(trig.cos, cos, true_cos))
 }
 
 /// Actual and expected values.

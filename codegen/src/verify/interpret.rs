@@ -1,5 +1,6 @@
 //! Runs an emitted function's text bit for bit: no contraction to fused
-//! multiply-add, libm's sine and cosine, the scalar's own rounding.
+//! multiply-add, libm's sine and cosine or the text's polynomials, the scalar's
+//! own rounding.
 
 use super::text::{TextOperand, TextProgram};
 use crate::graph::{AngleSum, Input};
@@ -75,10 +76,11 @@ impl TextProgram {
         let mut trig = std::collections::BTreeMap::new();
         for t in &self.trig {
             let angle = angle_value(t.angle, state.q);
-            let (sin, cos) = match (t.sin, t.cos) {
-                (true, false) => (angle.sin(), angle),
-                (false, true) => (angle, angle.cos()),
-                _ => angle.sincos(),
+            let (sin, cos) = match (&t.kernel, t.sin, t.cos) {
+                (Some(kernel), ..) => kernel.run(angle),
+                (None, true, false) => (angle.sin(), angle),
+                (None, false, true) => (angle, angle.cos()),
+                (None, ..) => angle.sincos(),
             };
             trig.insert(Input::Sin(t.angle), sin);
             trig.insert(Input::Cos(t.angle), cos);
@@ -107,7 +109,7 @@ impl TextProgram {
 }
 
 /// q₂ + q₃ as emitted code adds it: from the left.
-fn angle_value<T: Machine>(angle: AngleSum, q: &[T]) -> T {
+pub(super) fn angle_value<T: Machine>(angle: AngleSum, q: &[T]) -> T {
     let mut sum = None;
     for (joint, negative) in angle.terms() {
         sum = Some(match (sum, negative) {

@@ -2,12 +2,14 @@
 //!
 //! - this file: what a text says, and whether it is the program
 //! - `reader`: the statements, line by line
+//! - `sines`: sines and cosines as polynomials
 //! - `part`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
 
 mod part;
 mod reader;
 mod result;
+mod sines;
 
 use std::fmt;
 
@@ -15,6 +17,8 @@ use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::graph::{AngleSum, Counts, Input};
 use crate::schedule::{Operand, Operation, Program};
+use crate::sincos::AngleKernel;
+use crate::sincos::kernel::Kernel;
 use reader::Reader;
 
 /// An emitted function as its text says.
@@ -28,8 +32,9 @@ pub struct TextProgram {
     pub outputs: Vec<(bool, TextOperand)>,
 }
 
-/// `let (s1, c1) = …sincos(q[0]);` or one of the two alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// `let (s1, c1) = …sincos(q[0]);` or one of the two alone, or a block that
+/// computes them.
+#[derive(Clone, Debug, PartialEq)]
 pub struct TextTrig {
     /// The angle.
     pub angle: AngleSum,
@@ -37,6 +42,8 @@ pub struct TextTrig {
     pub sin: bool,
     /// Whether the cosine is taken.
     pub cos: bool,
+    /// The polynomials, unless libm is called.
+    pub kernel: Option<Kernel>,
 }
 
 /// `let t1 = left · right;`
@@ -123,15 +130,30 @@ impl TextProgram {
         Err(TextError { line: 1, message })
     }
 
-    /// Compares with the program: every operation, and every literal with its
-    /// exact value rounded once.
+    /// Compares with the program and libm's sines: every operation, and every
+    /// literal with its exact value rounded once.
     pub fn matches(&self, program: &Program, scalar: ScalarType) -> Result<(), String> {
+        self.matches_with(program, scalar, &[])
+    }
+
+    /// Compares with the program and its sines: polynomials literal by
+    /// literal; angles that are not among `sines` are libm's.
+    pub fn matches_with(
+        &self,
+        program: &Program,
+        scalar: ScalarType,
+        sines: &[AngleKernel],
+    ) -> Result<(), String> {
         let trig = program.trig.iter().map(|t| TextTrig {
             angle: t.angle,
             sin: t.sin,
             cos: t.cos,
+            kernel: sines
+                .iter()
+                .find(|sine| sine.angle == t.angle)
+                .map(|sine| sine.kernel.clone()),
         });
-        if !trig.eq(self.trig.iter().copied()) {
+        if !trig.eq(self.trig.iter().cloned()) {
             return Err("the sines and cosines differ".into());
         }
         if self.steps.len() != program.steps.len() {
@@ -156,16 +178,32 @@ impl TextProgram {
         Ok(())
     }
 
+    /// The same with libm's sines instead of polynomials: what rounding costs
+    /// the rest.
+    #[must_use]
+    pub fn with_libm(&self) -> TextProgram {
+        let mut other = self.clone();
+        for trig in &mut other.trig {
+            trig.kernel = None;
+        }
+        other
+    }
+
     /// The operations of the text.
     pub fn counts(&self) -> Counts {
         let is_mul = |step: &&TextStep| step.operation == Operation::Mul;
         let mul = self.steps.iter().filter(is_mul).count();
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
+        let kernels = self.trig.iter().filter_map(|t| t.kernel.as_ref());
+        let trig = kernels.map(Kernel::counts);
+        let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
         Counts {
             mul,
             add: self.steps.len() - mul + angles,
             div: 0,
             sincos: self.trig.len(),
+            trig_mul,
+            trig_add,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The statements of an emitted function, line by line.
 
 use super::part::Wrap;
+use super::sines::Block;
 use super::{TextOperand, TextProgram, TextStep, TextTrig};
 use crate::emit::ScalarType;
 use crate::emit::function::input_name;
@@ -15,6 +16,8 @@ pub(super) struct Reader {
     sum: Option<AngleSum>,
     /// The block or part that is open.
     wrap: Wrap,
+    /// The polynomials of an angle that are open.
+    sines: Option<Block>,
 }
 
 impl Reader {
@@ -28,11 +31,23 @@ impl Reader {
             },
             sum: None,
             wrap: Wrap::default(),
+            sines: None,
         }
     }
 
     /// Whether the line wraps statements and is none.
     pub(super) fn block(&mut self, line: &str) -> Result<bool, String> {
+        if let Some(block) = &mut self.sines {
+            if let Some(trig) = block.line(line, self.scalar)? {
+                self.program.trig.push(trig);
+                self.sines = None;
+            }
+            return Ok(true);
+        }
+        self.sines = Block::begin(line, &mut self.sum);
+        if self.sines.is_some() {
+            return Ok(true);
+        }
         self.wrap.line(line)
     }
 
@@ -113,7 +128,12 @@ impl Reader {
         if name != expected {
             return Err(format!("`{expected}` expected, not `{name}`"));
         }
-        self.program.trig.push(TextTrig { angle, sin, cos });
+        self.program.trig.push(TextTrig {
+            angle,
+            sin,
+            cos,
+            kernel: None,
+        });
         Ok(())
     }
 
@@ -154,7 +174,7 @@ impl Reader {
 
     /// The program with these results.
     pub(super) fn finish(mut self, items: &[&str]) -> Result<TextProgram, String> {
-        if !self.wrap.is_none() {
+        if !self.wrap.is_none() || self.sines.is_some() {
             return Err("a block does not end".into());
         }
         for word in items {

@@ -1,0 +1,194 @@
+//! The choice: the fewest operations whose proved error is small enough.
+
+use std::collections::BTreeMap;
+
+use super::forms::{Centre, Form, Need};
+use super::kernel::Kernel;
+use super::proof::{Errors, prove};
+use super::series::{FARTHEST, Fit};
+use crate::certify::interval::Interval;
+use crate::emit::ScalarType;
+use crate::sincos::reduction;
+
+/// A kernel with its proof.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// What kind it is.
+    pub form: Form,
+    /// The code.
+    pub kernel: Kernel,
+    /// Its proved errors over the range.
+    pub errors: Errors,
+}
+
+/// The most that angles are halved.
+const MOST_HALVINGS: u32 = 3;
+
+/// Degrees above say nothing that floats can hold.
+const MOST_DEGREE: usize = 27;
+
+/// Beyond this, whole turns are taken off.
+const MOST_UNREDUCED: f64 = 16.0;
+
+/// How much better than its estimate a form is given the chance to be: sums
+/// of bounds are larger than bounds of sums.
+const HOPE: f64 = 0.2;
+
+/// Forms to try, from cheap to dear.
+#[derive(Clone, Debug)]
+pub struct Candidates {
+    need: Need,
+    scalar: ScalarType,
+    range: Interval,
+    fits: Vec<Fit>,
+    /// Operations, estimated error, form, and which fit it takes.
+    forms: Vec<(usize, f64, Form, usize)>,
+}
+
+impl Candidates {
+    /// For an angle in a range.
+    pub fn new(need: Need, scalar: ScalarType, range: Interval) -> Candidates {
+        let mut candidates = Candidates {
+            need,
+            scalar,
+            range,
+            fits: Vec::new(),
+            forms: Vec::new(),
+        };
+        if range.magnitude() <= MOST_UNREDUCED {
+            let (middle, radius) = (range.mid(), range.radius());
+            let quarters = libm::round(middle / std::f64::consts::FRAC_PI_2) as i32;
+            let mut about = vec![Centre::Quarter(quarters)];
+            if quarters != 0 {
+                about.push(Centre::Quarter(0));
+            }
+            for centre in about {
+                let off = match centre {
+                    Centre::Quarter(k) => {
+                        (middle - f64::from(k) * std::f64::consts::FRAC_PI_2).abs()
+                    }
+                    Centre::At(_) => 0.0,
+                };
+                candidates.add(false, centre, radius + off);
+            }
+            let near = scalar.nearest(middle);
+            if near != 0.0 && radius < 2.0 {
+                candidates.add(false, Centre::At(near), radius + (near - middle).abs());
+            }
+        }
+        let written = {
+            let mut kernel = Kernel::default();
+            kernel.sin = Some(super::kernel::Value::of(reduction::write(
+                &mut kernel,
+                scalar,
+            )));
+            reduction::split(&kernel, scalar)
+        };
+        let rest = written.and_then(|(constants, _)| reduction::rest(constants, scalar, range));
+        if let Some(rest) = rest
+            && range.magnitude() > rest.range.high()
+        {
+            candidates.add(true, Centre::Quarter(0), rest.range.high());
+        }
+        candidates
+            .forms
+            .sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        candidates
+    }
+
+    /// The forms of one centre: of those with one number of operations only
+    /// the best.
+    fn add(&mut self, reduced: bool, centre: Centre, radius: f64) {
+        let halvings = match centre {
+            Centre::Quarter(_) => MOST_HALVINGS,
+            Centre::At(_) => 0,
+        };
+        for halvings in 0..=halvings {
+            let scaled = radius * libm::exp2(-f64::from(halvings));
+            let offset = match centre {
+                Centre::At(x) => x,
+                Centre::Quarter(_) => 0.0,
+            };
+            if scaled + offset.abs() > FARTHEST {
+                continue;
+            }
+            let Some(fit) = Fit::new(offset, radius, halvings as i32) else {
+                continue;
+            };
+            let (step, start) = match centre {
+                Centre::Quarter(_) => (2, [1, 0]),
+                Centre::At(_) => (1, [1, 1]),
+            };
+            let mut best: BTreeMap<usize, (f64, Form)> = BTreeMap::new();
+            for sin in (start[0]..=MOST_DEGREE).step_by(step) {
+                for cos in (start[1]..=MOST_DEGREE).step_by(step) {
+                    if sin.abs_diff(cos) > 3 {
+                        continue;
+                    }
+                    let form = Form {
+                        reduced,
+                        centre,
+                        halvings,
+                        degrees: [sin, cos],
+                    };
+                    let cost = form.kernel(None, self.need, self.scalar).operations();
+                    let estimate = form.estimate(&fit, self.need);
+                    let entry = best.entry(cost).or_insert((estimate, form));
+                    if estimate < entry.0 {
+                        *entry = (estimate, form);
+                    }
+                }
+            }
+            let index = self.fits.len();
+            self.fits.push(fit);
+            let forms = best.into_iter();
+            self.forms
+                .extend(forms.map(|(cost, (estimate, form))| (cost, estimate, form, index)));
+        }
+    }
+
+    /// Each kernel that is more accurate than all cheaper ones, from cheap to
+    /// dear, until one errs no more than `enough`. Those that are thought to
+    /// err more than `most` are left out.
+    pub fn front(&self, most: f64, enough: f64) -> Vec<Choice> {
+        // Far below what rounding costs, degrees bring nothing.
+        let floor = self.scalar.unit_roundoff() / 16.0;
+        let mut front: Vec<Choice> = Vec::new();
+        let mut least = f64::INFINITY;
+        for &(cost, estimate, form, fit) in &self.forms {
+            let idle = estimate < floor && least < 8.0 * floor;
+            if estimate * HOPE > most || estimate * HOPE >= least || idle {
+                continue;
+            }
+            let dearer = |c: &Choice| c.kernel.operations() < cost;
+            if least <= enough && front.last().is_some_and(dearer) {
+                break;
+            }
+            let kernel = form.kernel(Some(&self.fits[fit]), self.need, self.scalar);
+            let Some(errors) = prove(&kernel, self.scalar, self.range) else {
+                continue;
+            };
+            if errors.worst() < least {
+                least = errors.worst();
+                let same = |c: &Choice| c.kernel.operations() == kernel.operations();
+                if front.last().is_some_and(same) {
+                    front.pop();
+                }
+                front.push(Choice {
+                    form,
+                    kernel,
+                    errors,
+                });
+            }
+        }
+        front
+    }
+
+    /// The cheapest kernel that errs no more than `enough`; else the most
+    /// accurate one, if there is any.
+    pub fn cheapest(&self, enough: f64) -> Option<Choice> {
+        let fit = |choice: &Choice| choice.errors.worst() <= enough;
+        let found = self.front(enough, enough).pop().filter(fit);
+        found.or_else(|| self.front(f64::INFINITY, 0.0).pop())
+    }
+}

@@ -1,0 +1,173 @@
+//! The kernels to choose from.
+//!
+//! About a multiple of π/2 a sine is odd or even, so every other coefficient
+//! vanishes; about the middle of a narrow range, of few terms, the whole
+//! polynomial may be shorter. Halving the angle h times shrinks the range:
+//! with s_h = λ_h·sin(x/2^h), c_h = λ_h·cos(x/2^h), λ_0 = 1 and
+//! λ_h = √(2·λ_(h−1)),
+//!
+//! s_(h−1) = s_h·c_h, c_(h−1) = λ_(h−1) − s_h²,
+//!
+//! so that doubling takes two multiplications and a subtraction: the factors
+//! of sin 2x = 2 sin x cos x and cos 2x = 1 − 2 sin² x are in the fits.
+
+use std::fmt;
+
+use dalembert_model::number::{Angle, Rational, Rounded};
+use num_bigint::BigInt;
+use num_traits::One;
+
+use super::kernel::{Kernel, Term, Value};
+use super::reduction;
+use super::series::{Fit, Wave};
+use crate::emit::ScalarType;
+use crate::schedule::Operation;
+
+/// Where a polynomial's variable is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Centre {
+    /// At this multiple of π/2.
+    Quarter(i32),
+    /// Anywhere.
+    At(f64),
+}
+
+/// A kind of kernel, with the degrees of its polynomials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Form {
+    /// Whether whole turns are taken off first.
+    pub reduced: bool,
+    /// Where the variable is zero.
+    pub centre: Centre,
+    /// How often the angle is halved.
+    pub halvings: u32,
+    /// The degrees of the fits to sine and cosine.
+    pub degrees: [usize; 2],
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.reduced {
+            f.write_str("less whole turns, ")?;
+        }
+        match self.centre {
+            Centre::Quarter(0) => {}
+            Centre::Quarter(k) => write!(f, "about {}, ", Angle::right_angles(k.into()))?,
+            Centre::At(x) => write!(f, "about {x:?}, ")?,
+        }
+        match self.halvings {
+            0 => {}
+            1 => f.write_str("half the angle, ")?,
+            h => write!(f, "the angle over {}, ", 1u64 << h)?,
+        }
+        write!(f, "degrees {} and {}", self.degrees[0], self.degrees[1])
+    }
+}
+
+/// What a form reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// Whether the sine is wanted.
+    pub sin: bool,
+    /// Whether the cosine is wanted.
+    pub cos: bool,
+}
+
+impl Form {
+    /// Its kernel; `fit` is of the form's centre and halvings. Without a fit
+    /// every coefficient is one: the kernel has the right number of steps.
+    pub fn kernel(&self, fit: Option<&Fit>, need: Need, scalar: ScalarType) -> Kernel {
+        let mut kernel = Kernel::default();
+        let rest = match self.reduced {
+            true => reduction::write(&mut kernel, scalar),
+            false => Term::Angle,
+        };
+        let shift = match self.centre {
+            Centre::Quarter(0) => None,
+            Centre::Quarter(k) => Some(round(&Angle::right_angles(k.into()).radians(), scalar)),
+            Centre::At(x) => Some(x),
+        };
+        let x = match shift {
+            None => rest,
+            Some(shift) => kernel.add_literal(rest, -shift),
+        };
+        let lambdas = factors(self.halvings);
+        let coefficients = |wave: Wave, degree: usize| match fit {
+            Some(fit) => fit.coefficients(wave, degree, &lambdas[self.halvings as usize], scalar),
+            None => vec![1.0; degree + 1],
+        };
+        let sine = coefficients(Wave::Sin, self.degrees[0]);
+        let cosine = coefficients(Wave::Cos, self.degrees[1]);
+        let (mut s, mut c) = match self.centre {
+            Centre::At(_) => (kernel.horner(x, &sine), kernel.horner(x, &cosine)),
+            Centre::Quarter(_) => {
+                let every_other =
+                    |c: &[f64], from: usize| c.iter().skip(from).step_by(2).copied().collect();
+                let (odd, even): (Vec<f64>, Vec<f64>) =
+                    (every_other(&sine, 1), every_other(&cosine, 0));
+                let square = kernel.mul(x, x);
+                let (p, c) = (kernel.horner(square, &odd), kernel.horner(square, &even));
+                (kernel.mul(x, p), c)
+            }
+        };
+        for level in (0..self.halvings as usize).rev() {
+            let squared = kernel.mul(s, s);
+            let lambda = Term::Literal(round(&lambdas[level], scalar));
+            (s, c) = (
+                kernel.mul(s, c),
+                kernel.push(Operation::Sub, lambda, squared),
+            );
+        }
+        let turned = match self.centre {
+            Centre::Quarter(k) => k.rem_euclid(4),
+            Centre::At(_) => 0,
+        };
+        let value = |negative, term| Value { negative, term };
+        let (sin, cos) = match turned {
+            0 => (value(false, s), value(false, c)),
+            1 => (value(false, c), value(true, s)),
+            2 => (value(true, s), value(true, c)),
+            _ => (value(true, c), value(false, s)),
+        };
+        kernel.sin = need.sin.then_some(sin);
+        kernel.cos = need.cos.then_some(cos);
+        kernel.without_dead()
+    }
+
+    /// Roughly how far the form is from sine and cosine: the fits' errors
+    /// through the doublings.
+    pub fn estimate(&self, fit: &Fit, need: Need) -> f64 {
+        let [mut s, mut c] = [
+            fit.tail(Wave::Sin, self.degrees[0]),
+            fit.tail(Wave::Cos, self.degrees[1]),
+        ];
+        for _ in 0..self.halvings {
+            (s, c) = (2.0 * s.max(c), 4.0 * s);
+        }
+        let swaps = matches!(self.centre, Centre::Quarter(k) if k % 2 != 0);
+        let (sin, cos) = if swaps { (c, s) } else { (s, c) };
+        let wanted = |needed, error| if needed { error } else { 0.0 };
+        f64::max(wanted(need.sin, sin), wanted(need.cos, cos))
+    }
+}
+
+fn round(x: &Rational, scalar: ScalarType) -> f64 {
+    match scalar {
+        ScalarType::F64 => f64::nearest_rational(x),
+        ScalarType::F32 => f32::nearest_rational(x).into(),
+    }
+}
+
+/// λ_0 … λ_h, to 40 digits. That they are cut short costs nothing: the proof
+/// is of the literals.
+fn factors(halvings: u32) -> Vec<Rational> {
+    const BITS: u32 = 140;
+    let mut factors = vec![Rational::one()];
+    for _ in 0..halvings {
+        let last = &factors[factors.len() - 1];
+        let square: BigInt =
+            (last * Rational::from_integer(BigInt::one() << (2 * BITS + 1))).to_integer();
+        factors.push(Rational::new(square.sqrt(), BigInt::one() << BITS));
+    }
+    factors
+}

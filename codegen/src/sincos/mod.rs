@@ -1,0 +1,249 @@
+//! Sine and cosine by polynomials with proved errors, instead of libm.
+//!
+//! - this file: [`SinCos`], the choice; [`Sines`], the code of each angle
+//! - [`kernel`]: straight-line code in one angle: printed, read back, run
+//! - [`proof`]: how far a kernel is from sine and cosine
+//! - [`choose`]: the cheapest kernel of [`forms`] that is near enough
+//! - [`series`]: Taylor's series and near-minimax fits
+//! - [`reduction`]: whole turns taken off where the range is wider than one
+//! - [`poly`]: exact polynomials
+//!
+//! A robot's joints have limits, so most angles need none of what a library's
+//! sine does for large ones; and a tolerance of 1e-6 needs no sixteen digits.
+
+pub mod choose;
+pub mod forms;
+pub mod kernel;
+pub mod poly;
+pub mod proof;
+pub mod reduction;
+pub mod series;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use crate::certify::interval::Interval;
+use crate::emit::ScalarType;
+use crate::graph::AngleSum;
+use crate::schedule::{Program, Trig};
+use choose::Candidates;
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::{JointKind, Position, Robot};
+use forms::Need;
+use kernel::Kernel;
+use proof::Errors;
+
+/// How emitted code gets sines and cosines.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum SinCos {
+    /// From libm, good for every angle.
+    #[default]
+    Libm,
+    /// By polynomials over the joints' ranges. The code needs no libm then,
+    /// and is wrong outside the ranges that its documentation names.
+    Polynomial {
+        /// The largest |computed − true| of each sine and cosine.
+        error: f64,
+    },
+}
+
+/// The code of one angle's sine and cosine, and what was proved of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleKernel {
+    /// Which angle.
+    pub angle: AngleSum,
+    /// Where the errors hold: every float of the scalar in it.
+    pub range: Interval,
+    /// What kind of polynomials, in words.
+    pub form: String,
+    /// The code.
+    pub kernel: Kernel,
+    /// The proved errors.
+    pub errors: Errors,
+}
+
+/// The code of a program's angles, one each, in the order of
+/// [`Program::trig`]; none if they are libm's.
+pub type Sines = Vec<AngleKernel>;
+
+/// A wanted error that no polynomial reaches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TooAccurate {
+    /// The angle.
+    pub angle: AngleSum,
+    /// Its range.
+    pub range: Interval,
+    /// The scalar.
+    pub scalar: ScalarType,
+    /// What was wanted.
+    pub wanted: f64,
+    /// The least error that was proved; infinite if none was.
+    pub least: f64,
+}
+
+impl fmt::Display for TooAccurate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let angle = angle_name(self.angle);
+        let (low, high) = (self.range.low(), self.range.high());
+        let (scalar, wanted) = (self.scalar, self.wanted);
+        if wanted.is_nan() || wanted <= 0.0 {
+            return write!(
+                f,
+                "the error of a sine must be above zero, not {wanted:e}: write 1e-9, or take libm"
+            );
+        }
+        if self.least.is_infinite() {
+            return write!(
+                f,
+                "no polynomial in {scalar} is known for {angle} in [{low:?}, {high:?}]: \
+                 narrow the joints' limits of position, or take libm"
+            );
+        }
+        write!(
+            f,
+            "no polynomial in {scalar} is proved to give the sines of {angle} in \
+             [{low:?}, {high:?}] to {wanted:e}, at best to {:.2e}: ask for that, \
+             for a wider scalar, or for libm",
+            self.least
+        )
+    }
+}
+
+impl std::error::Error for TooAccurate {}
+
+/// The largest |q| for which the polynomials of a joint without limits hold.
+pub fn stated(scalar: ScalarType) -> f64 {
+    match scalar {
+        ScalarType::F64 => 1e6,
+        ScalarType::F32 => 1e3,
+    }
+}
+
+/// The positions of a robot's joints: their limits, or what is
+/// [`stated`] where there are none. Joints that slide have no angle.
+pub fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
+    let value = |position: &Position| match position {
+        Position::Angle(angle) => angle.to_f64(),
+        Position::Length(length) => f64::nearest_rational(length),
+    };
+    let joints = robot.joints.iter();
+    let ranges = joints.map(|joint| match (&joint.limits.position, joint.kind) {
+        (Some([low, high]), JointKind::Revolute) => Interval::new(value(low), value(high)),
+        _ => None,
+    });
+    ranges
+        .map(|range| range.unwrap_or(Interval::symmetric(stated(scalar))))
+        .collect()
+}
+
+/// The values that an angle takes as the emitted code adds it.
+pub fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarType) -> Interval {
+    let (mut sum, mut reach) = (Interval::ZERO, 0.0);
+    for (index, (joint, negative)) in angle.terms().enumerate() {
+        let q = positions.get(joint).copied().unwrap_or(Interval::ALL);
+        let q = if negative { -q } else { q };
+        sum = if index == 0 { q } else { sum + q };
+        reach += q.magnitude();
+    }
+    match angle.additions() {
+        0 => sum,
+        additions => sum.widened(1.01 * additions as f64 * scalar.unit_roundoff() * reach),
+    }
+}
+
+/// The cheapest polynomials for a program whose every sine and cosine errs
+/// by no more than `error`, proved. `positions` are the joints' ranges.
+///
+/// # Errors
+/// The first angle for which there are none.
+pub fn polynomials(
+    program: &Program,
+    scalar: ScalarType,
+    positions: &[Interval],
+    error: f64,
+) -> Result<Sines, TooAccurate> {
+    let mut sines: Sines = Vec::new();
+    for trig in &program.trig {
+        let range = range_of(trig.angle, positions, scalar);
+        // Joints with the same limits share the search.
+        let known = sines.iter().find(|known| {
+            known.range == range
+                && need_of(&known.kernel) == need(trig)
+                && known.errors.worst() <= error
+        });
+        let kernel = match known {
+            Some(known) => AngleKernel {
+                angle: trig.angle,
+                ..known.clone()
+            },
+            None => one(trig, scalar, range, error)?,
+        };
+        sines.push(kernel);
+    }
+    Ok(sines)
+}
+
+/// What is wanted of an angle.
+pub fn need(trig: &Trig) -> Need {
+    Need {
+        sin: trig.sin,
+        cos: trig.cos,
+    }
+}
+
+fn need_of(kernel: &Kernel) -> Need {
+    Need {
+        sin: kernel.sin.is_some(),
+        cos: kernel.cos.is_some(),
+    }
+}
+
+fn one(
+    trig: &Trig,
+    scalar: ScalarType,
+    range: Interval,
+    error: f64,
+) -> Result<AngleKernel, TooAccurate> {
+    let best = match error > 0.0 {
+        true => Candidates::new(need(trig), scalar, range).cheapest(error),
+        false => None,
+    };
+    match best {
+        Some(choice) if choice.errors.worst() <= error => Ok(AngleKernel {
+            angle: trig.angle,
+            range,
+            form: choice.form.to_string(),
+            kernel: choice.kernel,
+            errors: choice.errors,
+        }),
+        best => Err(TooAccurate {
+            angle: trig.angle,
+            range,
+            scalar,
+            wanted: error,
+            least: best.map_or(f64::INFINITY, |choice| choice.errors.worst()),
+        }),
+    }
+}
+
+/// Multiplications and additions of the angles' polynomials.
+pub fn counts(sines: &[AngleKernel]) -> (usize, usize) {
+    let counts = sines.iter().map(|angle| angle.kernel.counts());
+    counts.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add))
+}
+
+/// `q2 + q3`, one-based.
+pub fn angle_name(angle: AngleSum) -> String {
+    let mut name = String::new();
+    for (index, (joint, negative)) in angle.terms().enumerate() {
+        name += match (index, negative) {
+            (0, false) => "",
+            (0, true) => "-",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        };
+        name += &format!("q{}", joint + 1);
+    }
+    name
+}

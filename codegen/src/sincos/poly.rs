@@ -1,0 +1,303 @@
+//! Polynomials with dyadic coefficients, exactly, and their Chebyshev form.
+//!
+//! Every float is an integer over a power of two, so sums, products and
+//! changes of variable need neither division nor rounding: the bounds found
+//! with them are proofs.
+
+use num_bigint::BigInt;
+use num_traits::float::FloatCore;
+use num_traits::{One, Signed, Zero};
+
+use dalembert_model::number::{Rational, Rounded};
+
+/// Σ c_k·x^k with c_k = `coefficients[k]`·2^−`exponent`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Poly {
+    coefficients: Vec<BigInt>,
+    exponent: u64,
+}
+
+impl Poly {
+    /// From integer coefficients.
+    pub fn integers(coefficients: Vec<BigInt>) -> Poly {
+        Poly {
+            coefficients,
+            exponent: 0,
+        }
+        .trimmed()
+    }
+
+    /// A float; `None` if it is not finite.
+    pub fn constant(value: f64) -> Option<Poly> {
+        if !value.is_finite() {
+            return None;
+        }
+        let (mantissa, exponent, sign) = FloatCore::integer_decode(value);
+        let mut mantissa = BigInt::from(mantissa) * sign;
+        if exponent > 0 {
+            mantissa <<= exponent.unsigned_abs();
+        }
+        let exponent = if exponent < 0 {
+            exponent.unsigned_abs().into()
+        } else {
+            0
+        };
+        let poly = Poly {
+            coefficients: vec![mantissa],
+            exponent,
+        };
+        Some(poly.trimmed())
+    }
+
+    /// x
+    pub fn variable() -> Poly {
+        Poly::integers(vec![BigInt::zero(), BigInt::one()])
+    }
+
+    /// The degree; zero for zero.
+    pub fn degree(&self) -> usize {
+        self.coefficients.len().saturating_sub(1)
+    }
+
+    /// Bits of the largest numerator and of the denominator.
+    pub fn bits(&self) -> u64 {
+        let numerators = self.coefficients.iter().map(BigInt::bits).max();
+        numerators.unwrap_or(0) + self.exponent
+    }
+
+    /// c_k
+    pub fn coefficient(&self, k: usize) -> Rational {
+        let numerator = self.coefficients.get(k).cloned().unwrap_or_default();
+        Rational::new(numerator, BigInt::one() << self.exponent)
+    }
+
+    /// self + other
+    #[must_use]
+    pub fn add(&self, other: &Poly) -> Poly {
+        let exponent = self.exponent.max(other.exponent);
+        let (a, b) = (self.at(exponent), other.at(exponent));
+        let len = a.len().max(b.len());
+        let term = |list: &[BigInt], k: usize| list.get(k).cloned().unwrap_or_default();
+        let coefficients = (0..len).map(|k| term(&a, k) + term(&b, k)).collect();
+        Poly {
+            coefficients,
+            exponent,
+        }
+        .trimmed()
+    }
+
+    /// self − other
+    #[must_use]
+    pub fn sub(&self, other: &Poly) -> Poly {
+        self.add(&other.scaled(&BigInt::from(-1)))
+    }
+
+    /// self·other
+    #[must_use]
+    pub fn mul(&self, other: &Poly) -> Poly {
+        let len = self.coefficients.len() + other.coefficients.len();
+        let mut coefficients = vec![BigInt::zero(); len];
+        for (i, a) in self.coefficients.iter().enumerate() {
+            for (j, b) in other.coefficients.iter().enumerate() {
+                coefficients[i + j] += a * b;
+            }
+        }
+        Poly {
+            coefficients,
+            exponent: self.exponent + other.exponent,
+        }
+        .trimmed()
+    }
+
+    /// self·factor
+    #[must_use]
+    pub fn scaled(&self, factor: &BigInt) -> Poly {
+        Poly {
+            coefficients: self.coefficients.iter().map(|c| c * factor).collect(),
+            exponent: self.exponent,
+        }
+        .trimmed()
+    }
+
+    /// The polynomial p(inner(x)).
+    #[must_use]
+    pub fn compose(&self, inner: &Poly) -> Poly {
+        let mut sum = Poly::integers(Vec::new());
+        for c in self.coefficients.iter().rev() {
+            let constant = Poly {
+                coefficients: vec![c.clone()],
+                exponent: self.exponent,
+            };
+            sum = sum.mul(inner).add(&constant);
+        }
+        sum
+    }
+
+    /// This over a divisor with coefficients cut to few bits, and what that
+    /// changes at most where |x| is up to a reach.
+    #[must_use]
+    pub fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
+        const BITS: u64 = 100;
+        // 2^digit is at least the reach.
+        let digit = libm::ceil(libm::log2(reach.max(1.0))) as u64 + 1;
+        let exponent = BITS + digit * self.degree() as u64;
+        let divisor = divisor << self.exponent;
+        let cut = |c: &BigInt| (c << exponent) / &divisor;
+        let coefficients: Vec<BigInt> = self.coefficients.iter().map(cut).collect();
+        // Each is off by less than one unit, and each power of x below the
+        // highest one's bound: Σ 2^−exponent·reach^k ≤ terms·2^−BITS.
+        let error = coefficients.len() as f64 * libm::exp2(-(BITS as f64));
+        let poly = Poly {
+            coefficients,
+            exponent,
+        };
+        (poly, error)
+    }
+
+    /// p((centre + radius·y)/2^`bits`) as a polynomial in y.
+    #[must_use]
+    pub fn on(&self, centre: i64, radius: i64, bits: u64) -> Poly {
+        let mut sum: Vec<BigInt> = Vec::with_capacity(self.coefficients.len());
+        for (step, c) in self.coefficients.iter().rev().enumerate() {
+            // sum·(centre + radius·y) + c, all times 2^(bits·step).
+            sum.push(BigInt::zero());
+            for k in (0..sum.len()).rev() {
+                let below = k.checked_sub(1).map(|k| &sum[k] * radius);
+                sum[k] *= centre;
+                if let Some(below) = below {
+                    sum[k] += below;
+                }
+            }
+            sum[0] += c << (bits * step as u64);
+        }
+        Poly {
+            coefficients: sum,
+            exponent: self.exponent + bits * self.degree() as u64,
+        }
+    }
+
+    /// The same polynomial as Σ a_k·T_k(x): the coefficients a_k.
+    ///
+    /// Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) + T_(k−1).
+    #[must_use]
+    pub fn chebyshev(&self) -> Poly {
+        let mut sum: Vec<BigInt> = Vec::new();
+        for (halvings, c) in self.coefficients.iter().rev().enumerate() {
+            let mut next = vec![BigInt::zero(); sum.len() + 1];
+            for (k, a) in sum.iter().enumerate() {
+                if k == 0 {
+                    next[1] += a * 2;
+                } else {
+                    next[k + 1] += a;
+                    next[k - 1] += a;
+                }
+            }
+            next[0] += c << halvings;
+            sum = next;
+        }
+        Poly {
+            coefficients: sum,
+            exponent: self.exponent + self.degree() as u64,
+        }
+    }
+
+    /// Σ a_k·T_k for k up to a degree, as Σ c_k·x^k.
+    #[must_use]
+    pub fn from_chebyshev(&self, degree: usize) -> Poly {
+        let two_x = Poly::integers(vec![BigInt::zero(), BigInt::from(2)]);
+        let (mut low, mut high) = (Poly::integers(vec![BigInt::one()]), Poly::variable());
+        let mut sum = Poly::integers(Vec::new());
+        for a in self.coefficients.iter().take(degree + 1) {
+            sum = sum.add(&low.scaled(a));
+            let next = two_x.mul(&high).sub(&low);
+            low = std::mem::replace(&mut high, next);
+        }
+        sum.exponent += self.exponent;
+        sum
+    }
+
+    /// Σ |c_k| over the coefficients from the k-th on, over a divisor,
+    /// rounded up.
+    ///
+    /// Of the Chebyshev form this bounds |p| on \[−1, 1\], where no |T_k|
+    /// exceeds one; for what is left of a near-minimax fit, which has one
+    /// large coefficient, it is close.
+    pub fn sum_from(&self, k: usize, divisor: &BigInt) -> f64 {
+        let sum: BigInt = self.coefficients.iter().skip(k).map(Signed::abs).sum();
+        if sum.is_zero() {
+            return 0.0;
+        }
+        f64::nearest_rational(&Rational::new(sum, divisor << self.exponent)).next_up()
+    }
+
+    /// The numerators at a larger exponent.
+    fn at(&self, exponent: u64) -> Vec<BigInt> {
+        let by = exponent - self.exponent;
+        self.coefficients.iter().map(|c| c << by).collect()
+    }
+
+    fn trimmed(mut self) -> Poly {
+        while self.coefficients.last().is_some_and(Zero::is_zero) {
+            self.coefficients.pop();
+        }
+        // A common power of two is no information.
+        let shared = self.coefficients.iter().filter_map(BigInt::trailing_zeros);
+        let shared = shared.min().unwrap_or(self.exponent).min(self.exponent);
+        for c in &mut self.coefficients {
+            *c >>= shared;
+        }
+        self.exponent -= shared;
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(coefficients: &[f64]) -> Poly {
+        let x = Poly::variable();
+        let mut sum = Poly::integers(Vec::new());
+        for &c in coefficients.iter().rev() {
+            sum = sum.mul(&x).add(&Poly::constant(c).unwrap());
+        }
+        sum
+    }
+
+    fn at(poly: &Poly, x: i64) -> Rational {
+        let x = Rational::from_integer(x.into());
+        let terms = (0..=poly.degree()).rev().map(|k| poly.coefficient(k));
+        terms.fold(Rational::zero(), |sum, c| sum * &x + c)
+    }
+
+    #[test]
+    fn arithmetic_is_that_of_values() {
+        let (p, q) = (of(&[0.1, -3.0, 0.0, 1e-30]), of(&[1e20, 0.25]));
+        for x in -3..4 {
+            let (a, b) = (at(&p, x), at(&q, x));
+            assert_eq!(at(&p.add(&q), x), &a + &b);
+            assert_eq!(at(&p.sub(&q), x), &a - &b);
+            assert_eq!(at(&p.mul(&q), x), &a * &b);
+            assert_eq!(at(&p.compose(&of(&[2.0, -1.0])), x), at(&p, 2 - x));
+            assert_eq!(at(&p.on(2, -1, 0), x), at(&p, 2 - x));
+            assert_eq!(at(&p.on(16, 8, 3), x), at(&p, 2 + x));
+        }
+        let (cut, error) = p.divided(&BigInt::from(3), 3.0);
+        let off = at(&cut, 3) - at(&p, 3) / Rational::from_integer(3.into());
+        assert!(f64::nearest_rational(&off).abs() <= error && error < 1e-28);
+        assert_eq!(Poly::constant(f64::NAN), None);
+    }
+
+    #[test]
+    fn chebyshev_there_and_back() {
+        let p = of(&[0.1, -3.0, 0.5, 7.0, -0.3, 2.0]);
+        let t = p.chebyshev();
+        assert_eq!(t.from_chebyshev(5).trimmed(), p);
+        // x³ = (3 T_1 + T_3)/4, and on [−1, 1] it is at most one.
+        let cube = of(&[0.0, 0.0, 0.0, 1.0]).chebyshev();
+        assert_eq!(cube.coefficient(1), Rational::new(3.into(), 4.into()));
+        assert_eq!(cube.coefficient(3), Rational::new(1.into(), 4.into()));
+        let bound = cube.sum_from(0, &BigInt::one());
+        assert!((1.0..1.0 + 1e-15).contains(&bound));
+    }
+}

@@ -1,0 +1,250 @@
+//! How far a kernel is from sine and cosine: proved from its steps alone.
+//!
+//! **Approximation.** With exact arithmetic a kernel is a polynomial whose
+//! coefficients are integers over powers of two. Its difference from Taylor's
+//! polynomial is written in Chebyshev polynomials on pieces of the range, in
+//! integers: the sum of the coefficients' magnitudes bounds it, and what
+//! Taylor leaves out is added.
+//!
+//! **Rounding.** Every operation gives (x ∘ y)(1 + δ) + η. The error of a
+//! result is exactly Σ r_step·ā_step with adjoints ā that mix computed and
+//! exact operands; both are in the intervals here (see
+//! [`crate::certify::sensitivity`]), so the sum over sub-ranges bounds it.
+//!
+//! **Reduction.** Where whole turns are taken off first, both hold for what
+//! is left of the angle, and a sine moves no more than its angle.
+
+use num_bigint::BigInt;
+use num_traits::One;
+
+use super::kernel::{Kernel, Term, Value};
+use super::poly::Poly;
+use super::reduction;
+use super::series::{FARTHEST, Taylor, Wave};
+use crate::certify::interval::Interval;
+use crate::certify::sensitivity::underflow;
+use crate::emit::ScalarType;
+use crate::schedule::Operation;
+
+/// Proved bounds of |computed − true|; zero for what is not computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Of the sine.
+    pub sin: f64,
+    /// Of the cosine.
+    pub cos: f64,
+}
+
+impl Errors {
+    /// The larger one.
+    pub fn worst(self) -> f64 {
+        self.sin.max(self.cos)
+    }
+}
+
+/// A kernel of more steps, or of a higher degree, is not looked at.
+const MOST_STEPS: usize = 128;
+const MOST_DEGREE: usize = 160;
+const MOST_BITS: u64 = 1 << 18;
+
+/// The widest piece of a range.
+const PIECE: f64 = 0.5;
+
+/// Sub-ranges for rounding.
+const CELLS: usize = 48;
+
+/// Bounds for every float of the scalar in the range; `None` if the kernel is
+/// nothing that can be bounded.
+pub fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
+    if kernel.steps.len() > MOST_STEPS {
+        return None;
+    }
+    if let Some((constants, left)) = reduction::split(kernel, scalar) {
+        let rest = reduction::rest(constants, scalar, range)?;
+        let errors = polynomial(&left, scalar, rest.range)?;
+        let add = |wanted: Option<Value>, x: f64| match wanted {
+            Some(_) => (x + rest.error).next_up(),
+            None => 0.0,
+        };
+        return Some(Errors {
+            sin: add(left.sin, errors.sin),
+            cos: add(left.cos, errors.cos),
+        });
+    }
+    polynomial(kernel, scalar, range)
+}
+
+fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
+    if range.magnitude().is_nan() || range.magnitude() > FARTHEST {
+        return None;
+    }
+    let values = expand(kernel)?;
+    let rounding = rounding(kernel, scalar, range);
+    let one = |value: Option<Value>, wave, rounding: f64| match value {
+        None => Some(0.0),
+        Some(value) => {
+            let poly = result(value, &values)?;
+            let approximation = approximation(&poly, wave, range)?;
+            Some((approximation + rounding).next_up())
+        }
+    };
+    let errors = Errors {
+        sin: one(kernel.sin, Wave::Sin, rounding.sin)?,
+        cos: one(kernel.cos, Wave::Cos, rounding.cos)?,
+    };
+    errors.worst().is_finite().then_some(errors)
+}
+
+/// The polynomial of each step.
+fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
+    let mut values: Vec<Poly> = Vec::with_capacity(kernel.steps.len());
+    for step in &kernel.steps {
+        let (left, right) = (read(step.left, &values)?, read(step.right, &values)?);
+        let large = left.degree() + right.degree() > MOST_DEGREE;
+        if large || left.bits() + right.bits() > MOST_BITS {
+            return None;
+        }
+        let value = match step.operation {
+            Operation::Add => left.add(&right),
+            Operation::Sub => left.sub(&right),
+            Operation::Mul => left.mul(&right),
+        };
+        values.push(value);
+    }
+    Some(values)
+}
+
+fn read(term: Term, values: &[Poly]) -> Option<Poly> {
+    match term {
+        Term::Angle => Some(Poly::variable()),
+        Term::Literal(value) => Poly::constant(value),
+        Term::Step(step) => values.get(step).cloned(),
+    }
+}
+
+fn result(value: Value, values: &[Poly]) -> Option<Poly> {
+    let poly = read(value.term, values)?;
+    Some(if value.negative {
+        Poly::integers(Vec::new()).sub(&poly)
+    } else {
+        poly
+    })
+}
+
+/// |p − wave| over a range, from above: over the whole, or the worst of
+/// pieces, whichever is less.
+fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
+    let taylor = Taylor::up_to(range.magnitude() + 1.0)?;
+    let difference = taylor.wave(wave).sub(&poly.scaled(&taylor.factorial));
+    let (difference, cut) = difference.divided(&taylor.factorial, range.magnitude() + 1.0);
+    let over = |pieces: usize| {
+        let width = range.width() / pieces as f64;
+        // Centre and radius have few bits; the radius has room for rounding
+        // both, so the pieces cover the range, and reach less than 1 beyond.
+        let bits = libm::ceil(-libm::log2(width.max(1e-9))).clamp(-2.0, 30.0) as i32 + 10;
+        let grid = libm::exp2(f64::from(bits));
+        let radius = libm::ceil(0.5 * width * grid) as i64 + 1;
+        let mut most = 0.0f64;
+        for piece in 0..pieces {
+            let middle = range.low() + (piece as f64 + 0.5) * width;
+            let centre = libm::round(middle * grid) as i64;
+            let form = difference.on(centre, radius, bits.unsigned_abs().into());
+            most = most.max(form.chebyshev().sum_from(0, &BigInt::one()));
+        }
+        most
+    };
+    let pieces = libm::ceil(range.width() / PIECE).max(1.0) as usize;
+    let most = over(1).min(over(pieces));
+    Some(((most + taylor.remainder).next_up() + cut).next_up())
+}
+
+/// Rounding errors of both results, the worst of the sub-ranges.
+fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
+    let mut worst = Errors::default();
+    let width = range.width() / CELLS as f64;
+    for cell in 0..CELLS {
+        let end = |k: usize| (range.low() + k as f64 * width).min(range.high());
+        let high = if cell + 1 == CELLS {
+            range.high()
+        } else {
+            end(cell + 1)
+        };
+        let cell = Interval::new(end(cell), high).unwrap_or(range);
+        let (values, own) = forward(kernel, scalar, cell);
+        let one = |value: Option<Value>| match value {
+            Some(value) => backward(kernel, &values, &own, value.term, cell),
+            None => 0.0,
+        };
+        worst.sin = worst.sin.max(one(kernel.sin));
+        worst.cos = worst.cos.max(one(kernel.cos));
+    }
+    worst
+}
+
+fn interval(term: Term, values: &[Interval], angle: Interval) -> Interval {
+    match term {
+        Term::Angle => angle,
+        Term::Literal(value) => Interval::point(value),
+        Term::Step(step) => values.get(step).copied().unwrap_or(Interval::ALL),
+    }
+}
+
+/// Intervals that hold what is exact and what is computed, and each step's
+/// own rounding.
+fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> (Vec<Interval>, Vec<f64>) {
+    let u = scalar.unit_roundoff();
+    let mut values: Vec<Interval> = Vec::with_capacity(kernel.steps.len());
+    let mut own = Vec::with_capacity(kernel.steps.len());
+    for step in &kernel.steps {
+        let x = interval(step.left, &values, angle);
+        let y = interval(step.right, &values, angle);
+        let (exact, eta) = match step.operation {
+            Operation::Add => (x + y, 0.0),
+            Operation::Sub => (x - y, 0.0),
+            Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
+            Operation::Mul => (x * y, underflow(scalar)),
+        };
+        let rounding = ((u * exact.magnitude()).next_up() + eta).next_up();
+        values.push(exact.widened(rounding));
+        own.push(rounding);
+    }
+    (values, own)
+}
+
+/// Σ |adjoint|·rounding for one result.
+fn backward(
+    kernel: &Kernel,
+    values: &[Interval],
+    own: &[f64],
+    result: Term,
+    angle: Interval,
+) -> f64 {
+    let Term::Step(top) = result else { return 0.0 };
+    let mut adjoints = vec![Interval::ZERO; values.len()];
+    let mut sum = Interval::ZERO;
+    if let Some(adjoint) = adjoints.get_mut(top) {
+        *adjoint = Interval::ONE;
+    }
+    for (index, step) in kernel.steps.iter().enumerate().rev() {
+        let adjoint = adjoints[index];
+        if adjoint == Interval::ZERO {
+            continue;
+        }
+        sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(own[index]);
+        let x = interval(step.left, values, angle);
+        let y = interval(step.right, values, angle);
+        let (left, right) = match step.operation {
+            Operation::Add => (adjoint, adjoint),
+            Operation::Sub => (adjoint, -adjoint),
+            Operation::Mul => (adjoint * y, adjoint * x),
+        };
+        for (term, part) in [(step.left, left), (step.right, right)] {
+            if let Term::Step(before) = term
+                && let Some(place) = adjoints.get_mut(before)
+            {
+                *place = *place + part;
+            }
+        }
+    }
+    sum.high()
+}

@@ -1,0 +1,229 @@
+//! Taking whole turns off an angle, without branches.
+//!
+//! k = (q·ι + M) − M with ι ≈ 1/2π and M = 1.5·2^(p−1): next to M the floats
+//! are the integers, so k is one. Then r = (q − k·A) − k·B, where A is 2π in
+//! few bits, so that k·A is exact, and B the rest of it.
+
+use dalembert_model::number::{Angle, Rational, Rounded};
+
+use super::kernel::{Kernel, Step, Term};
+use crate::certify::interval::Interval;
+use crate::certify::sensitivity::underflow;
+use crate::emit::ScalarType;
+use crate::schedule::Operation;
+
+/// Steps that it takes.
+pub const STEPS: usize = 7;
+
+/// What is left of an angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// The values that it takes as computed.
+    pub range: Interval,
+    /// How far it is from the angle less whole turns.
+    pub error: f64,
+}
+
+/// Significand bits.
+fn digits(scalar: ScalarType) -> i32 {
+    match scalar {
+        ScalarType::F64 => f64::MANTISSA_DIGITS as i32,
+        ScalarType::F32 => f32::MANTISSA_DIGITS as i32,
+    }
+}
+
+/// 1.5·2^(p−1)
+fn magic(scalar: ScalarType) -> f64 {
+    1.5 * libm::exp2(f64::from(digits(scalar) - 1))
+}
+
+/// 2π to 120 digits.
+fn turn() -> Rational {
+    Angle::right_angles(4).radians()
+}
+
+/// Prints the reduction into an empty kernel; the rest is what it returns.
+pub fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
+    let round = |x: &Rational| match scalar {
+        ScalarType::F64 => f64::nearest_rational(x),
+        ScalarType::F32 => f32::nearest_rational(x).into(),
+    };
+    // Turns up to 2^21 in f64 and 2^8 in f32 are subtracted exactly.
+    let kept = match scalar {
+        ScalarType::F64 => 32,
+        ScalarType::F32 => 16,
+    };
+    let (whole, grid) = (turn(), libm::exp2(f64::from(kept - 3)));
+    let coarse = libm::floor(f64::nearest_rational(&whole) * grid) / grid;
+    let exact = Rational::from_float(coarse).unwrap_or_default();
+    let magic = Term::Literal(magic(scalar));
+    let turns = kernel.mul(Term::Angle, Term::Literal(round(&whole.recip())));
+    let shifted = kernel.push(Operation::Add, turns, magic);
+    let k = kernel.push(Operation::Sub, shifted, magic);
+    let much = kernel.mul(k, Term::Literal(coarse));
+    let rest = kernel.push(Operation::Sub, Term::Angle, much);
+    let little = kernel.mul(k, Term::Literal(round(&(whole - exact))));
+    kernel.push(Operation::Sub, rest, little)
+}
+
+/// The reduction that a kernel begins with, as (ι, A, B), and the kernel of
+/// what is left; `None` if it begins with none.
+pub fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
+    use Operation::{Add, Mul, Sub};
+    use Term::{Angle, Literal, Step as At};
+    let [s1, s2, s3, s4, s5, s6, s7, rest @ ..] = kernel.steps.as_slice() else {
+        return None;
+    };
+    let parts = |s: &Step| (s.operation, s.left, s.right);
+    let (Mul, Angle, Literal(inverse)) = parts(s1) else {
+        return None;
+    };
+    let magic = Literal(magic(scalar));
+    let rounds = parts(s2) == (Add, At(0), magic) && parts(s3) == (Sub, At(1), magic);
+    let ((Mul, At(2), Literal(much)), (Mul, At(2), Literal(little))) = (parts(s4), parts(s6))
+    else {
+        return None;
+    };
+    let subtracts = parts(s5) == (Sub, Angle, At(3)) && parts(s7) == (Sub, At(4), At(5));
+    if !rounds || !subtracts {
+        return None;
+    }
+    // Nothing else may read what came before.
+    let last = STEPS - 1;
+    let moved = |term| match term {
+        Angle => None,
+        Literal(_) => Some(term),
+        At(step) if step < last => None,
+        At(step) if step == last => Some(Angle),
+        At(step) => Some(At(step - STEPS)),
+    };
+    let mut left = Kernel::default();
+    for step in rest {
+        left.push(step.operation, moved(step.left)?, moved(step.right)?);
+    }
+    for (value, place) in [(kernel.sin, &mut left.sin), (kernel.cos, &mut left.cos)] {
+        if let Some(mut value) = value {
+            value.term = moved(value.term)?;
+            *place = Some(value);
+        }
+    }
+    Some(([inverse, much, little], left))
+}
+
+/// What is left of angles in a range; `None` if there are too many turns for
+/// the way they are counted.
+pub fn rest(
+    [inverse, much, little]: [f64; 3],
+    scalar: ScalarType,
+    range: Interval,
+) -> Option<Rest> {
+    let u = Interval::point(scalar.unit_roundoff());
+    let eta = Interval::point(underflow(scalar));
+    let point = Interval::point;
+    let reach = point(range.magnitude());
+    let most = libm::exp2(f64::from(digits(scalar) - 2));
+    let whole = turn();
+    let exact = |x: f64| Rational::from_float(x);
+    let off = |x: &Rational| point(Interval::rational(x).magnitude());
+    // q·ι against q/2π.
+    let wrong = off(&(exact(inverse)? - whole.recip()));
+    let scaled = reach * point(inverse.abs());
+    let counted = reach * wrong + u * scaled + eta;
+    if scaled.high() + 1.0 > most {
+        return None;
+    }
+    // k is an integer within a half of q·ι as computed.
+    let half = counted + point(0.5);
+    let most_turns = reach * Interval::rational(&whole.recip()) + half;
+    let turns = point(libm::floor(most_turns.high()));
+    let left = Interval::rational(&whole) * half;
+    // k·A, q − k·A, k·B and the last difference are each rounded once.
+    let big = turns * point(much.abs());
+    let first = if is_exact(much, turns.high(), scalar) {
+        Interval::ZERO
+    } else {
+        u * big + eta
+    };
+    let away = turns * off(&(&whole - exact(much)?));
+    let second = u * (left + away + first);
+    let third = u * turns * point(little.abs()) + eta;
+    let missing = turns * off(&(&whole - exact(much)? - exact(little)?));
+    let before = missing + first + second + third;
+    let error = before + u * (left + before);
+    let most = left + error;
+    Some(Rest {
+        range: Interval::symmetric(most.high()),
+        error: error.high(),
+    })
+}
+
+/// Whether a float times any integer up to `turns` is a float.
+fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
+    use num_traits::float::FloatCore;
+    let (mantissa, exponent, _) = FloatCore::integer_decode(x);
+    let bits = 64 - (mantissa >> mantissa.trailing_zeros().min(63)).leading_zeros() as i32;
+    let spare = digits(scalar) - bits;
+    // Far from the ends of the exponents: neither overflow nor subnormals.
+    let plain = (-100..100).contains(&(i32::from(exponent) + 53));
+    plain && spare >= 0 && turns <= libm::exp2(f64::from(spare))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reduced(scalar: ScalarType) -> Kernel {
+        let mut kernel = Kernel::default();
+        let rest = write(&mut kernel, scalar);
+        kernel.sin = Some(super::super::kernel::Value::of(rest));
+        kernel
+    }
+
+    #[test]
+    fn the_rest_is_as_near_as_proved() {
+        let mut random = crate::simplify::random::Random::new(5);
+        for (scalar, reach) in [(ScalarType::F64, 1e6), (ScalarType::F32, 1e3)] {
+            let kernel = reduced(scalar);
+            let (constants, left) = split(&kernel, scalar).unwrap();
+            assert_eq!(left.sin.map(|v| v.term), Some(Term::Angle));
+            let rest = rest(constants, scalar, Interval::symmetric(reach)).unwrap();
+            let u = scalar.unit_roundoff();
+            assert!(
+                rest.error < 8.0 * u && rest.range.high() < std::f64::consts::PI * 1.0001,
+                "{rest:?}"
+            );
+            for _ in 0..2000 {
+                let q = reach * (2.0 * random.unit() - 1.0);
+                let (q, r) = match scalar {
+                    ScalarType::F64 => (q, kernel.run(q).0),
+                    ScalarType::F32 => (f64::from(q as f32), kernel.run(q as f32).0.into()),
+                };
+                assert!(rest.range.contains(r), "{q} {r}");
+                // Against exact arithmetic.
+                let exact = |x| Rational::from_float(x).unwrap();
+                let turns = ((exact(q) - exact(r)) / turn()).round();
+                let off = exact(q) - turns * turn() - exact(r);
+                assert!(f64::nearest_rational(&off).abs() <= rest.error, "{q}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_reduction_is_none() {
+        let kernel = reduced(ScalarType::F64);
+        assert!(split(&kernel, ScalarType::F32).is_none());
+        let mut other = kernel.clone();
+        other.steps[4].left = Term::Literal(1.0);
+        assert!(split(&other, ScalarType::F64).is_none());
+        // Who still reads the whole angle has not taken the turns off.
+        let mut angle = kernel.clone();
+        angle.mul(Term::Step(6), Term::Angle);
+        assert!(split(&angle, ScalarType::F64).is_none());
+        let (mut constants, _) = split(&kernel, ScalarType::F64).unwrap();
+        let range = Interval::symmetric(100.0);
+        assert!(rest(constants, ScalarType::F64, Interval::symmetric(1e17)).is_none());
+        // A wrong constant shows in the error.
+        constants[2] *= 1.5;
+        assert!(rest(constants, ScalarType::F64, range).unwrap().error > 1e-9);
+    }
+}

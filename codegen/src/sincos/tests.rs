@@ -1,0 +1,190 @@
+//! Kernels against libm, and their proofs against samples.
+
+use super::choose::{Candidates, Choice};
+use super::forms::Need;
+use super::kernel::{Kernel, Term};
+use super::proof::prove;
+use super::*;
+use crate::simplify::random::Random;
+
+const BOTH: Need = Need {
+    sin: true,
+    cos: true,
+};
+
+/// The largest errors seen: at the ends and at random floats of the range,
+/// against a sine in double precision.
+fn seen(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
+    let mut random = Random::new(11);
+    let mut worst = Errors::default();
+    for i in 0..4000 {
+        let t = match i {
+            0 => 0.0,
+            1 => 1.0,
+            _ => random.unit(),
+        };
+        let q = (range.low() + range.width() * t).clamp(range.low(), range.high());
+        let (q, (s, c)) = match scalar {
+            ScalarType::F64 => (q, kernel.run(q)),
+            ScalarType::F32 => {
+                let q = q as f32;
+                let (s, c) = kernel.run(q);
+                (f64::from(q), (f64::from(s), f64::from(c)))
+            }
+        };
+        if !range.contains(q) {
+            continue;
+        }
+        let (sin, cos) = libm::sincos(q);
+        worst.sin = worst.sin.max((s - sin).abs());
+        worst.cos = worst.cos.max((c - cos).abs());
+    }
+    worst
+}
+
+fn range(low: f64, high: f64) -> Interval {
+    Interval::new(low, high).unwrap()
+}
+
+fn cheapest(need: Need, scalar: ScalarType, over: Interval, error: f64) -> Choice {
+    let choice = Candidates::new(need, scalar, over).cheapest(error);
+    choice.filter(|c| c.errors.worst() <= error).unwrap()
+}
+
+const PI: f64 = std::f64::consts::PI;
+
+/// Ranges of every kind: symmetric, one-sided, narrow, two turns, many.
+const CASES: [(ScalarType, f64, f64, f64); 10] = [
+    (ScalarType::F64, -PI, PI, 1e-3),
+    (ScalarType::F64, -PI, PI, 1e-8),
+    (ScalarType::F64, -PI, PI, 1e-13),
+    (ScalarType::F64, 0.1, 2.6, 1e-9),
+    (ScalarType::F64, 0.9, 1.3, 1e-6),
+    (ScalarType::F64, -2.0 * PI, 2.0 * PI, 1e-7),
+    (ScalarType::F64, -1e6, 1e6, 1e-9),
+    (ScalarType::F32, -PI, PI, 1e-5),
+    (ScalarType::F32, -3.0, -0.5, 1e-6),
+    (ScalarType::F32, -1e3, 1e3, 1e-5),
+];
+
+/// What is proved holds at every sample, and is at most four times what is
+/// seen: loose bounds would cost operations.
+#[test]
+fn errors_are_as_proved_and_not_far_below() {
+    for (scalar, low, high, error) in CASES {
+        let over = range(low, high);
+        let choice = cheapest(BOTH, scalar, over, error);
+        let seen = seen(&choice.kernel, scalar, over);
+        let proved = choice.errors;
+        // libm's own errors, of which the samples are not free.
+        let own = 2.0 * f64::EPSILON;
+        assert!(seen.sin <= proved.sin + own && seen.cos <= proved.cos + own);
+        assert!(
+            proved.worst() <= 4.0 * seen.worst() + own,
+            "{}: {proved:?} {seen:?}",
+            choice.form
+        );
+    }
+}
+
+/// A changed literal gives another bound, and never one that does not hold.
+#[test]
+fn a_changed_literal_shows() {
+    for (scalar, low, high, error) in [CASES[1], CASES[3], CASES[7], CASES[9]] {
+        let over = range(low, high);
+        let honest = cheapest(BOTH, scalar, over, error);
+        for index in 0..honest.kernel.steps.len() {
+            let mut kernel = honest.kernel.clone();
+            let step = &mut kernel.steps[index];
+            let changed = [&mut step.left, &mut step.right].into_iter().any(|term| {
+                if let Term::Literal(value) = term {
+                    *value = scalar.nearest(*value * 1.01);
+                    return true;
+                }
+                false
+            });
+            if !changed {
+                continue;
+            }
+            let wrong = seen(&kernel, scalar, over);
+            match prove(&kernel, scalar, over) {
+                None => {}
+                Some(found) => {
+                    assert!(
+                        wrong.sin <= found.sin && wrong.cos <= found.cos,
+                        "x{}",
+                        index + 1
+                    );
+                    assert!(found.worst() > honest.errors.worst(), "x{}", index + 1);
+                }
+            }
+        }
+    }
+}
+
+/// Fewer operations than libm's sine has by far, and fewer for less.
+#[test]
+fn operations_follow_from_error_and_range() {
+    let cost = |need, low, high, error| {
+        let choice = cheapest(need, ScalarType::F64, range(low, high), error);
+        choice.kernel.operations()
+    };
+    assert!(cost(BOTH, -PI, PI, 1e-8) <= 22);
+    assert!(cost(BOTH, -PI, PI, 1e-4) <= 16);
+    assert!(cost(BOTH, 0.1, 2.6, 1e-8) <= 20);
+    assert!(cost(BOTH, -0.3, 0.3, 1e-8) <= 12);
+    let only = |sin| Need { sin, cos: !sin };
+    assert!(cost(only(true), -PI, PI, 1e-8) < cost(BOTH, -PI, PI, 1e-8));
+    assert!(cost(only(false), -1.0, 1.0, 1e-8) < cost(BOTH, -1.0, 1.0, 1e-8));
+    // Whole turns are taken off only where there are some.
+    let reduced = cost(BOTH, -100.0, 100.0, 1e-8) - cost(BOTH, -PI, PI, 1e-8);
+    assert!((1..=8).contains(&reduced), "{reduced}");
+}
+
+#[test]
+fn what_cannot_be_reached_is_said() {
+    let robot_like = |error| {
+        let trig = Trig {
+            angle: AngleSum::joint(1),
+            sin: true,
+            cos: true,
+        };
+        one(&trig, ScalarType::F32, range(-PI, PI), error)
+    };
+    let why = robot_like(1e-9).unwrap_err();
+    assert!(why.least > 1e-7 && why.least < 1e-5);
+    let text = why.to_string();
+    assert!(
+        text.contains("q2") && text.contains("f32") && text.contains("1e-9"),
+        "{text}"
+    );
+    // And what is offered instead is there.
+    assert!(robot_like(why.least).is_ok());
+    for bad in [0.0, -1.0, f64::NAN] {
+        assert!(
+            robot_like(bad)
+                .unwrap_err()
+                .to_string()
+                .contains("above zero")
+        );
+    }
+}
+
+/// The proof looks at no kernel that would take it for ever.
+#[test]
+fn nothing_unbounded_is_proved() {
+    let mut kernel = Kernel::default();
+    let mut term = Term::Literal(1.5);
+    for _ in 0..100 {
+        term = kernel.mul(term, term);
+    }
+    kernel.sin = Some(kernel::Value::of(term));
+    assert_eq!(prove(&kernel, ScalarType::F64, range(0.0, 1.0)), None);
+    for term in [Term::Literal(f64::INFINITY), Term::Step(7)] {
+        let wild = Kernel {
+            sin: Some(kernel::Value::of(term)),
+            ..Kernel::default()
+        };
+        assert_eq!(prove(&wild, ScalarType::F64, range(0.0, 1.0)), None);
+    }
+}

@@ -1,0 +1,152 @@
+//! Generated functions whose sines are polynomials: printed, counted, read
+//! back, and as near to libm's as was proved.
+
+mod support;
+
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::verify::states::seeded;
+use dalembert_codegen::verify::text::TextProgram;
+use dalembert_model::robot::Robot;
+
+const FUNCTION: Function = Function::InverseDynamics;
+
+fn with(robot: &Robot, error: f64) -> Result<Generated, GenerateError> {
+    let request = Request {
+        functions: vec![FUNCTION],
+        sincos: SinCos::Polynomial { error },
+        ..Request::default()
+    };
+    generate(robot, &request)
+}
+
+/// Planar arms add angles, the Stanford arm slides, the UR10 turns twice.
+#[test]
+fn polynomials_are_printed_counted_read_back_and_near() {
+    for name in ["planar3r", "stanford", "ur10"] {
+        let robot = support::robot(name);
+        let generated = with(&robot, 1e-5).unwrap();
+        assert!(!generated.text.contains("libm"), "{name}");
+        let states = seeded(&robot, 200, 3);
+        let runtime = Runtime::in_setting(Setting::whole(&robot));
+        for emitted in &generated.emitted {
+            let function = &generated.functions[0];
+            let counts = function.counts_in(emitted.scalar);
+            assert_eq!(emitted.text.counts(), counts);
+            assert!(counts.trig_mul > 0 && counts.trig_add > 0);
+            assert_eq!(
+                (counts.mul, counts.add),
+                (function.counts.mul, function.counts.add)
+            );
+            let line = format!("{counts}.");
+            assert!(line.contains("trig_mul") && generated.text.contains(&line));
+            // The rest is as exact as with libm's sines.
+            for measure in emitted.against_runtime(&runtime, &states) {
+                assert!(measure.in_units() <= BOUND, "{name} {measure:?}");
+            }
+            let seen = emitted.sines(&states);
+            let proved = function.sines(emitted.scalar);
+            assert_eq!(seen.len(), proved.len());
+            for ((angle, seen), proved) in seen.into_iter().zip(proved) {
+                assert_eq!(angle, proved.angle);
+                assert!(proved.errors.worst() <= 1e-5);
+                assert!(
+                    seen > 0.0 && seen <= proved.errors.worst() + f64::EPSILON,
+                    "{name}"
+                );
+            }
+        }
+    }
+}
+
+/// A text with another coefficient, or with libm's sine where a polynomial
+/// should be, is not the function that was proved.
+#[test]
+fn a_text_with_other_sines_is_not_the_function() {
+    let robot = support::robot("planar3r");
+    let generated = with(&robot, 1e-5).unwrap();
+    let (function, scalar) = (&generated.functions[0], ScalarType::F64);
+    let matches = |text: &str| {
+        let read = TextProgram::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
+        read.matches_with(&function.program, scalar, function.sines(scalar))
+    };
+    assert_eq!(matches(&generated.text), Ok(()));
+    let block = generated.text.find("let (s1, c1) = {").unwrap();
+    let end = block + generated.text[block..].find("};").unwrap() + 2;
+    for (from, to, why) in [
+        ("x1 = q[0] * q[0]", "x1 = q[0] * q[1]", "neither the angle"),
+        ("let x2", "let x3", "`x2` is next"),
+        ("+ 1.", "+ 1.1", "differ"),
+        ("1.0 -", "1.0 +", "differ"),
+        ("};", "", "does not end"),
+    ] {
+        let changed = generated.text[block..end].replacen(from, to, 1);
+        assert_ne!(changed, generated.text[block..end], "{from}");
+        let text = generated.text[..block].to_owned() + &changed + &generated.text[end..];
+        let found = matches(&text).unwrap_err();
+        assert!(found.contains(why), "{found}");
+    }
+    let called = "let (s1, c1) = libm::sincos(q[0]);";
+    let text = generated.text[..block].to_owned() + called + &generated.text[end..];
+    assert!(matches(&text).is_err());
+    // Nor is it one of libm's sines.
+    let read = TextProgram::parse(&generated.text, FUNCTION, scalar).unwrap();
+    assert!(read.matches(&function.program, scalar).is_err());
+    assert!(read.with_libm().matches(&function.program, scalar).is_ok());
+}
+
+/// A joint without limits of position may have turned often.
+#[test]
+fn whole_turns_are_taken_off_where_limits_are_missing() {
+    let mut robot = support::robot("planar2r");
+    for joint in &mut robot.joints {
+        joint.limits.position = None;
+    }
+    let request = Request {
+        functions: vec![FUNCTION],
+        scalars: vec![ScalarType::F64],
+        sincos: SinCos::Polynomial { error: 1e-9 },
+        ..Request::default()
+    };
+    let generated = generate(&robot, &request).unwrap();
+    assert!(generated.text.contains("less whole turns"));
+    let mut far = seeded(&robot, 200, 1);
+    for state in &mut far {
+        for q in &mut state.q {
+            *q *= 1e5;
+        }
+    }
+    for (_, seen) in generated.emitted[0].sines(&far) {
+        assert!(seen > 0.0 && seen < 1e-9, "{seen:e}");
+    }
+}
+
+#[test]
+fn an_error_that_no_polynomial_reaches_is_refused() {
+    let why = with(&support::robot("planar2r"), 1e-10)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        why.contains("f32") && why.contains("q1") && why.contains("at best"),
+        "{why}"
+    );
+}
+
+/// What no sine is taken of comes out as it was: no NaN is swallowed.
+#[test]
+fn what_is_no_number_stays_none() {
+    let robot = support::robot("planar3r");
+    let generated = with(&robot, 1e-5).unwrap();
+    for emitted in &generated.emitted {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut state = seeded(&robot, 1, 2).remove(0);
+            state.q[2] = bad;
+            let results = emitted.run(&state);
+            assert!(results.iter().all(|x| !x.is_finite()), "{results:?}");
+        }
+    }
+}
