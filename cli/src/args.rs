@@ -214,6 +214,9 @@ pub struct CertifyArgs {
     /// Also run the code at this many states and look for an error above E
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub samples: usize,
+    /// Climbs from there to the largest error of each output
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub climbs: usize,
 }
 
 /// Arguments of `tradeoff`.
@@ -242,6 +245,9 @@ pub struct TradeoffArgs {
     /// States at which each variant is run
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     pub samples: usize,
+    /// Climbs from there to the largest error of each output
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    pub climbs: usize,
     /// Compile the variants and measure how long a call takes, as a ratio to
     /// the exact f64 variant in the same run; needs cargo
     #[arg(long)]

@@ -55,7 +55,7 @@ fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outc
     let mut rows = generate::bounds(certificate);
     let mut seen = None;
     if args.samples > 0 {
-        let attack = attack(certificate, args.samples, 8, 1)
+        let attack = attack(certificate, args.samples, args.climbs, 1)
             .map_err(|error| Failure::Check(format!("error: {name}: {error}")))?;
         rows[0].push("observed".into());
         for (row, observed) in rows[1..].iter_mut().zip(&attack.observed) {

@@ -22,6 +22,10 @@ pub struct Point {
     /// The largest E of an output, and the largest error that was seen.
     pub certified: f64,
     pub observed: f64,
+    /// What operations and sines cost by themselves, the same way: the code
+    /// against its own program in double precision. Nothing in double.
+    pub rounding: f64,
+    pub rounding_observed: Option<f64>,
     /// Time of a call, and as a ratio to the exact f64 variant's.
     pub time: Option<Time>,
     /// Whether another one is neither dearer nor worse.
@@ -55,9 +59,6 @@ impl Point {
         stages.map(|stage| stage.edits.len()).sum()
     }
 }
-
-/// Climbs to the largest error of each output.
-const CLIMBS: usize = 4;
 
 /// A scalar may share the others' variant if rounding takes less than this
 /// part of the tolerance.
@@ -155,22 +156,35 @@ impl<'a> Ladder<'a> {
     }
 
     fn point(&self, tolerance: f64, certificate: Certificate) -> Result<Point, Failure> {
-        let attack = attack(&certificate, self.args.samples, CLIMBS, 1)
-            .map_err(|error| Failure::Check(format!("error: {error}")))?;
-        if let Some((index, _)) = attack.violation {
-            return Err(Failure::Check(format!(
-                "error: {} errs more than its certificate says: a defect of this program",
-                certificate.emitted.entry(index)
-            )));
-        }
-        let certified = certificate.bounds.iter().map(|b| b.total());
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let observed = self.attacked(&certificate)?;
+        let own = certificate.of_rounding();
+        let rounding_observed = match certificate.scalar {
+            ScalarType::F64 => None,
+            ScalarType::F32 => Some(self.attacked(&own)?),
+        };
         Ok(Point {
             tolerance,
-            certified: certified.fold(0.0, f64::max),
-            observed: attack.observed.into_iter().fold(0.0, f64::max),
+            certified: largest(&mut certificate.bounds.iter().map(|b| b.total())),
+            observed,
+            rounding: largest(&mut own.bounds.iter().map(|b| b.total())),
+            rounding_observed,
             certificate,
             time: None,
             dominated: false,
         })
+    }
+
+    /// The largest error that is seen.
+    fn attacked(&self, certificate: &Certificate) -> Result<f64, Failure> {
+        let attack = attack(certificate, self.args.samples, self.args.climbs, 1)
+            .map_err(|error| Failure::Check(format!("error: {error}")))?;
+        match attack.violation {
+            None => Ok(attack.observed.into_iter().fold(0.0, f64::max)),
+            Some((index, state)) => Err(Failure::Check(format!(
+                "error: {} errs more than its certificate says, at {state:?}: a defect of this program",
+                certificate.emitted.entry(index)
+            ))),
+        }
     }
 }

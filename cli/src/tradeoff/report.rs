@@ -27,8 +27,9 @@ pub fn mark(points: &mut [Point]) {
     }
 }
 
-/// The rows; numbers with so many digits after the first.
-fn rows(points: &[Point], digits: usize) -> Vec<Vec<String>> {
+/// The rows, for people or for programs, which get more digits and columns.
+fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
+    let digits = if all { 6 } else { 2 };
     let mut head = vec![
         "tolerance",
         "scalar",
@@ -42,6 +43,9 @@ fn rows(points: &[Point], digits: usize) -> Vec<Vec<String>> {
         "certified",
         "observed",
     ];
+    if all {
+        head.extend(["rounding", "rounding observed"]);
+    }
     let timed = points.iter().any(|point| point.time.is_some());
     if timed {
         head.extend(["ns", "time"]);
@@ -63,6 +67,11 @@ fn rows(points: &[Point], digits: usize) -> Vec<Vec<String>> {
             format!("{:.digits$e}", point.certified),
             format!("{:.digits$e}", point.observed),
         ];
+        if all {
+            row.push(format!("{:.digits$e}", point.rounding));
+            let seen = point.rounding_observed;
+            row.push(seen.map_or_else(String::new, |seen| format!("{seen:.digits$e}")));
+        }
         if let Some(time) = point.time {
             row.push(format!("{:.1}", time.nanoseconds));
             row.push(format!("{:.3}", time.ratio));
@@ -75,12 +84,12 @@ fn rows(points: &[Point], digits: usize) -> Vec<Vec<String>> {
 
 /// For people.
 pub fn table(points: &[Point]) -> String {
-    output::table(&rows(points, 2), 1)
+    output::table(&rows(points, false), 1)
 }
 
 /// For programs.
 pub fn csv(points: &[Point]) -> String {
-    let rows = rows(points, 6);
+    let rows = rows(points, true);
     let lines = rows
         .iter()
         .map(|row| row.join(",").replace(' ', "_") + "\n");

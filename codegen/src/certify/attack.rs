@@ -5,13 +5,15 @@
 //! that costs by rounding is bounded as well and granted, so a violation
 //! found here is one.
 
+use super::bound::relative;
 use super::certificate::Certificate;
 use super::input_box::InputBox;
 use super::sample::{climb, draw};
-use super::sensitivity::rounding;
+use super::sensitivity::{Rounding, rounding};
 use crate::emit::{MathPath, ScalarType, function};
 use crate::schedule::Program;
 use crate::simplify::random::Random;
+use crate::verify::columns::Columns;
 use crate::verify::interpret::State;
 use crate::verify::states::JointState;
 use crate::verify::text::{TextError, TextProgram};
@@ -67,46 +69,22 @@ pub fn attack(
     climbs: usize,
     seed: u64,
 ) -> Result<Attack, TextError> {
-    let scalar = certificate.scalar;
-    let emitted = TextProgram::parse(&certificate.text, certificate.emitted.function, scalar)?;
-    let exact = text(&certificate.stages[0].program, ScalarType::F64)?;
-    let program = &certificate.stages[0].program;
-    let granted = rounding(program, ScalarType::F64, &certificate.limits, 64);
+    let mut attacker = Attacker::new(certificate)?;
     let limits = &certificate.limits;
     let outputs = certificate.scales.len();
-    let mut attack = Attack {
-        observed: vec![0.0; outputs],
-        violation: None,
-        states: 0,
-    };
     let mut random = Random::new(seed);
-    let mut errors = |state: &JointState| {
-        let state = held(state, scalar, limits);
-        let (x, y) = (
-            run(&emitted, scalar, &state),
-            run(&exact, ScalarType::F64, &state),
-        );
-        attack.states += 1;
-        let errors: Vec<f64> = (0..outputs)
-            .map(|i| {
-                let error = (x[i] - y[i]).abs() - granted[i].arithmetic - granted[i].sincos;
-                super::bound::relative(error.max(0.0), certificate.scales[i])
-            })
-            .collect();
-        for (i, &error) in errors.iter().enumerate() {
-            attack.observed[i] = attack.observed[i].max(error);
-            if error > certificate.bounds[i].total() && attack.violation.is_none() {
-                attack.violation = Some((i, state.clone()));
-            }
-        }
-        errors
-    };
     let mut worst: Vec<(f64, JointState)> = vec![(-1.0, JointState::default()); outputs];
-    for _ in 0..samples {
-        let state = draw(limits, &mut random);
-        for (worst, error) in worst.iter_mut().zip(errors(&state)) {
-            if error > worst.0 {
-                *worst = (error, state.clone());
+    let mut left = samples;
+    while left > 0 {
+        let count = left.min(BLOCK);
+        left -= count;
+        let states: Vec<JointState> = (0..count).map(|_| draw(limits, &mut random)).collect();
+        let errors = attacker.errors(&states);
+        for (worst, errors) in worst.iter_mut().zip(errors) {
+            for (error, state) in errors.into_iter().zip(&states) {
+                if error > worst.0 {
+                    *worst = (error, state.clone());
+                }
             }
         }
     }
@@ -121,11 +99,86 @@ pub fn attack(
                 draw(limits, &mut random)
             };
             let mut climbing = random.clone();
-            climb(limits, from, 600, &mut climbing, &mut |s| errors(s)[output]);
+            climb(limits, from, MOVES, &mut climbing, &mut |state| {
+                let errors = attacker.errors(std::slice::from_ref(state));
+                errors[output][0]
+            });
             random.bits();
         }
     }
-    Ok(attack)
+    Ok(attacker.attack)
+}
+
+/// States that are run at once: their columns stay in a processor's cache.
+const BLOCK: usize = 128;
+
+/// Moves of a climb.
+const MOVES: usize = 600;
+
+/// Both texts, and what was seen of them.
+struct Attacker<'c> {
+    certificate: &'c Certificate,
+    emitted: TextProgram,
+    exact: TextProgram,
+    granted: Vec<Rounding>,
+    attack: Attack,
+}
+
+impl<'c> Attacker<'c> {
+    fn new(certificate: &'c Certificate) -> Result<Attacker<'c>, TextError> {
+        let Certificate { text: printed, .. } = certificate;
+        let function = certificate.emitted.function;
+        let program = &certificate.stages[0].program;
+        let limits = &certificate.limits;
+        Ok(Attacker {
+            certificate,
+            emitted: TextProgram::parse(printed, function, certificate.scalar)?,
+            exact: text(program, ScalarType::F64)?,
+            granted: rounding(program, ScalarType::F64, limits, 64),
+            attack: Attack {
+                observed: vec![0.0; certificate.scales.len()],
+                violation: None,
+                states: 0,
+            },
+        })
+    }
+
+    /// The errors relative to T, a column an output; the largest are noted.
+    fn errors(&mut self, states: &[JointState]) -> Vec<Vec<f64>> {
+        let Certificate { scalar, limits, .. } = self.certificate;
+        let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
+        let exact = self.exact.run_columns(&Columns::<f64>::of(&states));
+        let emitted = match scalar {
+            ScalarType::F64 => self.emitted.run_columns(&Columns::<f64>::of(&states)),
+            ScalarType::F32 => {
+                let single = self.emitted.run_columns(&Columns::<f32>::of(&states));
+                let wide = |column: Vec<f32>| column.into_iter().map(f64::from).collect();
+                single.into_iter().map(wide).collect()
+            }
+        };
+        self.attack.states += states.len();
+        let mut all = Vec::with_capacity(emitted.len());
+        for (i, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
+            let granted = self.granted[i].arithmetic + self.granted[i].sincos;
+            let bound = self.certificate.bounds[i].total();
+            let mut errors = Vec::with_capacity(states.len());
+            for ((x, y), state) in emitted.iter().zip(exact).zip(&states) {
+                // What is no number at all is no small error either.
+                let error = match x.is_finite() {
+                    true => ((x - y).abs() - granted).max(0.0),
+                    false => f64::INFINITY,
+                };
+                let error = relative(error, self.certificate.scales[i]);
+                self.attack.observed[i] = self.attack.observed[i].max(error);
+                if error > bound && self.attack.violation.is_none() {
+                    self.attack.violation = Some((i, state.clone()));
+                }
+                errors.push(error);
+            }
+            all.push(errors);
+        }
+        all
+    }
 }
 
 /// The nearest state of the scalar's numbers inside the box.

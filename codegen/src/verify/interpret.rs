@@ -2,7 +2,7 @@
 //! multiply-add, libm's sine and cosine or the text's polynomials, the scalar's
 //! own rounding.
 
-use super::text::{TextOperand, TextProgram};
+use super::text::{TextOperand, TextProgram, TextTrig};
 use crate::graph::{AngleSum, Input};
 use crate::schedule::Operation;
 
@@ -75,13 +75,7 @@ impl TextProgram {
     pub fn run<T: Machine>(&self, state: State<'_, T>) -> Vec<T> {
         let mut trig = std::collections::BTreeMap::new();
         for t in &self.trig {
-            let angle = angle_value(t.angle, state.q);
-            let (sin, cos) = match (&t.kernel, t.sin, t.cos) {
-                (Some(kernel), ..) => kernel.run(angle),
-                (None, true, false) => (angle.sin(), angle),
-                (None, false, true) => (angle, angle.cos()),
-                (None, ..) => angle.sincos(),
-            };
+            let (sin, cos) = t.pair(state.q);
             trig.insert(Input::Sin(t.angle), sin);
             trig.insert(Input::Cos(t.angle), cos);
         }
@@ -105,6 +99,20 @@ impl TextProgram {
                 if *negative { value.neg() } else { value }
             })
             .collect()
+    }
+}
+
+impl TextTrig {
+    /// Sine and cosine as the code computes them; of one that it does not
+    /// need, whatever.
+    pub(super) fn pair<T: Machine>(&self, q: &[T]) -> (T, T) {
+        let angle = angle_value(self.angle, q);
+        match (&self.kernel, self.sin, self.cos) {
+            (Some(kernel), ..) => kernel.run(angle),
+            (None, true, false) => (angle.sin(), angle),
+            (None, false, true) => (angle, angle.cos()),
+            (None, ..) => angle.sincos(),
+        }
     }
 }
 

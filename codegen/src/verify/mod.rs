@@ -5,10 +5,12 @@
 //! - [`degree`]: how likely that check is to miss a difference
 //! - [`text`]: the printed text is the program, every literal rounded once
 //! - [`interpret`]: the printed text run bit for bit
+//! - [`columns`]: the same at many states at once
 //! - [`states`]: seeded states inside a robot's limits
 //! - [`floating`]: what rounding costs: against the runtime and given states
 
 pub mod accuracy;
+pub mod columns;
 pub mod degree;
 pub mod exact;
 pub mod floating;

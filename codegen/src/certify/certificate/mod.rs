@@ -128,6 +128,25 @@ impl Certificate {
         subject.claim(scalar, bounds)
     }
 
+    /// The claim's part about sines and rounding: of the emitted program by
+    /// itself, as if that were the full model.
+    #[must_use]
+    pub fn of_rounding(&self) -> Certificate {
+        let own = Stage {
+            program: self.emitted.clone(),
+            edits: Vec::new(),
+        };
+        let bounds = self.bounds.iter().map(|bound| Split {
+            model: 0.0,
+            ..*bound
+        });
+        Certificate {
+            stages: vec![own],
+            bounds: bounds.collect(),
+            ..self.clone()
+        }
+    }
+
     /// Checks every part of the claim about a whole robot.
     ///
     /// # Errors
