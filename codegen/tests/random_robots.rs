@@ -6,16 +6,19 @@
 
 mod support;
 
+use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, Start, generate};
 use dalembert_codegen::graph::Points;
 use dalembert_codegen::simplify::random::Random;
 use dalembert_codegen::trace::{Motion, evaluate};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::verify::interpret::State;
 use dalembert_codegen::verify::states::{SEED, seeded};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot, Severity};
+use dalembert_model::scene::Scene;
 
 /// Draws the parts of a robot.
 struct Draw(Random);
@@ -206,6 +209,52 @@ fn formulations_agree() {
                     found == expected,
                     "seed {seed}, {n} joints: {function} by {formulation:?} is not by {first:?}"
                 );
+            }
+        }
+    }
+}
+
+/// Without velocities, what is left of the torques is D q̈ + c: the scene's
+/// code against the whole robot's two functions, which know no scene.
+#[test]
+fn a_scene_at_rest_is_inertia_and_gravity() {
+    let scene = Scene {
+        name: "rest".into(),
+        velocity_zero: true,
+        ..Scene::default()
+    };
+    for (seed, robot, _) in robots(10, 4_000).filter(|(_, robot, _)| robot.joints.len() <= 5) {
+        let run = |function: Function, scene: Option<Scene>| {
+            let request = Request {
+                functions: vec![function],
+                scalars: vec![ScalarType::F64],
+                scene,
+                ..Request::default()
+            };
+            generate(&robot, &request)
+                .unwrap_or_else(|error| panic!("seed {seed}: {error}"))
+                .emitted
+                .remove(0)
+                .text
+        };
+        let rest = run(Function::InverseDynamics, Some(scene.clone()));
+        let (inertia, gravity) = (run(Function::Inertia, None), run(Function::Gravity, None));
+        let n = robot.joints.len();
+        for state in seeded(&robot, 10, seed) {
+            let at = State {
+                q: &state.q[..],
+                // Whatever was read here would show.
+                qd: &vec![f64::NAN; n],
+                qdd: &state.qdd[..],
+            };
+            let (tau, d, c) = (rest.run(at), inertia.run(at), gravity.run(at));
+            let expected: Vec<f64> = (0..n)
+                .map(|i| c[i] + (0..n).map(|k| d[i * n + k] * state.qdd[k]).sum::<f64>())
+                .collect();
+            let largest = expected.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+            for (found, expected) in tau.iter().zip(&expected) {
+                let error = (found - expected).abs() / largest;
+                assert!(error < 1e-12, "seed {seed}: {found} {expected}");
             }
         }
     }

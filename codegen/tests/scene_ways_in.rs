@@ -51,6 +51,56 @@ fn a_clause_names_a_scene_of_the_file() {
     assert!(text.contains("did you mean `swing`?"), "{text}");
 }
 
+/// A scene that stands in the macro, of a robot that does not.
+#[test]
+fn a_scene_beside_a_file() {
+    let folder = folder("scene_beside");
+    let with = |scene: &str| {
+        let text = format!("mod arm = \"arm.toml\"; scene: {scene};");
+        expanded(&text, &folder)
+    };
+    let text = plain(&with(
+        "reach { outputs: [gravity], lock: { elbow: pi/2, 1: 0 } }",
+    ));
+    assert!(!text.contains("compile_error"), "{text}");
+    assert!(text.contains("fngravity(q:&[f64;3])->[f64;1]"), "{text}");
+    // The tolerance too: what was left out is in the documentation.
+    let tolerant = with(
+        "rough { outputs: [inverse_dynamics], lock: { 1: 0 }, \
+         box: { velocity: [1, 1, 1], acceleration: [1, 2, 2] }, \
+         tolerance: { value: 0.1, relative_to: range } }",
+    );
+    assert!(!tolerant.contains("compile_error"), "{tolerant}");
+    assert!(
+        tolerant.contains("Left out, and the operations"),
+        "{tolerant}"
+    );
+    for (wrong, message) in [
+        ("swing { velocity: zero }", "swing"),
+        ("reach { lock: { 4: 0 } }", "there is no joint `4`"),
+        ("reach { lock: { elbw: 0 } }", "did you mean `elbow`?"),
+        ("reach { box: { velocity: [1] } }", "one entry a joint"),
+        ("reach { speed: zero }", "unknown key `speed`"),
+        (
+            "reach { tolerance: { value: 0, relative_to: range } }",
+            "a tolerance is above zero",
+        ),
+        (
+            "reach { outputs: [gravity], tolerance: { value: 1e-3, relative_to: actuator } }",
+            "needs the torque limit of joint 1",
+        ),
+        ("[reach]", "expected the name of a scene"),
+        (
+            "reach { velocity: zero } gravity",
+            "expected the name of a scene",
+        ),
+    ] {
+        let text = with(wrong);
+        assert!(text.contains("compile_error"), "{wrong}: {text}");
+        assert!(text.contains(message), "{wrong}: {text}");
+    }
+}
+
 #[test]
 fn a_block_is_a_scene() {
     let arm = |scene: &str| {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Group, Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::LitStr;
 
@@ -62,9 +62,9 @@ struct Source {
 
 fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
     match &invocation.robot {
-        RobotSource::File(path) => file(path, base, errors),
+        RobotSource::File(path) => file(path, base, invocation, errors),
         RobotSource::Table(block) => {
-            let read = table::read(&invocation.name, block, errors);
+            let read = table::read(&invocation.name, block, written(invocation), errors);
             let in_range = (1..=Robot::MAX_JOINTS).contains(&read.joints);
             Source {
                 robot: read.robot,
@@ -78,7 +78,13 @@ fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
     }
 }
 
-fn file(literal: &LitStr, base: &Path, errors: &mut Errors) -> Source {
+/// The scene that stands in the invocation.
+fn written(invocation: &Invocation) -> Option<(&Ident, &Group)> {
+    let (name, body) = invocation.scene.as_ref()?;
+    Some((name, body.as_ref()?))
+}
+
+fn file(literal: &LitStr, base: &Path, invocation: &Invocation, errors: &mut Errors) -> Source {
     let shown = literal.value();
     let path = base.join(&shown);
     // Both the robot file and its plan, if it has one.
@@ -94,8 +100,11 @@ fn file(literal: &LitStr, base: &Path, errors: &mut Errors) -> Source {
         Ok(file) => Source {
             joints: Some(file.robot.joints.len()),
             notes: notes(&file, &shown),
+            scenes: match written(invocation) {
+                Some((name, body)) => table::beside(&file.source, name, body, errors),
+                None => file.scenes,
+            },
             robot: Some(file.robot),
-            scenes: file.scenes,
             plan: file.plan,
             watch,
         },
@@ -154,7 +163,7 @@ fn functions(
         scene: None,
         any_scalar: false,
     };
-    if let Some(name) = &invocation.scene {
+    if let Some((name, _)) = &invocation.scene {
         match scene::find(&source.scenes, &name.to_string()) {
             Ok(scene) => {
                 let [outputs, scalars] = invocation.chose;

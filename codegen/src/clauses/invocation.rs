@@ -1,6 +1,6 @@
 //! The grammar of `dynamics!`: a module with its robot, then clauses.
 
-use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
@@ -30,8 +30,8 @@ pub(super) struct Invocation {
     pub(super) scalars: Vec<ScalarType>,
     pub(super) start: Start,
     pub(super) effort: Effort,
-    /// The scene's name.
-    pub(super) scene: Option<Ident>,
+    /// The scene's name, and what it is if that stands here.
+    pub(super) scene: Option<(Ident, Option<Group>)>,
     /// Whether outputs and scalars were chosen: else they are the scene's.
     pub(super) chose: [bool; 2],
     /// The path of the facade crate.
@@ -178,7 +178,10 @@ impl Invocation {
             Some("formulation") => self.start = word(value, errors).unwrap_or(self.start),
             Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
             Some("scene") => match value {
-                [TokenTree::Ident(name)] => self.scene = Some(name.clone()),
+                [TokenTree::Ident(name)] => self.scene = Some((name.clone(), None)),
+                [TokenTree::Ident(name), body] if braces(body).is_some() => {
+                    self.scene = Some((name.clone(), braces(body).cloned()));
+                }
                 [] => {}
                 [other, ..] => errors.push(other, &m::SCENE_CLAUSE),
             },
@@ -190,6 +193,10 @@ impl Invocation {
             _ => {}
         }
     }
+}
+
+fn braces(tree: &TokenTree) -> Option<&Group> {
+    statement::group(tree, Delimiter::Brace)
 }
 
 /// The name of a clause; an unknown one counts as the one that was probably

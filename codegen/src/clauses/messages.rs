@@ -61,7 +61,7 @@ pub(super) const SCENE_NAME: Message = message(
 );
 pub(super) const SCENE_CLAUSE: Message = message(
     "expected the name of a scene",
-    "scene: pick; with `[scene.pick]` in the robot file, or `scene pick { … }` in the robot's block",
+    "scene: pick; of the robot file or the robot's block, or here: scene: pick { velocity: zero };",
 );
 pub(super) const NO_LOCK: Message = message(
     "expected `joint: position`",

@@ -30,8 +30,13 @@ pub(super) struct Read {
     pub(super) notes: Vec<String>,
 }
 
-/// Reads the block behind the module's name.
-pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
+/// Reads the block behind the module's name, and the scene of the clause.
+pub(super) fn read(
+    name: &Ident,
+    block: &Group,
+    scene: Option<(&Ident, &Group)>,
+    errors: &mut Errors,
+) -> Read {
     let Blocks {
         keys,
         joints,
@@ -54,14 +59,10 @@ pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
         }
     }
     for (head, body) in &scenes {
-        file.text += "[scene.";
-        file.mark(head.to_token_stream(), |file| {
-            file.text += &head.to_string()
-        });
-        file.text += "]\n";
-        for pair in pairs(&trees(body.stream()), ',', errors) {
-            file.line(&pair, errors);
-        }
+        file.scene(head, body, errors);
+    }
+    if let Some((head, body)) = scene {
+        file.scene(head, body, errors);
     }
     let (robot, scenes, found) = match read::parse(&file.text, &Options::default()) {
         Ok(reading) => (Some(reading.robot), reading.scenes, reading.notes),
@@ -81,6 +82,25 @@ pub(super) fn read(name: &Ident, block: &Group, errors: &mut Errors) -> Read {
         scenes,
         joints: joints.len(),
         notes,
+    }
+}
+
+/// Reads a scene that stands in the macro beside the text of a robot file,
+/// which is right by itself. Returns the file's scenes and this one.
+pub(super) fn beside(source: &str, name: &Ident, body: &Group, errors: &mut Errors) -> Vec<Scene> {
+    let mut file = File {
+        text: format!("{source}\n"),
+        ..File::default()
+    };
+    file.scene(name, body, errors);
+    match read::parse(&file.text, &Options::default()) {
+        Ok(reading) => reading.scenes,
+        Err(diagnostics) => {
+            for diagnostic in &diagnostics.0 {
+                file.report(diagnostic, name, errors);
+            }
+            Vec::new()
+        }
     }
 }
 
@@ -154,6 +174,18 @@ impl File {
             file.quoted(&name.to_string());
         });
         self.text.push('\n');
+    }
+
+    /// A scene's table.
+    fn scene(&mut self, head: &Ident, body: &Group, errors: &mut Errors) {
+        self.text += "[scene.";
+        self.mark(head.to_token_stream(), |file| {
+            file.text += &head.to_string();
+        });
+        self.text += "]\n";
+        for pair in pairs(&trees(body.stream()), ',', errors) {
+            self.line(&pair, errors);
+        }
     }
 
     fn line(&mut self, pair: &Pair, errors: &mut Errors) {

@@ -154,13 +154,13 @@ mod tests {
     const TEXT: &str = "\
 pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
-    let a12 = q[0] + q[1];
-    let s12 = libm::sin(a12);
+    let a1p2 = q[0] + q[1];
+    let s1p2 = libm::sin(a1p2);
     let t1 = s1 * qd[0];
     let t2 = t1 - 0.1;
     let t3 = 0.3 + c1;
     let t4 = t3 * t2;
-    let t5 = s12 * t4;
+    let t5 = s1p2 * t4;
     [-t5, qdd[1]]
 }
 ";
