@@ -6,14 +6,19 @@ use std::path::Path;
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, Start, generate};
-use dalembert_model::read;
+use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
 /// A checked-in robot.
 pub fn robot(name: &str) -> Robot {
+    reading(name).robot
+}
+
+/// A checked-in robot with its scenes.
+pub fn reading(name: &str) -> Reading {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
     let source = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
-    read_robot(&source)
+    read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 /// A robot from the text of its file.

@@ -1,0 +1,104 @@
+//! No certificate is violated, and none is much too large: pruned variants of
+//! four robots, run at corners, random states and where a climb ends. The
+//! whole campaign is in `src/certify/README.md`; this is its smaller dose.
+
+mod support;
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::certificate::subject::Fineness;
+use dalembert_codegen::certify::choose::Frame;
+use dalembert_codegen::certify::prune::Settings;
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::scene::Setting;
+use dalembert_model::scene::{Scale, Scene};
+
+const SAMPLES: usize = 20_000;
+const CLIMBS: usize = 6;
+
+/// Between a glance and a certificate.
+const FINENESS: Fineness = Fineness {
+    boxes: 512,
+    ..Fineness::GLANCE
+};
+
+/// The largest E and the largest error that was seen.
+fn attacked(certificate: &Certificate) -> (f64, f64) {
+    let attack = attack(certificate, SAMPLES, CLIMBS, 11).unwrap();
+    assert_eq!(attack.violation, None, "{:?}", attack.observed);
+    assert!(attack.states > SAMPLES);
+    let certified = certificate.bounds.iter().map(|bound| bound.total());
+    let certified = certified.fold(0.0, f64::max);
+    (certified, attack.observed.into_iter().fold(0.0, f64::max))
+}
+
+/// A robot in the scene of its file, at another tolerance.
+fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType]) {
+    let reading = support::reading(name);
+    let bare = reading.scenes.into_iter().next().map(|scene| Scene {
+        tolerance: None,
+        ..scene
+    });
+    let request = Request {
+        functions: vec![Function::InverseDynamics],
+        scalars: vec![ScalarType::F64],
+        scene: bare.clone(),
+        ..Request::default()
+    };
+    let exact = generate(&reading.robot, &request)
+        .unwrap()
+        .functions
+        .remove(0)
+        .program;
+    let setting = Setting::of(&reading.robot, bare.as_ref()).unwrap();
+    let frame = Frame::new(&setting, &exact, Scale::Range).unwrap();
+    let settings = Settings {
+        samples: 48,
+        guesses: 4,
+        retries: 0,
+        stages: 1,
+        ..Settings::default()
+    };
+    let tolerances = vec![tolerance; frame.scales.len()];
+    let admitted = frame
+        .choose(&tolerances, scalars, &settings, FINENESS)
+        .unwrap();
+    let is_pruned = !admitted.stages.is_empty();
+    assert_eq!(is_pruned, tolerance >= 1e-2);
+    for certificate in &admitted.certificates {
+        let (certified, observed) = attacked(certificate);
+        assert!(certified <= tolerance, "{certified}");
+        // 3 and 30 are the aim, with finer bounds and more samples.
+        assert!(
+            !is_pruned || certified <= 6.0 * observed,
+            "{certified} {observed}"
+        );
+        if certificate.scalar == ScalarType::F32 {
+            let (certified, observed) = attacked(&certificate.of_rounding());
+            assert!(certified <= 100.0 * observed, "{certified} {observed}");
+        }
+    }
+}
+
+#[test]
+fn puma_at_a_tenth() {
+    campaign("puma560", 1e-1, &ScalarType::ALL);
+}
+
+#[test]
+fn stanford_at_a_hundredth() {
+    campaign("stanford", 1e-2, &ScalarType::ALL);
+}
+
+#[test]
+fn ur10_at_a_twentieth() {
+    campaign("ur10", 5e-2, &ScalarType::ALL);
+}
+
+/// A search over seven joints takes longer than a test may: rounding alone.
+#[test]
+fn panda_at_a_billionth() {
+    campaign("panda", 1e-9, &[ScalarType::F64]);
+}
