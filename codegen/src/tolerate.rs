@@ -78,12 +78,13 @@ fn one(
 
 /// For who waits: seconds for a six-joint arm.
 const QUICK: Settings = Settings {
-    samples: 64,
-    guesses: 6,
+    samples: 24,
+    guesses: 3,
     retries: 0,
     stages: 1,
     budget: Fineness::GLANCE.budget,
     effort: Effort::Quick,
+    refit: true,
 };
 
 /// The plan's variant, if it has the same one for each of the scalars.

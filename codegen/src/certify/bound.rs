@@ -38,7 +38,7 @@ impl Budget {
     pub const GLANCE: Budget = Budget {
         boxes: 20_000,
         linear: false,
-        points: 1 << 20,
+        points: 1 << 22,
     };
 }
 
@@ -87,9 +87,11 @@ pub fn magnitudes(
             sliding[*joint] = true;
         }
     }
+    // Close enough to the goal to tell how far from it.
+    let goals: Vec<f64> = scales.iter().map(|scale| 0.85 * goal * scale).collect();
     if budget.points > 0
         && let Some(polynomials) = expand(graph, whole)
-        && let Some(most) = grid::magnitudes(&polynomials, whole, &sliding, budget.points)
+        && let Some(most) = grid::magnitudes(&polynomials, whole, &sliding, &goals, budget.points)
     {
         return most;
     }

@@ -27,6 +27,10 @@ pub enum Place {
     Input(Input),
     /// The result of a step.
     Step(usize),
+    /// The left operand of a step, there alone.
+    Left(usize),
+    /// The right operand of a step, there alone.
+    Right(usize),
 }
 
 /// A value in place of another.
@@ -77,12 +81,16 @@ impl Stage {
         for (index, edit) in self.edits.iter().enumerate() {
             let early = match (&edit.value, edit.place) {
                 (Operand::Constant(_), _) => true,
-                (Operand::Input(_), Place::Step(_)) => true,
-                (Operand::Step(value), Place::Step(place)) => *value < place,
                 (_, Place::Input(_)) => false,
+                (Operand::Input(_), _) => true,
+                (Operand::Step(value), Place::Step(at) | Place::Left(at) | Place::Right(at)) => {
+                    *value < at
+                }
             };
             let known = match edit.place {
-                Place::Step(step) => step < self.program.steps.len(),
+                Place::Step(step) | Place::Left(step) | Place::Right(step) => {
+                    step < self.program.steps.len()
+                }
                 Place::Input(_) => true,
             };
             let twice = self.edits[..index].iter().any(|e| e.place == edit.place);
@@ -200,14 +208,17 @@ impl<'a> Run<'a> {
         self.builder.negate_if(&value, edit.negative)
     }
 
+    /// replacement after − operand before
+    fn moved(&mut self, edit: &Edit, operand: &Operand) -> Value {
+        let after = self.replacement(edit);
+        let before = self.before(operand);
+        self.builder.sub(&after, &before)
+    }
+
     fn delta(&mut self, operand: &Operand) -> Value {
         match operand {
             Operand::Input(input) => match self.edit(Place::Input(*input)) {
-                Some(edit) => {
-                    let after = self.replacement(edit);
-                    let before = self.before(operand);
-                    self.builder.sub(&after, &before)
-                }
+                Some(edit) => self.moved(edit, operand),
                 None => Value::zero(),
             },
             Operand::Constant(_) => Value::zero(),
@@ -215,12 +226,22 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// An operand of a step: before, after, and the difference.
+    fn operand(&mut self, operand: &Operand, place: Place) -> [Value; 3] {
+        let before = self.before(operand);
+        match self.edit(place) {
+            None => [before, self.after(operand), self.delta(operand)],
+            Some(edit) => {
+                let after = self.replacement(edit);
+                [before, after, self.moved(edit, operand)]
+            }
+        }
+    }
+
     fn steps(&mut self) {
         for (index, step) in self.stage.program.steps.iter().enumerate() {
-            let (a, b) = (self.before(&step.left), self.before(&step.right));
-            let (da, db) = (self.delta(&step.left), self.delta(&step.right));
-            let a_after = self.after(&step.left);
-            let b_after = self.after(&step.right);
+            let [a, a_after, da] = self.operand(&step.left, Place::Left(index));
+            let [b, b_after, db] = self.operand(&step.right, Place::Right(index));
             let exact = operate(&mut self.builder, step.operation, &a, &b);
             self.exact.push(exact.clone());
             let (edited, delta) = match self.edit(Place::Step(index)) {
@@ -287,6 +308,13 @@ impl Edit {
             negative: false,
             value: Operand::Constant(value),
         }
+    }
+
+    /// Whether it puts another constant in the place of an operand: it saves
+    /// nothing, but makes up for what other edits leave out.
+    pub fn corrects(&self) -> bool {
+        matches!(self.place, Place::Left(_) | Place::Right(_))
+            && matches!(self.value, Operand::Constant(_))
     }
 
     /// Zero in place of a value: its term is dropped.

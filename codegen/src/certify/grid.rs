@@ -1,22 +1,23 @@
 //! The largest magnitude of a trigonometric polynomial over a box, from its
-//! values at a grid.
+//! values at points that lie close where it is large.
 //!
-//! **Soundness.** Fix the rates and all angles but one where |T| is largest,
-//! M; T is a trigonometric polynomial of some degree d in that angle.
+//! **Soundness.** Let |T| be largest, M, at x₀ and some rates; hold these
+//! rates. Of the first angle's cells one contains x₀'s; c is its middle, δ its
+//! half width, d the degree of T in that angle.
 //!
-//! - *Whole circle.* M. Riesz: |T(x)| ≥ M·cos(d·(x − x₀)) for d·|x − x₀| ≤ π/2.
-//!   Of N equally spaced points one is within π/N of x₀, so M is at most the
-//!   grid's largest value over cos(d·π/N).
-//! - *Part of it.* The grid holds both ends. If x₀ is an end, nothing is
-//!   lost; if not, T'(x₀) = 0, |T''| ≤ d²·F with F the largest value over the
-//!   whole circle (Bernstein), and of points 2δ apart one has
-//!   |T| ≥ M − ½(d·δ)²·F.
+//! - *Whole circle.* M. Riesz: |T(c, x₀₂, …)| ≥ M·cos(d·δ) for d·δ ≤ π/2. So
+//!   M ≤ m(c)/cos(d·δ), m(c) being the maximum over the other angles at c.
+//! - *Part of it.* The ends are points of their own. If x₀ is at an end,
+//!   nothing is lost; if not, ∂T(x₀) = 0, |∂²T| ≤ d²·F with F the largest
+//!   value over whole circles (Bernstein), and M ≤ m(c) + ½(d·δ)²·F.
 //!
-//! Angle after angle, this bounds M by the values at the product grid. For
-//! each point the rates are at their worst, monomial by monomial.
+//! So M ≤ B is shown by showing m(c) ≤ B·cos(d·δ) for every cell, angle after
+//! angle; a cell for which that fails is cut in three. The first B that is
+//! tried is a value that T takes and a little more. For each point the rates
+//! are at their worst, monomial by monomial.
 //!
-//! What the arithmetic costs: coefficients are intervals, of which the grid
-//! takes the middle; their radii are added at the end, and so is
+//! What the arithmetic costs: coefficients are intervals, of which the points
+//! take the middle; their radii are added to each value, and so is
 //! [`SLACK`] times the sum of all |coefficient · monomial|, which covers the
 //! few dozen roundings between a coefficient and a value, since every sine and
 //! cosine is at most 1.
@@ -31,73 +32,45 @@ use super::interval::Interval;
 /// More than a hundred roundings of double precision, relative.
 const SLACK: f64 = 1e-13;
 
-/// Largest magnitudes of polynomials over a box; `None` if even a coarse grid
-/// has more points than allowed.
+/// What a bound exceeds a value that is taken by, relative.
+const CLOSE: f64 = 0.02;
+
+/// d·δ of the first cells is π over this.
+const FIRST: usize = 8;
+
+/// Cells whose d·δ is below this are not cut: with four angles their cosines
+/// take 1.6 of the two hundredths.
+const FINEST: f64 = 0.09;
+
+/// Places to climb from.
+const STARTS: usize = 12;
+
+/// Largest magnitudes of polynomials over a box, no closer than `goals` where
+/// they are smaller; `None` if even the first
+/// cells have more points than allowed.
 pub(super) fn magnitudes(
     polynomials: &[Polynomial],
     limits: &InputBox,
     sliding: &[bool],
+    goals: &[f64],
     points: usize,
 ) -> Option<Vec<f64>> {
-    let layout = Layout::new(polynomials, limits);
-    let part: Vec<bool> = layout
-        .joints
+    polynomials
         .iter()
-        .map(|&j| !sliding[j] && limits.position[j].width() < 2.0 * PI * (1.0 - 1e-12))
-        .collect();
-    let fineness = [32usize, 24, 16, 12, 8, 6, 5, 4].into_iter().find(|&k| {
-        let counts = layout.degrees.iter().map(|&d| (k * d as usize) as f64);
-        counts.product::<f64>() <= points as f64
-    })?;
-    let circle: Vec<Vec<f64>> = layout
-        .degrees
-        .iter()
-        .map(|&d| {
-            let count = fineness * d as usize;
-            (0..count)
-                .map(|p| 2.0 * PI * p as f64 / count as f64)
-                .collect()
+        .zip(goals)
+        .map(|(polynomial, &goal)| {
+            let layout = Layout::new(polynomial, limits, sliding);
+            let first = layout.degrees.iter().map(|&d| (FIRST * d as usize) as f64);
+            if first.product::<f64>() > points as f64 {
+                return None;
+            }
+            let whole = layout.bound(limits, None, goal, points);
+            if !layout.part.contains(&true) {
+                return Some(whole);
+            }
+            Some(whole.min(layout.bound(limits, Some(whole), goal, points)))
         })
-        .collect();
-    // Degree d and N = fineness·d points: the cosine is the same for all.
-    let nearest = (libm::cos(PI / fineness as f64) - 1e-15).next_down();
-    let mut whole = layout.largest(&circle);
-    for value in &mut whole {
-        for _ in &layout.joints {
-            *value = (*value / nearest).next_up();
-        }
-    }
-    if part.contains(&true) {
-        let mut lost = 0.0;
-        let mut grid = circle;
-        for (k, &joint) in layout.joints.iter().enumerate() {
-            if part[k] {
-                let range = limits.position[joint];
-                let step = 2.0 * PI / grid[k].len() as f64;
-                let count = libm::ceil(range.width() / step).max(1.0);
-                let angle = |p: usize| {
-                    (range.low() + range.width() * p as f64 / count)
-                        .clamp(range.low(), range.high())
-                };
-                grid[k] = (0..=count as usize).map(angle).collect();
-                // d·δ for δ half the distance of two points.
-                let reach = f64::from(layout.degrees[k]) * range.width() / count / 2.0;
-                lost += 0.5 * reach * reach * (1.0 + 1e-12);
-            }
-        }
-        let inside = layout.largest(&grid);
-        for (value, inside) in whole.iter_mut().zip(inside) {
-            let mut bound = inside + lost * *value;
-            for _ in part.iter().filter(|&&part| !part) {
-                bound = (bound / nearest).next_up();
-            }
-            *value = value.min(bound);
-        }
-    }
-    for (value, slack) in whole.iter_mut().zip(&layout.slack) {
-        *value = (*value + slack).next_up();
-    }
-    Some(whole)
+        .collect()
 }
 
 /// Terms regrouped so that a grid is evaluated joint after joint.
@@ -109,17 +82,30 @@ struct Layout {
     coefficients: Vec<f64>,
     /// Of each joint: (from, base, to), and how many values come out.
     folds: Vec<(Vec<[u32; 3]>, usize)>,
-    /// Of each output: its values after the last joint, and the range of
-    /// their rates.
-    outputs: Vec<Vec<(usize, f64, f64)>>,
-    slack: Vec<f64>,
+    /// Of each joint: the largest magnitude of the rates of each value that
+    /// goes in.
+    sizes: Vec<Vec<f64>>,
+    /// The range of the rates of each value that comes out.
+    output: Vec<(f64, f64)>,
+    slack: f64,
+    /// Whether a joint has less than the whole circle.
+    part: Vec<bool>,
+}
+
+/// One bound in the making.
+struct Work {
+    buffers: Vec<Vec<f64>>,
+    /// F, if the box is a part of the circles.
+    whole: Option<f64>,
+    ranges: Vec<Interval>,
+    points: usize,
 }
 
 impl Layout {
-    fn new(polynomials: &[Polynomial], limits: &InputBox) -> Layout {
+    fn new(polynomial: &Polynomial, limits: &InputBox, sliding: &[bool]) -> Layout {
         let degree = |joint: usize| {
-            let terms = polynomials.iter().flatten();
-            let keys = terms
+            let keys = polynomial
+                .iter()
                 .filter(|&&(key, x)| negligible(x, key, limits).is_none())
                 .map(|&(key, _)| powers(key, joint));
             keys.map(|(c, s)| c + s).max().unwrap_or(0)
@@ -128,28 +114,37 @@ impl Layout {
         // The joint of the highest degree last: its sums are the shortest.
         joints.sort_by_key(|&joint| degree(joint));
         let degrees: Vec<u32> = joints.iter().map(|&j| degree(j)).collect();
+        let part = joints
+            .iter()
+            .map(|&j| !sliding[j] && limits.position[j].width() < 2.0 * PI * (1.0 - 1e-12))
+            .collect();
         let mut bases: Vec<Vec<(u32, u32)>> = vec![Vec::new(); joints.len()];
-        let mut terms: Vec<(usize, Key)> = Vec::new();
+        let mut terms: Vec<Key> = Vec::new();
         let mut coefficients = Vec::new();
-        let mut slack = vec![0.0; polynomials.len()];
-        for (output, polynomial) in polynomials.iter().enumerate() {
-            for &(key, coefficient) in polynomial {
-                if let Some(lost) = negligible(coefficient, key, limits) {
-                    slack[output] += lost;
-                    continue;
-                }
-                let most = range(key, limits).magnitude();
-                let size = coefficient.magnitude() * most;
-                slack[output] += (coefficient.radius() * most + SLACK * size) * (1.0 + 1e-9);
-                terms.push((output, key));
-                coefficients.push(coefficient.mid());
+        let mut slack = 0.0;
+        for &(key, coefficient) in polynomial {
+            if let Some(lost) = negligible(coefficient, key, limits) {
+                slack += lost;
+                continue;
             }
+            let most = range(key, limits).magnitude();
+            let size = coefficient.magnitude() * most;
+            slack += (coefficient.radius() * most + SLACK * size) * (1.0 + 1e-9);
+            terms.push(key);
+            coefficients.push(coefficient.mid());
         }
+        let mut sizes = Vec::new();
         let mut folds = Vec::new();
         for (k, &joint) in joints.iter().enumerate() {
-            let mut places: BTreeMap<(usize, Key), u32> = BTreeMap::new();
+            sizes.push(
+                terms
+                    .iter()
+                    .map(|&key| range(key, limits).magnitude())
+                    .collect(),
+            );
+            let mut places: BTreeMap<Key, u32> = BTreeMap::new();
             let mut fold = Vec::new();
-            for (from, &(output, key)) in terms.iter().enumerate() {
+            for (from, &key) in terms.iter().enumerate() {
                 let power = powers(key, joint);
                 let base = bases[k]
                     .iter()
@@ -160,81 +155,196 @@ impl Layout {
                     });
                 let rest = key & !(31u128 << (16 + 5 * joint));
                 let next = places.len() as u32;
-                let to = *places.entry((output, rest)).or_insert(next);
+                let to = *places.entry(rest).or_insert(next);
                 fold.push([from as u32, base as u32, to]);
             }
-            terms = vec![(0, 0); places.len()];
+            terms = vec![0; places.len()];
             for (term, place) in places {
                 terms[place as usize] = term;
             }
             folds.push((fold, terms.len()));
         }
-        let mut outputs = vec![Vec::new(); polynomials.len()];
-        for (place, &(output, key)) in terms.iter().enumerate() {
+        let output = terms.iter().map(|&key| {
             let range = range(key, limits);
-            outputs[output].push((place, range.low(), range.high()));
-        }
+            (range.low(), range.high())
+        });
         Layout {
+            output: output.collect(),
             joints,
             degrees,
             bases,
             coefficients,
             folds,
-            outputs,
+            sizes,
             slack,
+            part,
         }
     }
 
-    /// The largest magnitude of each output over a product grid.
-    fn largest(&self, grid: &[Vec<f64>]) -> Vec<f64> {
-        let tables: Vec<Vec<Vec<f64>>> = grid
-            .iter()
-            .zip(&self.bases)
-            .map(|(angles, bases)| {
-                let row = |angle: &f64| {
-                    let (sin, cos) = libm::sincos(*angle);
-                    let value = |&(c, s): &(u32, u32)| {
-                        (0..c).fold(1.0, |x, _| x * cos) * (0..s).fold(1.0, |x, _| x * sin)
-                    };
-                    bases.iter().map(value).collect()
-                };
-                angles.iter().map(row).collect()
-            })
-            .collect();
+    /// A bound over the whole circles, or, given that, over the box.
+    fn bound(&self, limits: &InputBox, whole: Option<f64>, goal: f64, points: usize) -> f64 {
         let mut buffers: Vec<Vec<f64>> = vec![self.coefficients.clone()];
         buffers.extend(self.folds.iter().map(|(_, len)| vec![0.0; *len]));
-        let mut most = vec![0.0; self.outputs.len()];
-        self.descend(0, &tables, &mut buffers, &mut most);
-        most
+        let mut work = Work {
+            buffers,
+            whole,
+            ranges: self.joints.iter().map(|&j| limits.position[j]).collect(),
+            points,
+        };
+        let least = self.climb(&mut work);
+        let crude = self.crude(0, &work);
+        let mut bound = (least * (1.0 + CLOSE)).max(goal) + 2.0 * self.slack;
+        let mut more = 2.0 * CLOSE;
+        while bound < crude {
+            work.points = points;
+            if self.below(0, bound, &mut work) {
+                return bound;
+            }
+            bound *= 1.0 + more;
+            more *= 2.0;
+        }
+        crude
     }
 
-    fn descend(
-        &self,
-        level: usize,
-        tables: &[Vec<Vec<f64>>],
-        buffers: &mut [Vec<f64>],
-        most: &mut [f64],
-    ) {
-        let Some((fold, _)) = self.folds.get(level) else {
-            for (output, most) in self.outputs.iter().zip(most) {
-                let (mut low, mut high) = (0.0, 0.0);
-                for &(place, least, greatest) in output {
-                    let (a, b) = (buffers[0][place] * least, buffers[0][place] * greatest);
-                    low += a.min(b);
-                    high += a.max(b);
-                }
-                *most = f64::max(*most, f64::max(high, -low));
-            }
-            return;
+    /// No sine is larger than one.
+    fn crude(&self, level: usize, work: &Work) -> f64 {
+        let sizes = self.sizes.get(level).map_or(&[][..], Vec::as_slice);
+        let terms = work.buffers[level].iter().zip(sizes);
+        terms.fold(self.slack, |sum, (x, size)| sum + x.abs() * size) * (1.0 + 1e-9)
+    }
+
+    /// Puts an angle into the values before a joint.
+    fn fold(&self, level: usize, angle: f64, buffers: &mut [Vec<f64>]) {
+        let (sin, cos) = libm::sincos(angle);
+        let power = |&(c, s): &(u32, u32)| {
+            (0..c).fold(1.0, |x, _| x * cos) * (0..s).fold(1.0, |x, _| x * sin)
         };
-        for row in &tables[level] {
-            let (from, rest) = buffers.split_at_mut(1);
-            rest[0].fill(0.0);
-            for &[x, base, to] in fold {
-                rest[0][to as usize] += from[0][x as usize] * row[base as usize];
-            }
-            self.descend(level + 1, tables, rest, most);
+        let row: Vec<f64> = self.bases[level].iter().map(power).collect();
+        let (from, rest) = buffers.split_at_mut(level + 1);
+        rest[0].fill(0.0);
+        for &[x, base, to] in &self.folds[level].0 {
+            rest[0][to as usize] += from[level][x as usize] * row[base as usize];
         }
+    }
+
+    /// The value at a point, rates at their worst.
+    fn value(&self, values: &[f64]) -> f64 {
+        let (mut low, mut high) = (0.0, 0.0);
+        for (x, &(least, greatest)) in values.iter().zip(&self.output) {
+            let (a, b) = (x * least, x * greatest);
+            low += a.min(b);
+            high += a.max(b);
+        }
+        f64::max(high, -low) + self.slack
+    }
+
+    /// The joint's range, unless it goes round.
+    fn part(&self, level: usize, work: &Work) -> Option<(Interval, f64)> {
+        let whole = work.whole.filter(|_| self.part[level])?;
+        Some((work.ranges[level], whole))
+    }
+
+    /// Whether the maximum over the joints from `level` on is at most a bound:
+    /// `true` is a proof.
+    fn below(&self, level: usize, bound: f64, work: &mut Work) -> bool {
+        if level == self.folds.len() {
+            work.points = work.points.saturating_sub(1);
+            return self.value(&work.buffers[level]) <= bound;
+        }
+        if self.crude(level, work) <= bound {
+            return true;
+        }
+        if bound <= 0.0 || work.points == 0 {
+            return false;
+        }
+        let degree = f64::from(self.degrees[level]);
+        let part = self.part(level, work);
+        let count = FIRST * self.degrees[level] as usize;
+        let (from, width) = match part {
+            Some((range, _)) => {
+                for end in [range.low(), range.high()] {
+                    self.fold(level, end, &mut work.buffers);
+                    if !self.below(level + 1, bound, work) {
+                        return false;
+                    }
+                }
+                (range.low(), range.width())
+            }
+            None => (0.0, 2.0 * PI),
+        };
+        let half = 0.5 * width / count as f64;
+        let middle = |k: usize| from + width * (k as f64 + 0.5) / count as f64;
+        let mut cells: Vec<(f64, f64)> = (0..count).rev().map(|k| (middle(k), half)).collect();
+        while let Some((angle, half)) = cells.pop() {
+            // Half widths are rounded; a little more covers that.
+            let reach = degree * half * (1.0 + 1e-12);
+            let enough = match part {
+                Some((_, whole)) => {
+                    (bound - 0.5 * reach * reach * whole * (1.0 + 1e-12)).next_down()
+                }
+                None => (bound * (libm::cos(reach) - 1e-15)).next_down(),
+            };
+            self.fold(level, angle, &mut work.buffers);
+            if !self.below(level + 1, enough, work) {
+                if reach <= FINEST || work.points == 0 {
+                    return false;
+                }
+                let third = half / 3.0;
+                cells.extend([-2.0, 0.0, 2.0].map(|k| (angle + k * third, third)));
+            }
+        }
+        true
+    }
+
+    /// A value that is taken: the largest of a coarse grid, climbed from.
+    fn climb(&self, work: &mut Work) -> f64 {
+        let count = self.joints.len();
+        let span = |level: usize, work: &Work| match self.part(level, work) {
+            Some((range, _)) => (range.low(), range.high()),
+            None => (0.0, 2.0 * PI),
+        };
+        let at = |angles: &[f64], work: &mut Work| {
+            for (level, &angle) in angles.iter().enumerate() {
+                self.fold(level, angle, &mut work.buffers);
+            }
+            self.value(&work.buffers[count]) - self.slack
+        };
+        let mut best = 0.0;
+        let mut random = crate::simplify::random::Random::new(0x9d1d);
+        for _ in 0..STARTS {
+            let mut angles: Vec<f64> = (0..count)
+                .map(|level| {
+                    let (low, high) = span(level, work);
+                    low + (high - low) * random.unit()
+                })
+                .collect();
+            let mut value = at(&angles, work);
+            let mut step = 0.7;
+            while step > 1e-3 {
+                let mut moved = false;
+                for level in 0..count {
+                    let (low, high) = span(level, work);
+                    for sign in [-1.0, 1.0] {
+                        let old = angles[level];
+                        angles[level] = match self.part(level, work) {
+                            Some(_) => (old + sign * step).clamp(low, high),
+                            None => old + sign * step,
+                        };
+                        let next = at(&angles, work);
+                        if next > value {
+                            (value, moved) = (next, true);
+                        } else {
+                            angles[level] = old;
+                        }
+                    }
+                }
+                if !moved {
+                    step *= 0.4;
+                }
+            }
+            best = f64::max(best, value);
+        }
+        best
     }
 }
 

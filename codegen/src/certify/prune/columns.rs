@@ -8,6 +8,7 @@ use crate::certify::edits::{Edit, Place};
 use crate::graph::Input;
 use crate::schedule::{Operand, Operation, Program};
 use crate::verify::states::JointState;
+use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational, Rounded};
 
 /// A node: an input or a step.
@@ -68,17 +69,40 @@ impl Nodes {
         let outputs = program.outputs.iter();
         let outputs = outputs.map(|o| value(&o.value, o.negative)).collect();
         let inputs: Vec<Input> = inputs.into_keys().collect();
-        let columns = inputs
-            .iter()
-            .flat_map(|&input| states.iter().map(move |state| at(input, state)))
-            .collect();
-        Nodes {
+        let mut nodes = Nodes {
             inputs,
             ops,
             outputs,
-            samples: states.len(),
-            columns,
+            samples: 0,
+            columns: Vec::new(),
+        };
+        nodes.move_to(states);
+        nodes
+    }
+
+    /// The same program at other states.
+    pub(super) fn move_to(&mut self, states: &[JointState]) {
+        let inputs = self.inputs.iter();
+        let columns = inputs.flat_map(|&input| states.iter().map(move |state| at(input, state)));
+        self.columns = columns.collect();
+        self.samples = states.len();
+    }
+
+    /// The outputs, output after output.
+    pub(super) fn values(&self, columns: &[f64]) -> Vec<f64> {
+        let m = self.samples;
+        let mut values = Vec::with_capacity(self.outputs.len() * m);
+        for value in &self.outputs {
+            match *value {
+                Value::Known(c) => values.extend(std::iter::repeat_n(c, m)),
+                Value::Node(node, negative) => {
+                    let sign = if negative { -1.0 } else { 1.0 };
+                    let column = &columns[node as usize * m..][..m];
+                    values.extend(column.iter().map(|x| sign * x));
+                }
+            }
         }
+        values
     }
 
     pub(super) fn len(&self) -> usize {
@@ -118,11 +142,30 @@ impl Nodes {
         }
     }
 
-    /// The edits as the program knows them.
-    pub(super) fn edits(&self, edits: &[Option<Value>]) -> Vec<Edit> {
+    /// Constants that were changed, as short decimals.
+    pub(super) fn shorten(&mut self, original: &Nodes) {
+        for (op, original) in self.ops.iter_mut().zip(&original.ops) {
+            for (now, was) in [
+                (&mut op.left, original.left),
+                (&mut op.right, original.right),
+            ] {
+                if let (Value::Known(c), Value::Known(was)) = (now, was) {
+                    *c = if (*c - was).abs() <= 1e-9 * was.abs() {
+                        was
+                    } else {
+                        short(*c)
+                    };
+                }
+            }
+        }
+    }
+
+    /// The edits as the program knows them; constants are those that differ
+    /// from the original.
+    pub(super) fn edits(&self, original: &Nodes, edits: &[Option<Value>]) -> Vec<Edit> {
         let inputs = self.inputs.len();
         let pairs = edits.iter().enumerate();
-        pairs
+        let mut all: Vec<Edit> = pairs
             .filter_map(|(node, edit)| {
                 let place = if node < inputs {
                     Place::Input(self.inputs[node])
@@ -130,10 +173,7 @@ impl Nodes {
                     Place::Step(node - inputs)
                 };
                 Some(match (*edit)? {
-                    Value::Known(c) => {
-                        let exact = Rational::from_float(c).unwrap_or_default();
-                        Edit::constant(place, Exact::from(exact))
-                    }
+                    Value::Known(c) => Edit::constant(place, decimal(c)),
                     Value::Node(other, negative) => Edit {
                         place,
                         negative,
@@ -144,8 +184,43 @@ impl Nodes {
                     },
                 })
             })
-            .collect()
+            .collect();
+        for (step, (op, was)) in self.ops.iter().zip(&original.ops).enumerate() {
+            if edits[inputs + step].is_some() {
+                continue;
+            }
+            for (place, now, was) in [
+                (Place::Left(step), op.left, was.left),
+                (Place::Right(step), op.right, was.right),
+            ] {
+                if let Value::Known(c) = now
+                    && now != was
+                {
+                    all.push(Edit::constant(place, decimal(c)));
+                }
+            }
+        }
+        all
     }
+}
+
+/// The number with seven digits.
+pub(super) fn short(x: f64) -> f64 {
+    f64::nearest_rational(&digits(x))
+}
+
+fn digits(x: f64) -> Rational {
+    parse_decimal(&format!("{x:.6e}")).unwrap_or_default()
+}
+
+/// The decimal with seven digits if it is the number, or the number.
+fn decimal(x: f64) -> Exact {
+    let short = digits(x);
+    Exact::from(if f64::nearest_rational(&short) == x {
+        short
+    } else {
+        Rational::from_float(x).unwrap_or_default()
+    })
 }
 
 fn operate(op: Op, before: &[f64], m: usize, out: &mut [f64]) {

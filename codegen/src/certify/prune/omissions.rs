@@ -23,6 +23,7 @@ pub struct Omission {
     /// what: `qd[3] * (s4 * …) -> 0`.
     pub words: String,
     /// Operations that come back if it alone is put back.
+    /// Corrected constants stay corrected.
     pub operations: usize,
     /// Sines and cosines that come back with them.
     pub sincos: usize,
@@ -49,11 +50,12 @@ impl Pruned {
 }
 
 /// What was left out, stage after stage, without the errors, which take long.
+/// Constants that were corrected are no omissions: they save nothing.
 pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
     let mut omissions = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
         let paid = stage.program(Folding::Syntactic).counts();
-        for edit in &stage.edits {
+        for edit in stage.edits.iter().filter(|edit| !edit.corrects()) {
             let back = without(stage, edit);
             omissions.push(Omission {
                 stage: index,
@@ -95,7 +97,9 @@ const DEPTH: usize = 2;
 fn words(program: &Program, edit: &Edit) -> String {
     let place = match edit.place {
         Place::Input(input) => input_name(input),
-        Place::Step(step) => expression(program, &Operand::Step(step), DEPTH + 1).0,
+        Place::Step(step) | Place::Left(step) | Place::Right(step) => {
+            expression(program, &Operand::Step(step), DEPTH + 1).0
+        }
     };
     let value = match (edit.negative, expression(program, &edit.value, DEPTH)) {
         (false, (text, _)) => text,

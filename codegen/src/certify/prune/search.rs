@@ -1,0 +1,234 @@
+//! Guesses of what may go, each certified.
+
+use super::columns::Nodes;
+use super::greedy::{Greedy, State};
+use super::motions::Motions;
+use super::{Pruned, Settings};
+use crate::certify::bound;
+use crate::certify::edits::{Stage, difference};
+use crate::certify::input_box::InputBox;
+use crate::certify::interval::Interval;
+use crate::certify::sample;
+use crate::graph::{Folding, Graph};
+use crate::schedule::Program;
+use crate::simplify::random::Random;
+use crate::simplify::{Effort, simplify};
+use crate::verify::states::JointState;
+
+/// Rounds in which constants are corrected after edits are chosen.
+const POLISH: usize = 12;
+
+/// How much of the allowance sampled errors may use at first.
+const SHARE: f64 = 0.8;
+
+/// One program to edit.
+pub(super) struct Search<'a> {
+    pub full: &'a Program,
+    /// What was edited before.
+    pub base: Pruned,
+    pub limits: &'a InputBox,
+    pub allowances: &'a [f64],
+    pub settings: &'a Settings,
+    pub motions: &'a Motions,
+}
+
+/// A certified variant and how it was found.
+struct Found {
+    pruned: Pruned,
+    state: State,
+    share: f64,
+}
+
+impl Search<'_> {
+    /// The cheapest variant found, if it is cheaper than what was there.
+    pub(super) fn run(&self, positions: &mut Vec<Vec<f64>>, random: &mut Random) -> Option<Pruned> {
+        // Outputs that use up their allowance are dear.
+        let mut prices = vec![1.0; self.allowances.len()];
+        let found = self.guess(positions, &mut prices, random)?;
+        let mut best = self.again(found, positions, &prices, random);
+        best.program = finish(&best.stages, self.settings.effort, true);
+        (cost(&best.program) < cost(&self.base.program)).then_some(best)
+    }
+
+    fn guess(
+        &self,
+        positions: &mut Vec<Vec<f64>>,
+        prices: &mut [f64],
+        random: &mut Random,
+    ) -> Option<Found> {
+        let mut share = SHARE;
+        let mut best: Option<Found> = None;
+        for _ in 0..self.settings.guesses {
+            let states = self.motions.states(positions);
+            let original = Nodes::new(&self.base.program, &states);
+            let truth = outputs(self.full, &states);
+            let mut greedy = self.greedy(&original, &truth, share, prices);
+            let mut state = State {
+                edits: vec![None; original.len()],
+                nodes: original.clone(),
+            };
+            greedy.drop_all(&mut state, 0.0, random);
+            greedy.settle(&mut state, &original, POLISH);
+            for (price, used) in prices.iter_mut().zip(greedy.relative(&state)) {
+                *price *= 0.3 + used;
+            }
+            let (pruned, ratio) = self.certify(&original, &state, &mut greedy);
+            self.adversaries(&pruned.stages, positions, random);
+            let cheaper = best
+                .as_ref()
+                .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
+            if ratio <= 1.0 && cheaper {
+                best = Some(Found {
+                    pruned,
+                    state,
+                    share,
+                });
+            }
+            share = (share / libm::pow(ratio.clamp(0.2, 5.0), 0.9) * 0.99).min(1.5);
+        }
+        best
+    }
+
+    /// Takes parts back and chooses anew.
+    fn again(
+        &self,
+        found: Found,
+        positions: &[Vec<f64>],
+        prices: &[f64],
+        random: &mut Random,
+    ) -> Pruned {
+        let Found {
+            mut pruned,
+            mut state,
+            share,
+        } = found;
+        let states = self.motions.states(positions);
+        let original = Nodes::new(&self.base.program, &states);
+        let truth = outputs(self.full, &states);
+        state.nodes.move_to(&states);
+        // The samples have grown since: what is certified must rank as within.
+        let worst = self.greedy(&original, &truth, 1.0, prices).worst(&state);
+        let share = f64::max(share, 1.001 * worst);
+        let mut greedy = self.greedy(&original, &truth, share, prices);
+        let mut paid = greedy.price(&state);
+        for round in 0..self.settings.retries {
+            let mut trial = state.clone();
+            let part = 0.05 + 0.3 * random.unit();
+            for edit in &mut trial.edits {
+                if random.unit() < part {
+                    *edit = None;
+                }
+            }
+            let noise = if round % 3 == 0 { 0.0 } else { 0.6 };
+            greedy.polish(&mut trial, 1);
+            greedy.drop_all(&mut trial, noise, random);
+            greedy.settle(&mut trial, &original, POLISH / 3);
+            let price = greedy.price(&trial);
+            if price <= paid && trial.edits != state.edits {
+                let (certified, ratio) = self.certify(&original, &trial, &mut greedy);
+                if ratio <= 1.0 {
+                    (state, paid, pruned) = (trial, price, certified);
+                }
+            }
+        }
+        pruned
+    }
+
+    fn greedy<'t>(
+        &'t self,
+        nodes: &Nodes,
+        truth: &'t [f64],
+        share: f64,
+        prices: &[f64],
+    ) -> Greedy<'t> {
+        let allowances = self.allowances.iter().map(|a| a * share).collect();
+        let refit = self.settings.refit;
+        Greedy::new(
+            nodes,
+            self.motions,
+            truth,
+            allowances,
+            prices.to_vec(),
+            refit,
+        )
+    }
+
+    /// The variant, and its worst certified error against its allowance.
+    fn certify(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, f64) {
+        let mut stages = self.base.stages.clone();
+        stages.push(Stage {
+            program: self.base.program.clone(),
+            edits: greedy.edits(original, state),
+        });
+        let graph = difference(&stages);
+        let budget = self.settings.budget;
+        let errors = bound::magnitudes(&graph, self.limits, self.allowances, 1.0, budget);
+        let pairs = errors.iter().zip(self.allowances);
+        let ratio = pairs.fold(0.0f64, |r, (&e, &a)| r.max(bound::relative(e, a)));
+        let program = finish(&stages, Effort::Quick, false);
+        let pruned = Pruned {
+            stages,
+            program,
+            errors,
+        };
+        (pruned, ratio)
+    }
+
+    /// Positions where the error is large join the samples.
+    fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
+        let Some(last) = stages.last() else { return };
+        let mut full = Nodes::new(self.full, &[]);
+        let mut edited = Nodes::new(&last.program(Folding::Syntactic), &[]);
+        let block = self.motions.len();
+        for output in 0..self.allowances.len() {
+            let mut error = |state: &JointState| {
+                let states = self.motions.states(std::slice::from_ref(&state.q));
+                full.move_to(&states);
+                edited.move_to(&states);
+                let run = |nodes: &Nodes| nodes.values(&nodes.run(&vec![None; nodes.len()]));
+                let (x, y) = (run(&full), run(&edited));
+                let pairs = x[output * block..][..block]
+                    .iter()
+                    .zip(&y[output * block..]);
+                let mut error: Vec<f64> = pairs.map(|(x, y)| x - y).collect();
+                self.motions.monomials(&mut error);
+                self.motions.largest(&error)
+            };
+            let from = sample::draw(self.limits, random);
+            let still = vec![Interval::ZERO; from.q.len()];
+            let still = InputBox {
+                position: self.limits.position.clone(),
+                velocity: still.clone(),
+                acceleration: still,
+            };
+            let (state, _) = sample::climb(&still, from, 300, random, &mut error);
+            positions.push(state.q);
+        }
+    }
+}
+
+/// A program's outputs at states, output after output.
+fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
+    let nodes = Nodes::new(program, states);
+    nodes.values(&nodes.run(&vec![None; nodes.len()]))
+}
+
+/// The last stage's edited program, simplified if asked.
+fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
+    let last = &stages[stages.len() - 1];
+    let graph = last.edited(Folding::Semantic);
+    let program = |graph: &Graph| last.program.with_graph(graph);
+    if !search {
+        return program(&graph);
+    }
+    match simplify(std::slice::from_ref(&graph), &[], effort, &|_| true) {
+        Some(simplified) => program(&simplified.graph),
+        None => program(&graph),
+    }
+}
+
+/// Operations, and a few more for each sine and cosine.
+fn cost(program: &Program) -> usize {
+    let counts = program.counts();
+    counts.operations() + 8 * counts.sincos
+}
