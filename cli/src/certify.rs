@@ -8,11 +8,12 @@ use dalembert_codegen::certify::certificate::{Certificate, Split};
 use dalembert_codegen::certify::edits::Stage;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::interval::Interval;
-use dalembert_codegen::certify::json::{VERSION, read_edit, read_program, text_hash};
+use dalembert_codegen::certify::json::{VERSION, read_edit, read_program, read_sines, text_hash};
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::generate::GenerateError;
 use dalembert_codegen::plan::SceneKey;
 use dalembert_codegen::scene::Setting;
+use dalembert_codegen::sincos::proof::Errors;
 use dalembert_model::read::Reading;
 use dalembert_model::scene::Scale;
 use serde_json::Value;
@@ -103,6 +104,18 @@ fn read(path: &Path) -> Result<Vec<Certificate>, Failure> {
     read.map_err(fail)
 }
 
+/// What is claimed of an angle's polynomials.
+fn sine(json: &Value) -> Option<(String, String, Interval, Errors)> {
+    let text = |key| json.get(key)?.as_str().map(str::to_owned);
+    let range = json.get("range")?.as_array()?;
+    let [low, high] = range.as_slice() else {
+        return None;
+    };
+    let range = Interval::new(low.as_f64()?, high.as_f64()?)?;
+    let (sin, cos) = (json.get("sin")?.as_f64()?, json.get("cos")?.as_f64()?);
+    Some((text("angle")?, text("form")?, range, Errors { sin, cos }))
+}
+
 fn parse(json: &Value) -> Result<Certificate, String> {
     let field = |key: &str| json.get(key).ok_or_else(|| format!("`{key}` is missing"));
     if field("certificate")?.as_u64() != Some(VERSION.into()) {
@@ -167,7 +180,17 @@ fn parse(json: &Value) -> Result<Certificate, String> {
     if text("text_hash")? != text_hash(&printed) {
         return Err("`text_hash` is not the hash of `text`".into());
     }
-    let scalar = text("scalar")?;
+    let word = text("scalar")?;
+    let scalar = ScalarType::from_name(&word).ok_or_else(|| format!("`{word}` is no scalar"))?;
+    let emitted = read_program(&text("emitted")?)?;
+    let claims = match json.get("polynomials") {
+        None => Vec::new(),
+        Some(_) => list("polynomials")?
+            .iter()
+            .map(sine)
+            .collect::<Option<_>>()
+            .ok_or("an entry of `polynomials` needs `angle`, `form`, `range`, `sin` and `cos`")?,
+    };
     Ok(Certificate {
         robot: text("robot")?,
         input: text("input")?,
@@ -187,7 +210,7 @@ fn parse(json: &Value) -> Result<Certificate, String> {
                 Some(scale.1)
             }
         },
-        scalar: ScalarType::from_name(&scalar).ok_or_else(|| format!("`{scalar}` is no scalar"))?,
+        scalar,
         limits: InputBox {
             position: ranges("position")?,
             velocity: ranges("velocity")?,
@@ -195,7 +218,8 @@ fn parse(json: &Value) -> Result<Certificate, String> {
         },
         scales: numbers("scale")?,
         stages,
-        emitted: read_program(&text("emitted")?)?,
+        sines: read_sines(&printed, emitted.function, scalar, claims)?,
+        emitted,
         text: printed,
         bounds: bounds.collect(),
     })

@@ -191,9 +191,7 @@ pub struct GeneratedFunction {
 impl GeneratedFunction {
     /// The polynomials of its sines in a scalar; none if they are libm's.
     pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
-        let mut all = self.sines.iter();
-        let found = all.find(|(known, _)| *known == scalar);
-        found.map_or(&[], |(_, sines)| sines)
+        sincos::of(&self.sines, scalar)
     }
 
     /// Its counts with the polynomials of its sines in a scalar.

@@ -152,6 +152,7 @@ impl<'a> Frame<'a> {
             limits: &self.limits,
             scales: &self.scales,
             relative_to: Some(self.relative_to),
+            sines: &[],
         }
     }
 

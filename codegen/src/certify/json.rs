@@ -7,13 +7,19 @@ use hmac_sha256::Hash;
 use super::certificate::{ASSUMPTIONS, Certificate, METHOD};
 use super::edits::{Edit, Place};
 use super::interval::Interval;
+use crate::emit::ScalarType;
 use crate::emit::function::input_name;
+use crate::function::Function;
 use crate::generate::Start;
+use crate::graph::AngleSum;
 use crate::plan::parse::operand as read_operand;
 use crate::plan::write::operand as write_operand;
 use crate::plan::{Entry, Plan};
 use crate::portfolio::Source;
 use crate::schedule::{Operand, Program};
+use crate::sincos::proof::Errors;
+use crate::sincos::{AngleKernel, Sines};
+use crate::verify::text::TextProgram;
 
 /// The version of the format.
 pub const VERSION: u32 = 1;
@@ -36,7 +42,9 @@ impl Certificate {
         field("function", string(self.emitted.function.name()));
         field("scalar", string(self.scalar.name()));
         field("method", string(METHOD));
-        field("assumptions", list(ASSUMPTIONS.iter().map(|a| string(a))));
+        let libm = |index: &usize| *index != 1 || self.sines.is_empty();
+        let assumed = (0..ASSUMPTIONS.len()).filter(libm);
+        field("assumptions", list(assumed.map(|a| string(ASSUMPTIONS[a]))));
         let ranges = |of: &[Interval]| {
             list(
                 of.iter()
@@ -64,6 +72,9 @@ impl Certificate {
                 list(self.bounds.iter().map(|split| number(part(split)))),
             );
         }
+        if !self.sines.is_empty() {
+            field("polynomials", list(self.sines.iter().map(sine)));
+        }
         let stages = self.stages.iter().map(|stage| {
             let edits = list(stage.edits.iter().map(|edit| string(&write_edit(edit))));
             let program = string(&plan_text(self, &stage.program));
@@ -75,6 +86,49 @@ impl Certificate {
         let _ = write!(text, "  \"text\": {}\n}}\n", string(&self.text));
         text
     }
+}
+
+/// What is claimed of an angle's polynomials; their literals are in the text.
+fn sine(sine: &AngleKernel) -> String {
+    let (angle, form) = (string(&sine.angle.to_string()), string(&sine.form));
+    let range = list(
+        [sine.range.low(), sine.range.high()]
+            .into_iter()
+            .map(number),
+    );
+    let (sin, cos) = (number(sine.errors.sin), number(sine.errors.cos));
+    format!(
+        "{{ \"angle\": {angle}, \"form\": {form}, \"range\": {range}, \
+         \"sin\": {sin}, \"cos\": {cos} }}"
+    )
+}
+
+/// The polynomials that a certificate's text computes sines by, each with
+/// what is claimed of it: angle, form, range and errors.
+///
+/// # Errors
+/// What is wrong with the text, or an angle of which it has no polynomials.
+pub fn read_sines(
+    text: &str,
+    function: Function,
+    scalar: ScalarType,
+    claims: Vec<(String, String, Interval, Errors)>,
+) -> Result<Sines, String> {
+    let text = TextProgram::parse(text, function, scalar).map_err(|error| error.to_string())?;
+    let mut sines = Sines::new();
+    for (name, form, range, errors) in claims {
+        let angle: AngleSum = name.parse().map_err(|()| format!("`{name}` is no angle"))?;
+        let mut angles = text.trig.iter().filter(|trig| trig.angle == angle);
+        let kernel = angles.find_map(|trig| trig.kernel.clone());
+        sines.push(AngleKernel {
+            angle,
+            range,
+            form,
+            kernel: kernel.ok_or_else(|| format!("`text` has no polynomials of `{name}`"))?,
+            errors,
+        });
+    }
+    Ok(sines)
 }
 
 /// SHA-256 of a printed text in hexadecimal.

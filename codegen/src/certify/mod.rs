@@ -9,6 +9,7 @@
 //!   and bound over polynomials in the rates ([`form`])
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
 //!   both over the sub-boxes of `subdivide`
+//! - [`sines`]: polynomials for sines, as exact as a tolerance needs
 //! - [`prune`]: the cheapest edits that a certificate admits
 //! - [`choose`]: the cheapest variant that a tolerance admits
 //! - [`certificate`]: the claim and its check; [`json`]: its text
@@ -30,5 +31,6 @@ pub mod ranges;
 pub mod sample;
 pub mod scale;
 pub mod sensitivity;
+pub mod sines;
 mod subdivide;
 pub mod trig;

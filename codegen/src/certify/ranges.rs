@@ -8,6 +8,7 @@ use super::sensitivity::{Constants, forward};
 use super::subdivide::sub_boxes;
 use crate::emit::ScalarType;
 use crate::schedule::{Operand, Program};
+use crate::sincos::AngleKernel;
 
 /// The largest magnitude of each step, and what is wrong with them.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,10 +70,22 @@ impl std::fmt::Display for Finding {
     }
 }
 
-/// The range table over a box, from at most `boxes` sub-boxes.
+/// The range table over a box, from at most `boxes` sub-boxes; sines are
+/// libm's.
 pub fn ranges(program: &Program, scalar: ScalarType, limits: &InputBox, boxes: usize) -> Ranges {
+    ranges_with(program, scalar, &[], limits, boxes)
+}
+
+/// The same with polynomials for sines.
+pub fn ranges_with(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+    boxes: usize,
+) -> Ranges {
     let mut magnitudes = vec![0.0f64; program.steps.len()];
-    let constants = Constants::of(program, scalar);
+    let constants = Constants::of(program, scalar, sines);
     for sub in sub_boxes(program, limits, boxes) {
         let run = forward(program, scalar, &constants, &sub);
         for (most, value) in magnitudes.iter_mut().zip(&run.values) {

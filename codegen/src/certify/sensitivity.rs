@@ -4,7 +4,7 @@
 //! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
 //! products and η = 0 for sums; literals are constants rounded once; `sin`
 //! and `cos` are within one ulp, which is at most u·2 relative and u
-//! absolute; nothing is contracted to a fused multiply-add.
+//! absolute, or polynomials within their proved errors; nothing is contracted to a fused multiply-add.
 //!
 //! **Soundness, and why nothing of second order is left.** Let x̂ be the
 //! computed value of a node, x the exact one, e = x̂ − x. For a product
@@ -22,8 +22,10 @@ use super::input_box::InputBox;
 use super::interval::Interval;
 use super::subdivide::sub_boxes;
 use crate::emit::ScalarType;
-use crate::graph::Input;
+use crate::graph::{AngleSum, Input};
 use crate::schedule::{Operand, Operation, Program};
+use crate::sincos::AngleKernel;
+use crate::sincos::proof::Errors;
 
 /// Bounds of one output's rounding error, in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,15 +46,27 @@ impl Rounding {
 }
 
 /// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,
-/// which halve the positions in turn.
+/// which halve the positions in turn. Sines are libm's.
 pub fn rounding(
     program: &Program,
     scalar: ScalarType,
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
+    rounding_with(program, scalar, &[], limits, boxes)
+}
+
+/// The same with polynomials for sines, whose errors are as they are claimed;
+/// angles that are not among them are libm's.
+pub fn rounding_with(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<Rounding> {
     let mut worst = vec![Rounding::default(); program.outputs.len()];
-    let constants = Constants::of(program, scalar);
+    let constants = Constants::of(program, scalar, sines);
     for sub in sub_boxes(program, limits, boxes) {
         for (worst, here) in worst
             .iter_mut()
@@ -75,16 +89,33 @@ pub(crate) fn underflow(scalar: ScalarType) -> f64 {
 
 /// The constants that steps read, with what rounding takes from them: exact
 /// numbers are slow to bound, so it is done once and not in every sub-box.
-pub(super) struct Constants(Vec<[Option<(Interval, f64)>; 2]>);
+/// And the errors of polynomials for sines, which hold in every sub-box.
+pub(super) struct Constants {
+    steps: Vec<[Option<(Interval, f64)>; 2]>,
+    sines: Vec<(AngleSum, Errors)>,
+}
 
 impl Constants {
-    pub(super) fn of(program: &Program, scalar: ScalarType) -> Constants {
+    pub(super) fn of(program: &Program, scalar: ScalarType, sines: &[AngleKernel]) -> Constants {
         let found = |operand: &Operand| match operand {
             Operand::Constant(constant) => Some(rounded(constant, scalar)),
             _ => None,
         };
         let steps = program.steps.iter();
-        Constants(steps.map(|s| [found(&s.left), found(&s.right)]).collect())
+        Constants {
+            steps: steps.map(|s| [found(&s.left), found(&s.right)]).collect(),
+            sines: sines.iter().map(|sine| (sine.angle, sine.errors)).collect(),
+        }
+    }
+
+    /// What a polynomial is off at most; `None` for libm.
+    fn sine(&self, input: Input) -> Option<f64> {
+        let angle = input.angle()?;
+        let found = self.sines.iter().find(|(known, _)| *known == angle)?;
+        Some(match input {
+            Input::Sin(_) => found.1.sin,
+            _ => found.1.cos,
+        })
     }
 }
 
@@ -112,10 +143,10 @@ pub(super) fn forward(
     let u = scalar.unit_roundoff();
     let mut values: Vec<Interval> = Vec::with_capacity(program.steps.len());
     let mut own = Vec::with_capacity(program.steps.len());
-    for (step, known) in program.steps.iter().zip(&constants.0) {
+    for (step, known) in program.steps.iter().zip(&constants.steps) {
         let value = |operand, known: Option<(Interval, f64)>| match known {
             Some((constant, _)) => constant,
-            None => read(operand, &values, scalar, sub).0,
+            None => read(operand, &values, scalar, constants, sub).0,
         };
         let x = value(&step.left, known[0]);
         let y = value(&step.right, known[1]);
@@ -137,6 +168,7 @@ fn read(
     operand: &Operand,
     values: &[Interval],
     scalar: ScalarType,
+    constants: &Constants,
     sub: &InputBox,
 ) -> (Interval, f64) {
     let u = scalar.unit_roundoff();
@@ -152,11 +184,11 @@ fn read(
                 .terms()
                 .map(|(joint, _)| sub.position[joint].magnitude())
                 .sum();
-            let error = u * exact.magnitude().min(0.5) * 2.0 + 1.01 * additions * u * reach;
-            let error = if exact.magnitude() == 0.0 {
-                0.0
-            } else {
-                error.next_up()
+            let sum = 1.01 * additions * u * reach;
+            let error = match constants.sine(*input) {
+                Some(error) => (error + sum).next_up(),
+                None if exact.magnitude() == 0.0 => 0.0,
+                None => (u * exact.magnitude().min(0.5) * 2.0 + sum).next_up(),
             };
             (exact.widened(error), error)
         }
@@ -175,10 +207,10 @@ fn over(
     let operands: Vec<[(Interval, f64); 2]> = program
         .steps
         .iter()
-        .zip(&constants.0)
+        .zip(&constants.steps)
         .map(|(step, [left, right])| {
             [(&step.left, left), (&step.right, right)].map(|(operand, known)| {
-                known.unwrap_or_else(|| read(operand, &values, scalar, sub))
+                known.unwrap_or_else(|| read(operand, &values, scalar, constants, sub))
             })
         })
         .collect();
@@ -189,7 +221,7 @@ fn over(
         let top = match &output.value {
             Operand::Step(index) => *index + 1,
             other => {
-                let (_, error) = read(other, &values, scalar, sub);
+                let (_, error) = read(other, &values, scalar, constants, sub);
                 note(&mut bound, other, error);
                 0
             }

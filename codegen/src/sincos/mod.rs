@@ -227,6 +227,12 @@ fn one(
     }
 }
 
+/// The polynomials of one scalar; none if its sines are libm's.
+pub fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
+    let found = all.iter().find(|(known, _)| *known == scalar);
+    found.map_or(&[], |(_, sines)| sines)
+}
+
 /// Multiplications and additions of the angles' polynomials.
 pub fn counts(sines: &[AngleKernel]) -> (usize, usize) {
     let counts = sines.iter().map(|angle| angle.kernel.counts());

@@ -12,7 +12,8 @@
 //!    program, the last one the emitted program (prime field, other points
 //!    than any search uses);
 //! 3. the printed text, read back, is the emitted program, every literal
-//!    rounded once;
+//!    rounded once; sines that it computes by polynomials are proved again
+//!    from the literals, over the angles' ranges in the box;
 //! 4. the error of the edits ([`difference`]), of sines and cosines and of
 //!    rounding ([`rounding`]) are bounded anew, and the claims must not be
 //!    smaller.
@@ -34,7 +35,7 @@ use dalembert_model::scene::Scale;
 
 use super::edits::Stage;
 use super::input_box::InputBox;
-use super::ranges::{Finding, ranges};
+use super::ranges::{Finding, ranges_with};
 use super::scale;
 use crate::emit::ScalarType;
 use crate::graph::Points;
@@ -42,6 +43,8 @@ use crate::graph::print::POINTS;
 use crate::plan::{SceneKey, input_hash};
 use crate::scene::Setting;
 use crate::schedule::Program;
+use crate::sincos::proof::prove;
+use crate::sincos::{self, Sines};
 use crate::verify::exact::{Proof, prove_in, run};
 use crate::verify::text::TextProgram;
 pub use refuted::Refuted;
@@ -51,7 +54,8 @@ use subject::{Fineness, Subject};
 /// The seed of the points at which programs are compared.
 const SEED: u64 = 0x6365_7274;
 
-/// What a bound rests on besides arithmetic.
+/// What a bound rests on besides arithmetic. The second is none where sines are
+/// polynomials: their errors are proved.
 pub const ASSUMPTIONS: [&str; 4] = [
     "every operation is rounded to nearest: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products",
     "sin and cos are libm's, within one ulp",
@@ -88,6 +92,9 @@ pub struct Certificate {
     pub emitted: Program,
     /// The function as printed.
     pub text: String,
+    /// The polynomials for its sines, with what is claimed of each; none if
+    /// they are libm's.
+    pub sines: Sines,
     /// E of each output.
     pub bounds: Vec<Split>,
 }
@@ -122,6 +129,7 @@ impl Certificate {
             limits,
             scales,
             relative_to: None,
+            sines: &[],
         };
         let fineness = Fineness::CERTIFY;
         let bounds = subject.bounds(scalar, &subject.model(fineness), fineness);
@@ -144,6 +152,35 @@ impl Certificate {
             stages: vec![own],
             bounds: bounds.collect(),
             ..self.clone()
+        }
+    }
+
+    /// The same claim with polynomials for sines; the edits' bounds stay.
+    #[must_use]
+    pub fn with_sines(&self, setting: &Setting, sines: &Sines, fineness: Fineness) -> Certificate {
+        let sines = [(self.scalar, sines.clone())];
+        let subject = self.subject(setting, &sines);
+        let scaled = self.bounds.iter().map(|bound| bound.model);
+        let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], fineness);
+        for (bound, model) in bounds.iter_mut().zip(scaled) {
+            bound.model = model;
+        }
+        subject.claim(self.scalar, bounds)
+    }
+
+    fn subject<'a>(
+        &'a self,
+        setting: &'a Setting,
+        sines: &'a [(ScalarType, Sines)],
+    ) -> Subject<'a> {
+        Subject {
+            setting,
+            stages: &self.stages,
+            emitted: &self.emitted,
+            limits: &self.limits,
+            scales: &self.scales,
+            relative_to: self.relative_to,
+            sines,
         }
     }
 
@@ -173,26 +210,44 @@ impl Certificate {
         self.check_edits()?;
         let text = TextProgram::parse(&self.text, self.emitted.function, self.scalar)
             .map_err(|error| Refuted::Text(error.to_string()))?;
-        text.matches(&self.emitted, self.scalar)
+        text.matches_with(&self.emitted, self.scalar, &self.sines)
             .map_err(Refuted::Text)?;
-        let findings = ranges(&self.emitted, self.scalar, &self.limits, 256).findings;
+        self.check_sines()?;
+        let table = ranges_with(&self.emitted, self.scalar, &self.sines, &self.limits, 256);
+        let findings = table.findings;
         if let Some(&finding) = findings.iter().find(|finding| finding.is_error()) {
             return Err(Refuted::Range(finding));
         }
-        let subject = Subject {
-            setting,
-            stages: &self.stages,
-            emitted: &self.emitted,
-            limits: &self.limits,
-            scales: &self.scales,
-            relative_to: self.relative_to,
-        };
-        let found = self.check_bounds(&subject)?;
+        let sines = [(self.scalar, self.sines.clone())];
+        let found = self.check_bounds(&self.subject(setting, &sines))?;
         Ok(Checked {
             proof,
             bounds: found,
             findings,
         })
+    }
+
+    /// Each polynomial's errors are proved again, from its literals and over
+    /// all values that its angle takes.
+    fn check_sines(&self) -> Result<(), Refuted> {
+        for sine in &self.sines {
+            let angle = sincos::angle_name(sine.angle);
+            let whole = sincos::range_of(sine.angle, &self.limits.position, self.scalar);
+            let found = prove(&sine.kernel, self.scalar, sine.range);
+            let claimed = sine.errors;
+            match found {
+                _ if !sine.range.encloses(whole) => return Err(Refuted::SineRange { angle }),
+                Some(found) if found.sin <= claimed.sin && found.cos <= claimed.cos => {}
+                found => {
+                    return Err(Refuted::Sine {
+                        angle,
+                        claimed,
+                        found,
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Each stage's edits apply and give the program that follows.

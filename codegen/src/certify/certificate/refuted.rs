@@ -5,6 +5,7 @@ use std::fmt;
 use super::split::Split;
 use crate::certify::edits::BadEdit;
 use crate::certify::ranges::Finding;
+use crate::sincos::proof::Errors;
 use crate::verify::exact::Disproof;
 
 /// Why a certificate is no good.
@@ -31,6 +32,20 @@ pub enum Refuted {
     Step(usize),
     /// The text is not the emitted program.
     Text(String),
+    /// A polynomial's range is not all that its angle takes in the box.
+    SineRange {
+        /// The angle.
+        angle: String,
+    },
+    /// A polynomial is further from its sine than is claimed.
+    Sine {
+        /// The angle.
+        angle: String,
+        /// What is claimed.
+        claimed: Errors,
+        /// What can be shown, if anything can.
+        found: Option<Errors>,
+    },
     /// The scalar cannot hold a value.
     Range(Finding),
     /// A claim is smaller than what can be shown.
@@ -64,6 +79,29 @@ impl fmt::Display for Refuted {
                 stage + 1
             ),
             Refuted::Text(why) => write!(f, "the printed text: {why}"),
+            Refuted::SineRange { angle } => write!(
+                f,
+                "the polynomials of {angle} are not for all values that it takes in the box"
+            ),
+            Refuted::Sine {
+                angle,
+                claimed,
+                found: None,
+            } => write!(
+                f,
+                "the sine and cosine of {angle}: claimed {:e} and {:e}; nothing can be shown",
+                claimed.sin, claimed.cos
+            ),
+            Refuted::Sine {
+                angle,
+                claimed,
+                found: Some(found),
+            } => write!(
+                f,
+                "the sine and cosine of {angle}: claimed {:e} and {:e}; \
+                 what can be shown is {:e} and {:e}",
+                claimed.sin, claimed.cos, found.sin, found.cos
+            ),
             Refuted::Range(finding) => write!(f, "{finding}"),
             Refuted::Bound {
                 entry,

@@ -6,11 +6,12 @@ use super::{Certificate, Split};
 use crate::certify::bound::{Budget, magnitudes, relative};
 use crate::certify::edits::{Stage, difference};
 use crate::certify::input_box::InputBox;
-use crate::certify::sensitivity::rounding;
+use crate::certify::sensitivity::rounding_with;
 use crate::emit::{MathPath, ScalarType, function};
 use crate::plan::{SceneKey, input_hash};
 use crate::scene::Setting;
 use crate::schedule::Program;
+use crate::sincos::{self, AngleKernel, Sines};
 
 /// How fine a bound is: the finer, the tighter and the dearer. Every one is
 /// sound.
@@ -53,6 +54,8 @@ pub struct Subject<'a> {
     pub scales: &'a [f64],
     /// What the scales are, if they are one of these.
     pub relative_to: Option<Scale>,
+    /// The polynomials for sines in each scalar; libm's where there are none.
+    pub sines: &'a [(ScalarType, Sines)],
 }
 
 impl Subject<'_> {
@@ -68,7 +71,8 @@ impl Subject<'_> {
 
     /// Bounds by cause, relative to the scales, with the edits' at hand.
     pub fn bounds(&self, scalar: ScalarType, model: &[f64], fineness: Fineness) -> Vec<Split> {
-        let rounding = rounding(self.emitted, scalar, self.limits, fineness.boxes);
+        let sines = self.sines(scalar);
+        let rounding = rounding_with(self.emitted, scalar, sines, self.limits, fineness.boxes);
         let all = model.iter().zip(&rounding).zip(self.scales);
         all.map(|((&model, rounding), &scale)| Split {
             model: relative(model, scale),
@@ -97,8 +101,20 @@ impl Subject<'_> {
                 stages => stages.to_vec(),
             },
             emitted: self.emitted.clone(),
-            text: function::write(self.emitted, scalar, &MathPath::default(), &[]),
+            text: function::with_sines(
+                self.emitted,
+                scalar,
+                &MathPath::default(),
+                self.sines(scalar),
+                &[],
+            ),
+            sines: self.sines(scalar).to_vec(),
             bounds,
         }
+    }
+
+    /// The polynomials for sines in a scalar.
+    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
+        sincos::of(self.sines, scalar)
     }
 }

@@ -1,0 +1,200 @@
+//! Certificates of functions whose sines are polynomials: they hold, follow
+//! from the tolerance, and are caught when they lie.
+
+mod support;
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::certificate::subject::Fineness;
+use dalembert_codegen::certify::certificate::{Certificate, Refuted};
+use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::certify::interval::Interval;
+use dalembert_codegen::certify::json::read_sines;
+use dalembert_codegen::certify::scale;
+use dalembert_codegen::certify::sines::within;
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::emit::{MathPath, function};
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::Start;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::schedule::Program;
+use dalembert_codegen::sincos::kernel::Term;
+use dalembert_codegen::sincos::{Sines, counts};
+use dalembert_model::number::Rational;
+use dalembert_model::robot::Robot;
+
+const TOLERANCE: f64 = 1e-5;
+
+struct Case {
+    robot: Robot,
+    limits: InputBox,
+    program: Program,
+    scales: Vec<f64>,
+}
+
+fn case(robot: Robot, scales: impl Fn(&Robot, &Program) -> Vec<f64>) -> Case {
+    let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
+    let program = generated.functions[0].program.clone();
+    Case {
+        limits: InputBox::of(&robot).unwrap(),
+        scales: scales(&robot, &program),
+        program,
+        robot,
+    }
+}
+
+/// A light one, whose angles add up.
+fn planar() -> Case {
+    let mut robot = support::robot("planar3r");
+    for joint in &mut robot.joints {
+        let number = |n: i64| Some(Rational::from_integer(n.into()));
+        joint.limits.velocity = number(2);
+        joint.limits.acceleration = number(10);
+    }
+    case(robot, |_, _| vec![20.0, 10.0, 5.0])
+}
+
+impl Case {
+    fn sines(&self, scalar: ScalarType, tolerance: f64) -> Sines {
+        let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
+        within(&self.program, scalar, &self.limits, &allowances, 256).unwrap()
+    }
+
+    fn certificate(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
+        let (robot, program) = (&self.robot, &self.program);
+        let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
+        libm.with_sines(&Setting::whole(robot), sines, Fineness::CERTIFY)
+    }
+
+    /// The certificate with other sines in its text, and the same claims.
+    fn with_other(&self, honest: &Certificate, sines: Sines) -> Certificate {
+        let mut other = honest.clone();
+        let math = MathPath::default();
+        other.text = function::with_sines(&self.program, honest.scalar, &math, &sines, &[]);
+        other.sines = sines;
+        other
+    }
+}
+
+#[test]
+fn a_certificate_with_polynomials_holds_and_is_not_refuted() {
+    let case = planar();
+    for (scalar, tolerance) in [(ScalarType::F64, TOLERANCE), (ScalarType::F32, 1e-3)] {
+        let sines = case.sines(scalar, tolerance);
+        let certificate = case.certificate(scalar, &sines);
+        certificate.check(&case.robot).unwrap();
+        let attack = attack(&certificate, 4000, 3, 1).unwrap();
+        assert_eq!(attack.violation, None, "{:?}", attack.observed);
+        for bound in &certificate.bounds {
+            assert!(bound.sincos <= tolerance && bound.sincos > bound.rounding);
+        }
+        // All of the tolerance is not too much by far for the worst output.
+        let worst = certificate.bounds.iter().map(|b| b.sincos);
+        assert!(worst.fold(0.0, f64::max) > tolerance / 100.0);
+        let json = certificate.to_json();
+        assert!(json.contains("\"polynomials\"") && !json.contains("libm"));
+    }
+}
+
+/// Of the PUMA at 1e-6, the bar of the bench.
+#[test]
+fn operations_follow_from_the_tolerance() {
+    let case = case(support::robot("puma560"), |robot, program| {
+        scale::actuator(robot, program).unwrap()
+    });
+    let operations = |tolerance| {
+        let (mul, add) = counts(&case.sines(ScalarType::F64, tolerance));
+        mul + add
+    };
+    let all: Vec<usize> = [1e-2, 1e-4, 1e-6, 1e-12].map(operations).to_vec();
+    assert!(all.is_sorted() && all[0] < all[3], "{all:?}");
+    assert!(all[2] <= 88, "{all:?}");
+}
+
+#[test]
+fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
+    let case = planar();
+    let sines = case.sines(ScalarType::F64, TOLERANCE);
+    let honest = case.certificate(ScalarType::F64, &sines);
+    let literals = |sines: &Sines| {
+        let steps = sines[0].kernel.steps.iter().enumerate();
+        let is = |term: &Term| matches!(term, Term::Literal(_));
+        let found = steps.filter(|(_, step)| is(&step.left) || is(&step.right));
+        found.map(|(index, _)| index).collect::<Vec<usize>>()
+    };
+    for index in literals(&sines) {
+        let mut changed = sines.clone();
+        let step = &mut changed[0].kernel.steps[index];
+        for term in [&mut step.left, &mut step.right] {
+            if let Term::Literal(value) = term {
+                *value *= 1.0 + 1e-2;
+            }
+        }
+        let lie = case.with_other(&honest, changed.clone());
+        let refuted = lie.check(&case.robot);
+        assert!(
+            matches!(refuted, Err(Refuted::Sine { .. })),
+            "x{}",
+            index + 1
+        );
+        let found = attack(&lie, 2000, 2, 3).unwrap();
+        assert!(
+            found.violation.is_some(),
+            "x{}: {:?}",
+            index + 1,
+            found.observed
+        );
+        // In the text alone it is not the certificate's polynomial.
+        let mut text = honest.clone();
+        text.text = lie.text;
+        assert!(matches!(text.check(&case.robot), Err(Refuted::Text(_))));
+    }
+}
+
+#[test]
+fn a_claim_made_too_small_is_caught() {
+    let case = planar();
+    let sines = case.sines(ScalarType::F64, TOLERANCE);
+    let honest = case.certificate(ScalarType::F64, &sines);
+    let refuted = |lie: &Certificate| lie.check(&case.robot).unwrap_err();
+
+    let mut error = honest.clone();
+    error.sines[0].errors.cos *= 0.999;
+    assert!(matches!(refuted(&error), Refuted::Sine { .. }));
+    error.sines[0].errors.cos = f64::NAN;
+    assert!(matches!(refuted(&error), Refuted::Sine { .. }));
+
+    // Over less than its angle takes, a polynomial errs less.
+    let mut range = honest.clone();
+    range.sines[1].range = Interval::new(-3.0, 3.0).unwrap();
+    assert!(matches!(refuted(&range), Refuted::SineRange { .. }));
+
+    let mut bound = honest.clone();
+    bound.bounds[2].sincos /= 2.0;
+    assert!(matches!(refuted(&bound), Refuted::Bound { .. }));
+    // The sampler sees it when it is below what happens.
+    for bound in &mut bound.bounds {
+        bound.sincos /= 50.0;
+    }
+    assert!(attack(&bound, 4000, 3, 5).unwrap().violation.is_some());
+
+    // Polynomials that nothing is claimed of, and claims without polynomials.
+    let mut silent = honest.clone();
+    silent.sines.clear();
+    assert!(matches!(refuted(&silent), Refuted::Text(_)));
+    let claims = |certificate: &Certificate, name: &str| {
+        let sine = &certificate.sines[0];
+        vec![(name.to_owned(), sine.form.clone(), sine.range, sine.errors)]
+    };
+    let read = |text: &str, name: &str| {
+        read_sines(
+            text,
+            honest.emitted.function,
+            honest.scalar,
+            claims(&honest, name),
+        )
+    };
+    let name = honest.sines[0].angle.to_string();
+    assert_eq!(read(&honest.text, &name).unwrap(), honest.sines[..1]);
+    assert!(read(&honest.text, "9").unwrap_err().contains("polynomials"));
+    assert!(read(&honest.text, "x").unwrap_err().contains("no angle"));
+}
