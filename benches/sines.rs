@@ -8,6 +8,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
+#[rustfmt::skip] // As the generator writes it.
 #[path = "generated/puma560_sines.rs"]
 mod variants;
 
