@@ -69,8 +69,9 @@ pub struct Choice {
     /// Search anew even if a plan is kept beside the robot file
     #[arg(long)]
     pub no_plan: bool,
-    /// Where sines come from; `polynomial` holds over the joints' limits
-    #[arg(long, value_name = "HOW", default_value = "libm", value_parser = ["libm", "polynomial"])]
+    /// Where sines come from; `polynomial` holds over the joints' limits,
+    /// `auto` takes it where a scene's tolerance admits it
+    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = ["auto", "libm", "polynomial"])]
     pub sincos: String,
     /// The largest error of each sine and cosine by polynomials
     #[arg(long, value_name = "ERROR", default_value_t = 1e-6, value_parser = error_parser())]
@@ -92,10 +93,13 @@ impl Choice {
         if let Some(scalar) = self.scalar {
             request.scalars = vec![scalar];
         }
-        if self.sincos == "polynomial" {
-            let error = self.sincos_error;
-            request.sincos = SinCos::Polynomial { error };
-        }
+        request.sincos = match self.sincos.as_str() {
+            "polynomial" => SinCos::Polynomial {
+                error: self.sincos_error,
+            },
+            "libm" => SinCos::Libm,
+            _ => SinCos::Auto,
+        };
         request
     }
 }

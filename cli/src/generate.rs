@@ -127,12 +127,12 @@ fn save_plan(
                 scene: request.scene.as_ref().map(SceneKey::of),
                 program: exact(function).clone(),
                 edited: function.admitted.as_ref().and_then(|admitted| {
-                    let mut all = admitted.certificates.iter();
-                    let mine = all.find(|certificate| certificate.scalar == scalar)?;
+                    let mut all = admitted.certificates.iter().zip(&admitted.libm);
+                    let (_, bounds) = all.find(|(certificate, _)| certificate.scalar == scalar)?;
                     Some(Edited {
                         stages: admitted.stages.clone(),
                         program: admitted.program.clone(),
-                        bounds: mine.bounds.clone(),
+                        bounds: bounds.clone(),
                     })
                 }),
             });

@@ -157,7 +157,7 @@ impl Default for Request {
             prefer: Prefer::Accuracy,
             plan: None,
             watch: Watch::default(),
-            sincos: SinCos::Libm,
+            sincos: SinCos::default(),
             math: MathPath::default(),
             module: None,
             scene: None,
@@ -322,7 +322,9 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     }
     let scalars = tolerate(&setting, &mut functions, request)?;
     for generated in &mut functions {
-        generated.sines = sines(&setting, generated, &scalars, request)?;
+        if generated.sines.is_empty() {
+            generated.sines = sines(&setting, generated, &scalars, request)?;
+        }
     }
     let mut warnings = Vec::new();
     for generated in &functions {
@@ -395,7 +397,8 @@ fn sines(
     let fail = |why: String| GenerateError::SinCos(generated.function, why);
     if generated.admitted.is_some() {
         return Err(fail(
-            "the certificates of a scene's tolerance are for libm's sines: take `libm`".into(),
+            "a scene's tolerance decides how exact its sines are: leave that to it, or take `libm`"
+                .into(),
         ));
     }
     let all = scalars.iter().map(|&scalar| {

@@ -15,6 +15,7 @@ use crate::generate::{GenerateError, GeneratedFunction, Request};
 use crate::plan::{Edited, SceneKey};
 use crate::scene::Setting;
 use crate::simplify::Effort;
+use crate::sincos::SinCos;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
@@ -42,6 +43,9 @@ pub(crate) fn tolerate(
                 for (function, admitted) in functions.iter_mut().zip(admitted) {
                     function.program = admitted.program.clone();
                     function.counts = admitted.program.counts();
+                    let sines = admitted.certificates.iter();
+                    let sines = sines.filter(|c| !c.sines.is_empty());
+                    function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
                     function.admitted = Some(admitted);
                 }
                 return Ok(scalars);
@@ -63,17 +67,26 @@ fn one(
     let function = generated.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
     let frame = Frame::new(setting, &generated.program, tolerance.relative_to).map_err(fail)?;
-    if let Some(admitted) = kept(&frame, function, scalars, request)? {
-        return Ok(admitted);
-    }
+    let tolerances = frame.tolerances(tolerance);
     let (settings, fineness) = match request.effort {
         Effort::Quick => (QUICK, Fineness::GLANCE),
         Effort::Thorough => (Settings::default(), Fineness::CERTIFY),
     };
-    let tolerances = frame.tolerances(tolerance);
-    frame
-        .choose(&tolerances, scalars, &settings, fineness)
-        .map_err(fail)
+    let mut admitted = match kept(&frame, function, scalars, request)? {
+        Some(kept) => kept,
+        None => frame
+            .choose(&tolerances, scalars, &settings, fineness)
+            .map_err(fail)?,
+    };
+    if request.sincos == SinCos::Auto {
+        // Always as fine, so that a plan's variant gets the sines that it got
+        // when it was found.
+        for certificate in &mut admitted.certificates {
+            let found = frame.with_polynomials(certificate, &tolerances, Fineness::GLANCE);
+            *certificate = found.unwrap_or_else(|| certificate.clone());
+        }
+    }
+    Ok(admitted)
 }
 
 /// For who waits: seconds for a six-joint arm.

@@ -9,6 +9,8 @@ use dalembert_codegen::certify::certificate::subject::Fineness;
 use dalembert_codegen::certify::choose::{Admitted, Frame};
 use dalembert_codegen::certify::prune::Settings;
 use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::graph::Counts;
+use dalembert_codegen::sincos;
 
 use crate::args::TradeoffArgs;
 use crate::outcome::Failure;
@@ -42,14 +44,28 @@ pub struct Time {
 impl Point {
     /// Where its certificate goes.
     pub fn file(&self) -> String {
-        format!("{:e}-{}.json", self.tolerance, self.certificate.scalar)
+        let Certificate { scalar, sines, .. } = &self.certificate;
+        let by = if sines.is_empty() { "" } else { "-polynomials" };
+        format!("{:e}-{scalar}{by}.json", self.tolerance)
     }
 
     /// Which kind of variant it is: scalar and sines.
     pub fn kind(&self) -> usize {
-        match self.certificate.scalar {
-            ScalarType::F64 => 0,
-            ScalarType::F32 => 1,
+        let polynomials = !self.certificate.sines.is_empty();
+        2 * usize::from(polynomials)
+            + match self.certificate.scalar {
+                ScalarType::F64 => 0,
+                ScalarType::F32 => 1,
+            }
+    }
+
+    /// What it costs, with the operations of its sines.
+    pub fn counts(&self) -> Counts {
+        let (trig_mul, trig_add) = sincos::counts(&self.certificate.sines);
+        Counts {
+            trig_mul,
+            trig_add,
+            ..self.certificate.emitted.counts()
         }
     }
 
@@ -101,20 +117,21 @@ impl<'a> Ladder<'a> {
         rungs.reverse();
         let mut points = Vec::new();
         for (tolerance, variants) in rungs {
-            let certificates = variants.into_iter().flat_map(|v| v.certificates);
-            for certificate in certificates {
+            let tolerances = vec![tolerance; self.frame.scales.len()];
+            for certificate in variants.into_iter().flat_map(|v| v.certificates) {
+                let polynomials = (tolerance > 0.0).then(|| {
+                    self.frame
+                        .with_polynomials(&certificate, &tolerances, Fineness::CERTIFY)
+                });
                 points.push(self.point(tolerance, certificate)?);
+                if let Some(certificate) = polynomials.flatten() {
+                    points.push(self.point(tolerance, certificate)?);
+                }
             }
         }
         points.sort_by(|a, b| {
             let order = a.tolerance.total_cmp(&b.tolerance);
-            order.then(
-                a.certificate
-                    .scalar
-                    .name()
-                    .cmp(b.certificate.scalar.name())
-                    .reverse(),
-            )
+            order.then(a.kind().cmp(&b.kind()))
         });
         Ok(points)
     }
@@ -182,8 +199,10 @@ impl<'a> Ladder<'a> {
         match attack.violation {
             None => Ok(attack.observed.into_iter().fold(0.0, f64::max)),
             Some((index, state)) => Err(Failure::Check(format!(
-                "error: {} errs more than its certificate says, at {state:?}: a defect of this program",
-                certificate.emitted.entry(index)
+                "error: {} in {} errs more than E = {:e}, at {state:?}: a defect of this program",
+                certificate.emitted.entry(index),
+                certificate.scalar,
+                certificate.bounds[index].total()
             ))),
         }
     }

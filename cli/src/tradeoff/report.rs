@@ -5,12 +5,20 @@ use crate::output;
 
 /// What a variant costs, dimension by dimension: a narrower scalar is one too.
 fn cost(point: &Point) -> [usize; 3] {
-    let counts = point.certificate.emitted.counts();
+    let counts = point.counts();
     let bits = match point.certificate.scalar {
         dalembert_codegen::emit::ScalarType::F64 => 64,
         dalembert_codegen::emit::ScalarType::F32 => 32,
     };
-    [bits, counts.sincos, counts.operations()]
+    // Polynomials are operations like others; what libm does is not known.
+    match point.certificate.sines.is_empty() {
+        true => [bits, counts.sincos, counts.operations()],
+        false => [
+            bits,
+            0,
+            counts.operations() + counts.trig_mul + counts.trig_add,
+        ],
+    }
 }
 
 /// Marks what is dominated: another point is no dearer, no worse, and not the
@@ -53,16 +61,20 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     head.push("front");
     let mut rows = vec![head.into_iter().map(String::from).collect()];
     for point in points {
-        let counts = point.certificate.emitted.counts();
+        let counts = point.counts();
+        let by = match point.certificate.sines.is_empty() {
+            true => "libm",
+            false => "polynomials",
+        };
         let mut row = vec![
             format!("{:e}", point.tolerance),
             point.certificate.scalar.to_string(),
-            "libm".to_owned(),
+            by.to_owned(),
             counts.mul.to_string(),
             counts.add.to_string(),
             counts.sincos.to_string(),
-            "0".to_owned(),
-            "0".to_owned(),
+            counts.trig_mul.to_string(),
+            counts.trig_add.to_string(),
             point.edits().to_string(),
             format!("{:.digits$e}", point.certified),
             format!("{:.digits$e}", point.observed),

@@ -17,6 +17,7 @@ use super::input_box::{InputBox, MissingLimit};
 use super::prune::{Settings, prune};
 use super::scale;
 use super::sensitivity::rounding;
+use super::sines;
 use crate::emit::ScalarType;
 use crate::scene::Setting;
 use crate::schedule::Program;
@@ -46,6 +47,8 @@ pub struct Admitted {
     pub program: Program,
     /// One a scalar, as they were asked for.
     pub certificates: Vec<Certificate>,
+    /// The bounds of each with libm's sines, which plans keep.
+    pub libm: Vec<Vec<Split>>,
 }
 
 /// Why no variant meets a tolerance.
@@ -171,11 +174,7 @@ impl<'a> Frame<'a> {
         let subject = self.subject(stages, emitted);
         let model = subject.model(fineness);
         let certificate = |&scalar| subject.claim(scalar, subject.bounds(scalar, &model, fineness));
-        Admitted {
-            stages: stages.to_vec(),
-            program: emitted.clone(),
-            certificates: scalars.iter().map(certificate).collect(),
-        }
+        Admitted::of(stages, emitted, scalars.iter().map(certificate).collect())
     }
 
     /// The variant of a plan, with its claims: program and edits are proved to
@@ -201,11 +200,7 @@ impl<'a> Frame<'a> {
             certificate.check_edits()?;
             certificates.push(certificate);
         }
-        Ok(Admitted {
-            stages: stages.to_vec(),
-            program: emitted.clone(),
-            certificates,
-        })
+        Ok(Admitted::of(stages, emitted, certificates))
     }
 
     /// The cheapest variant found of which every output in every scalar is
@@ -238,6 +233,33 @@ impl<'a> Frame<'a> {
         Ok(exact)
     }
 
+    /// A variant with polynomials for its sines: the cheapest that what edits
+    /// and rounding leave of the tolerances admits. `None` if there are none,
+    /// or no sines.
+    pub fn with_polynomials(
+        &self,
+        certificate: &Certificate,
+        tolerances: &[f64],
+        fineness: Fineness,
+    ) -> Option<Certificate> {
+        let Certificate {
+            emitted, scalar, ..
+        } = certificate;
+        if emitted.trig.is_empty() {
+            return None;
+        }
+        // The values that rounding is bounded with change a little.
+        let left = certificate.bounds.iter().zip(tolerances);
+        let left = left.map(|(bound, t)| (t - bound.model - 1.01 * bound.rounding) * (1.0 - 1e-9));
+        let allowances: Vec<f64> = left
+            .zip(&self.scales)
+            .map(|(left, scale)| (left * scale).max(0.0))
+            .collect();
+        let sines = sines::within(emitted, *scalar, &self.limits, &allowances, fineness.boxes);
+        let found = certificate.with_sines(self.setting, &sines.ok()?, fineness);
+        within(&found, tolerances).is_ok().then_some(found)
+    }
+
     /// What is left for edits, in each output's unit; `None` if that is
     /// nothing.
     fn allowances(
@@ -263,22 +285,35 @@ impl<'a> Frame<'a> {
 }
 
 impl Admitted {
+    fn of(stages: &[Stage], emitted: &Program, certificates: Vec<Certificate>) -> Admitted {
+        Admitted {
+            stages: stages.to_vec(),
+            program: emitted.clone(),
+            libm: certificates.iter().map(|c| c.bounds.clone()).collect(),
+            certificates,
+        }
+    }
+
     /// Whether every E is within its output's tolerance.
     ///
     /// # Errors
     /// [`Refusal::Above`] with the first that is not.
     pub fn within(&self, tolerances: &[f64]) -> Result<(), Refusal> {
-        for certificate in &self.certificates {
-            let mut pairs = certificate.bounds.iter().zip(tolerances);
-            if let Some(index) = pairs.position(|(bound, &tolerance)| bound.total() > tolerance) {
-                return Err(Refusal::Above {
-                    entry: certificate.emitted.entry(index),
-                    scalar: certificate.scalar,
-                    tolerance: tolerances[index],
-                    bound: certificate.bounds[index],
-                });
-            }
-        }
-        Ok(())
+        self.certificates
+            .iter()
+            .try_for_each(|c| within(c, tolerances))
+    }
+}
+
+fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), Refusal> {
+    let mut pairs = certificate.bounds.iter().zip(tolerances);
+    match pairs.position(|(bound, &tolerance)| bound.total() > tolerance) {
+        None => Ok(()),
+        Some(index) => Err(Refusal::Above {
+            entry: certificate.emitted.entry(index),
+            scalar: certificate.scalar,
+            tolerance: tolerances[index],
+            bound: certificate.bounds[index],
+        }),
     }
 }

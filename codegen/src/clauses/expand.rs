@@ -157,7 +157,7 @@ fn functions(
         plan: source.plan.clone(),
         watch: Watch::default(),
         prefer: Prefer::default(),
-        sincos: crate::sincos::SinCos::Libm,
+        sincos: crate::sincos::SinCos::default(),
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
         scene: None,

@@ -37,8 +37,10 @@ use proof::Errors;
 /// How emitted code gets sines and cosines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SinCos {
-    /// From libm, good for every angle.
+    /// By polynomials where a scene's tolerance admits them, else from libm.
     #[default]
+    Auto,
+    /// From libm, good for every angle.
     Libm,
     /// By polynomials over the joints' ranges. The code needs no libm then,
     /// and is wrong outside the ranges that its documentation names.
