@@ -27,7 +27,7 @@ use dalembert_model::scene::{Scale, Scene};
 use crate::args::TradeoffArgs;
 use crate::outcome::{Failure, Outcome};
 use crate::{input, output};
-use ladder::Ladder;
+use ladder::{Ladder, Point};
 
 /// Tolerances unless others are asked for; zero is always there.
 const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
@@ -60,16 +60,28 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     }
     report::mark(&mut points);
     output::print(&report::table(&points))?;
-    let Some(folder) = &args.output else {
-        return Ok(());
-    };
-    let title = title(&reading, scene, exact.function, relative_to);
-    output::write_file(&folder.join("tradeoff.csv"), &report::csv(&points))?;
-    output::write_file(&folder.join("tradeoff.svg"), &chart::svg(&title, &points))?;
+    if let Some(folder) = &args.output {
+        let title = title(&reading, scene, exact.function, relative_to);
+        write(folder, &title, &points)?;
+    }
+    let violated = points.iter().filter_map(|point| {
+        let why = point.violation.as_ref()?;
+        Some(format!("error: {} is violated: {why}", point.file()))
+    });
+    let violated: Vec<String> = violated.collect();
+    match violated.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Check(violated.join("\n"))),
+    }
+}
+
+fn write(folder: &Path, title: &str, points: &[Point]) -> Outcome {
+    output::write_file(&folder.join("tradeoff.csv"), &report::csv(points))?;
+    output::write_file(&folder.join("tradeoff.svg"), &chart::svg(title, points))?;
     let certificates = folder.join("certificates");
     fs::create_dir_all(&certificates)
         .map_err(|error| Failure::Input(format!("error: `{}`: {error}", certificates.display())))?;
-    for point in &points {
+    for point in points {
         let text = point.certificate.to_json();
         output::write_file(&certificates.join(point.file()), &text)?;
     }
