@@ -36,6 +36,7 @@ use crate::generate::{Request, Start, generate};
 use crate::plan;
 use crate::scene;
 use crate::simplify::Effort;
+use crate::sincos::SinCos;
 use dalembert_model::robot::Severity;
 
 /// What to generate, and from which robot file.
@@ -121,6 +122,14 @@ impl Generator {
     #[must_use]
     pub fn math(mut self, path: impl Into<String>) -> Self {
         self.request.math = MathPath(path.into());
+        self
+    }
+
+    /// Where sines come from. Polynomials over the joints'
+    /// limits are faster and need no libm.
+    #[must_use]
+    pub fn sincos(mut self, sincos: SinCos) -> Self {
+        self.request.sincos = sincos;
         self
     }
 

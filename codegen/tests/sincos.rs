@@ -3,6 +3,7 @@
 
 mod support;
 
+use dalembert_codegen::certify::certificate::Split;
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
@@ -149,4 +150,34 @@ fn what_is_no_number_stays_none() {
             assert!(results.iter().all(|x| !x.is_finite()), "{results:?}");
         }
     }
+}
+
+const SCENE: &str = r#"
+[scene.rough]
+outputs = ["inverse_dynamics"]
+box = { position = [[-3, 3], [0.2, 2.8]], velocity = [2, 3], acceleration = [10, 20] }
+tolerance = { value = 1e-4, relative_to = "range" }
+scalar = "f64"
+"#;
+
+/// By default polynomials are as exact as the scene's tolerance needs, and
+/// are in its certificates.
+#[test]
+fn a_tolerance_says_how_exact_sines_are() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+    let source = std::fs::read_to_string(folder.join("planar2r.toml")).unwrap() + SCENE;
+    let reading = dalembert_model::read::parse(&source, &Default::default()).unwrap();
+    let scene = &reading.scenes[0];
+    let request = Request::default().in_scene(scene, false, false);
+    let generated = generate(&reading.robot, &request).unwrap();
+    let function = &generated.functions[0];
+    let setting = Setting::of(&reading.robot, Some(scene)).unwrap();
+    let certificate = &function.admitted.as_ref().unwrap().certificates[0];
+    assert_eq!(certificate.sines, function.sines(ScalarType::F64));
+    certificate.check_in(&setting).unwrap();
+    let most = |of: fn(&Split) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
+    let (all, part) = (most(|b| b.total()), most(|b| b.sincos));
+    assert!(all <= 1e-4 && part > 1e-7, "{all:e} {part:e}");
+    let text = &generated.text;
+    assert!(!text.contains("libm") && text.contains("Certified") && text.contains("about pi/2"));
 }

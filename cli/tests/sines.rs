@@ -1,0 +1,101 @@
+//! `--sincos polynomial`: generated, counted, verified, certified, refused.
+
+mod support;
+
+use std::fs;
+
+use serde_json::Value;
+use support::{robot, run, temporary};
+
+const POLYNOMIAL: [&str; 4] = ["--outputs", "inverse_dynamics", "--sincos", "polynomial"];
+
+fn with(subcommand: &str, more: &[&str]) -> support::Ran {
+    let robot = robot("planar2r");
+    run(&[&[subcommand, &robot], &POLYNOMIAL[..], more].concat())
+}
+
+#[test]
+fn generated_counted_and_verified() {
+    let generated = with("generate", &["--sincos-error", "1e-5"]);
+    assert_eq!(generated.code, 0, "{}", generated.err);
+    assert!(!generated.out.contains("libm") && generated.out.contains("| angle |"));
+    assert!(generated.err.contains("trig_mul"));
+
+    let counted = with("count", &["--sincos-error", "1e-5", "--json"]);
+    let json: Value = serde_json::from_str(&counted.out).unwrap();
+    let counts = &json["functions"]["inverse_dynamics"];
+    assert!(counts["trig_mul"].as_u64() > Some(0) && counts["trig_add"].as_u64() > Some(0));
+
+    let verified = with("verify", &["--sincos-error", "1e-5", "--json"]);
+    assert_eq!(verified.code, 0, "{}", verified.err);
+    let json: Value = serde_json::from_str(&verified.out).unwrap();
+    // Two angles in two scalars.
+    let sines = json["sines"].as_array().unwrap();
+    assert_eq!(sines.len(), 4);
+    for sine in sines {
+        let (seen, proved) = (sine["seen"].as_f64(), sine["proved"].as_f64());
+        assert!(seen > Some(0.0) && seen <= proved && proved < Some(1.1e-5));
+    }
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    for (error, why) in [("0", "above 0"), ("nan", "above 0"), ("1e-12", "at best")] {
+        let ran = with("generate", &["--sincos-error", error]);
+        assert_eq!(ran.code, 2, "{error}");
+        assert!(ran.err.contains(why), "{}", ran.err);
+    }
+}
+
+const SCENE: &str = r#"
+[scene.rough]
+outputs = ["inverse_dynamics"]
+box = { position = [[-3, 3], [0.2, 2.8]], velocity = [2, 3], acceleration = [10, 20] }
+tolerance = { value = 1e-4, relative_to = "range" }
+scalar = "f64"
+"#;
+
+/// The certificate of a scene carries its polynomials, and `certify` proves
+/// them from the text.
+#[test]
+fn certified_again_from_the_text() {
+    let folder = temporary("sines");
+    let file = folder.join("arm.toml");
+    let source = fs::read_to_string(robot("planar2r")).unwrap() + SCENE;
+    fs::write(&file, source).unwrap();
+    let arm = file.to_str().unwrap();
+    let code = folder.join("arm.rs");
+    let ran = run(&[
+        "generate",
+        arm,
+        "--scene",
+        "rough",
+        "-o",
+        code.to_str().unwrap(),
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let mut files = fs::read_dir(&folder).unwrap().map(|f| f.unwrap().path());
+    let kept = files
+        .find(|f| f.extension().is_some_and(|e| e == "json"))
+        .unwrap();
+    let check = |name: &str, text: &str| {
+        let path = folder.join(name);
+        fs::write(&path, text).unwrap();
+        run(&["certify", path.to_str().unwrap(), "--robot", arm])
+    };
+    let honest = fs::read_to_string(&kept).unwrap();
+    assert!(honest.contains("\"polynomials\""));
+    let ran = check("honest.json", &honest);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+
+    let mut lie: Value = serde_json::from_str(&honest).unwrap();
+    let certificate = match lie.as_array_mut() {
+        Some(all) => &mut all[0],
+        None => &mut lie,
+    };
+    let error = &mut certificate["polynomials"][0]["sin"];
+    *error = (error.as_f64().unwrap() / 2.0).into();
+    let ran = check("lie.json", &lie.to_string());
+    assert_eq!(ran.code, 1);
+    assert!(ran.err.contains("what can be shown"), "{}", ran.err);
+}
