@@ -187,3 +187,31 @@ pub fn relative(x: f64, scale: f64) -> f64 {
         f64::INFINITY
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certify::interval::Interval;
+    use crate::graph::builder::Value;
+    use crate::graph::{Builder, Folding};
+    use dalembert_model::number::{Exact, Rational};
+
+    /// What is left out may be a rate alone, with no angle to cut: 4e-5·q̈₁.
+    #[test]
+    fn an_error_without_angles_is_bounded() {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let rate = builder.input(Input::Acceleration(0));
+        let small = Rational::new(4.into(), 100_000.into());
+        let error = builder.mul(&rate, &Value::Constant(Exact::from(small)));
+        let graph = builder.finish(&[error]);
+        let limits = InputBox {
+            position: vec![Interval::symmetric(3.0)],
+            velocity: vec![Interval::ZERO],
+            acceleration: vec![Interval::symmetric(30.0)],
+        };
+        for budget in [Budget::GLANCE, Budget::CERTIFY] {
+            let bound = magnitudes(&graph, &limits, &[1.0], 0.0, budget)[0];
+            assert!((1.2e-3..1.3e-3).contains(&bound), "{bound:e}");
+        }
+    }
+}

@@ -208,7 +208,10 @@ impl Layout {
 
     /// No sine is larger than one.
     fn crude(&self, level: usize, work: &Work) -> f64 {
-        let sizes = self.sizes.get(level).map_or(&[][..], Vec::as_slice);
+        // After the last angle only rates are left.
+        let Some(sizes) = self.sizes.get(level) else {
+            return self.value(&work.buffers[level]) * (1.0 + 1e-9);
+        };
         let terms = work.buffers[level].iter().zip(sizes);
         terms.fold(self.slack, |sum, (x, size)| sum + x.abs() * size) * (1.0 + 1e-9)
     }
