@@ -222,5 +222,9 @@ fn parse(json: &Value) -> Result<Certificate, String> {
         emitted,
         text: printed,
         bounds: bounds.collect(),
+        lambda_min: match json.get("lambda_min") {
+            None => None,
+            Some(value) => Some(value.as_f64().ok_or("`lambda_min` is no number")?),
+        },
     })
 }

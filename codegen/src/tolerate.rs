@@ -91,8 +91,8 @@ fn one(
 
 /// For who waits: seconds for a six-joint arm.
 const QUICK: Settings = Settings {
-    samples: 24,
-    guesses: 3,
+    samples: 16,
+    guesses: 5,
     retries: 0,
     stages: 1,
     budget: Fineness::GLANCE.budget,

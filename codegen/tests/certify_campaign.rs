@@ -55,8 +55,8 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType]) {
     let setting = Setting::of(&reading.robot, bare.as_ref()).unwrap();
     let frame = Frame::new(&setting, &exact, Scale::Range).unwrap();
     let settings = Settings {
-        samples: 48,
-        guesses: 4,
+        samples: 24,
+        guesses: 5,
         retries: 0,
         stages: 1,
         ..Settings::default()

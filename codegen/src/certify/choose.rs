@@ -12,6 +12,7 @@ use dalembert_model::scene::{Scale, Tolerance};
 
 use super::certificate::subject::{Fineness, Subject};
 use super::certificate::{Certificate, Refuted, Split};
+use super::definite::{Indefinite, has_inertia, least_eigenvalue};
 use super::edits::Stage;
 use super::input_box::{InputBox, MissingLimit};
 use super::prune::{Settings, prune};
@@ -58,6 +59,8 @@ pub enum Refusal {
     Missing(MissingLimit),
     /// The exact program cannot be read back: a defect of this library.
     Text(TextError),
+    /// The full model's D cannot be shown to be positive definite.
+    Indefinite(Indefinite),
     /// Already what sines and rounding cost cannot be shown to be less.
     Above {
         /// The output's name.
@@ -76,6 +79,7 @@ impl fmt::Display for Refusal {
         match self {
             Refusal::Missing(missing) => missing.fmt(f),
             Refusal::Text(error) => error.fmt(f),
+            Refusal::Indefinite(why) => write!(f, "the full model: {why}"),
             Refusal::Above {
                 entry,
                 scalar,
@@ -173,7 +177,10 @@ impl<'a> Frame<'a> {
     ) -> Admitted {
         let subject = self.subject(stages, emitted);
         let model = subject.model(fineness);
-        let certificate = |&scalar| subject.claim(scalar, subject.bounds(scalar, &model, fineness));
+        let certificate = |&scalar| Certificate {
+            lambda_min: subject.least_eigenvalue(scalar),
+            ..subject.claim(scalar, subject.bounds(scalar, &model, fineness))
+        };
         Admitted::of(stages, emitted, scalars.iter().map(certificate).collect())
     }
 
@@ -226,8 +233,14 @@ impl<'a> Frame<'a> {
                 break;
             }
             let variant = self.certified(&pruned.stages, &pruned.program, scalars, fineness);
-            if variant.within(tolerances).is_ok() {
+            if variant.within(tolerances).is_ok() && variant.is_definite() {
                 return Ok(variant);
+            }
+        }
+        if has_inertia(self.exact) {
+            // Nothing may go. Is that the model's own fault?
+            for &scalar in scalars {
+                least_eigenvalue(self.exact, scalar, &self.limits).map_err(Refusal::Indefinite)?;
             }
         }
         Ok(exact)
@@ -257,7 +270,8 @@ impl<'a> Frame<'a> {
             .collect();
         let sines = sines::within(emitted, *scalar, &self.limits, &allowances, fineness.boxes);
         let found = certificate.with_sines(self.setting, &sines.ok()?, fineness);
-        within(&found, tolerances).is_ok().then_some(found)
+        let definite = found.lambda_min.is_some() == certificate.lambda_min.is_some();
+        (definite && within(&found, tolerances).is_ok()).then_some(found)
     }
 
     /// What is left for edits, in each output's unit; `None` if that is
@@ -292,6 +306,13 @@ impl Admitted {
             libm: certificates.iter().map(|c| c.bounds.clone()).collect(),
             certificates,
         }
+    }
+
+    /// Whether D, if it is an output and was edited, is positive definite.
+    pub fn is_definite(&self) -> bool {
+        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
+        let certain = |certificate: &Certificate| certificate.lambda_min.is_some();
+        !edited || !has_inertia(&self.program) || self.certificates.iter().all(certain)
     }
 
     /// Whether every E is within its output's tolerance.

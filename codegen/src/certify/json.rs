@@ -75,6 +75,9 @@ impl Certificate {
         if !self.sines.is_empty() {
             field("polynomials", list(self.sines.iter().map(sine)));
         }
+        if let Some(least) = self.lambda_min {
+            field("lambda_min", number(least));
+        }
         let stages = self.stages.iter().map(|stage| {
             let edits = list(stage.edits.iter().map(|edit| string(&write_edit(edit))));
             let program = string(&plan_text(self, &stage.program));

@@ -7,6 +7,7 @@
 //! - [`bound`]: the largest magnitude of a program over a box: written out as
 //!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
 //!   and bound over polynomials in the rates ([`form`])
+//! - [`definite`]: whether D stays positive definite
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
 //!   both over the sub-boxes of `subdivide`
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
@@ -19,6 +20,7 @@ pub mod attack;
 pub mod bound;
 pub mod certificate;
 pub mod choose;
+pub mod definite;
 pub mod edits;
 mod expand;
 pub mod form;

@@ -33,6 +33,7 @@ pub mod subject;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
+use super::definite::{has_inertia, least_eigenvalue_with};
 use super::edits::Stage;
 use super::input_box::InputBox;
 use super::ranges::{Finding, ranges_with};
@@ -97,6 +98,10 @@ pub struct Certificate {
     pub sines: Sines,
     /// E of each output.
     pub bounds: Vec<Split>,
+    /// A lower bound of the least eigenvalue of S D S over the box, if D is
+    /// an output and something was left out; S is diagonal
+    /// ([`definite`](super::definite)). Above zero, D is positive definite.
+    pub lambda_min: Option<f64>,
 }
 
 /// What a check found out.
@@ -133,7 +138,11 @@ impl Certificate {
         };
         let fineness = Fineness::CERTIFY;
         let bounds = subject.bounds(scalar, &subject.model(fineness), fineness);
-        subject.claim(scalar, bounds)
+        let lambda_min = subject.least_eigenvalue(scalar);
+        Certificate {
+            lambda_min,
+            ..subject.claim(scalar, bounds)
+        }
     }
 
     /// The claim's part about sines and rounding: of the emitted program by
@@ -165,7 +174,12 @@ impl Certificate {
         for (bound, model) in bounds.iter_mut().zip(scaled) {
             bound.model = model;
         }
-        subject.claim(self.scalar, bounds)
+        // Sines that are further off move D.
+        let least = self.lambda_min;
+        Certificate {
+            lambda_min: least.and_then(|_| subject.least_eigenvalue(self.scalar)),
+            ..subject.claim(self.scalar, bounds)
+        }
     }
 
     fn subject<'a>(
@@ -220,6 +234,7 @@ impl Certificate {
         }
         let sines = [(self.scalar, self.sines.clone())];
         let found = self.check_bounds(&self.subject(setting, &sines))?;
+        self.check_definite()?;
         Ok(Checked {
             proof,
             bounds: found,
@@ -261,6 +276,21 @@ impl Certificate {
             }
         }
         Ok(())
+    }
+
+    /// D, if it was edited, must be claimed to be positive definite, and be.
+    fn check_definite(&self) -> Result<(), Refuted> {
+        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
+        if self.lambda_min.is_none() && !(edited && has_inertia(&self.emitted)) {
+            return Ok(());
+        }
+        let claimed = self.lambda_min.unwrap_or(0.0);
+        let found = least_eigenvalue_with(&self.emitted, self.scalar, &self.sines, &self.limits)
+            .map_err(Refuted::Indefinite)?;
+        if claimed > 0.0 && claimed <= found {
+            return Ok(());
+        }
+        Err(Refuted::Eigenvalue { claimed, found })
     }
 
     pub(super) fn check_shape(&self, robot: &Robot) -> Result<(), Refuted> {

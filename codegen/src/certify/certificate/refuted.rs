@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::split::Split;
+use crate::certify::definite::Indefinite;
 use crate::certify::edits::BadEdit;
 use crate::certify::ranges::Finding;
 use crate::sincos::proof::Errors;
@@ -57,6 +58,16 @@ pub enum Refuted {
         /// What was found.
         found: Split,
     },
+    /// D cannot be shown to be positive definite.
+    Indefinite(Indefinite),
+    /// The least eigenvalue is claimed to be larger than what can be shown,
+    /// or not claimed at all.
+    Eigenvalue {
+        /// What is claimed; zero if nothing.
+        claimed: f64,
+        /// What was found.
+        found: f64,
+    },
 }
 
 impl fmt::Display for Refuted {
@@ -77,6 +88,11 @@ impl fmt::Display for Refuted {
                 f,
                 "stage {}: the edited program is not the one that follows",
                 stage + 1
+            ),
+            Refuted::Indefinite(why) => why.fmt(f),
+            Refuted::Eigenvalue { claimed, found } => write!(
+                f,
+                "lambda_min: claimed {claimed:e}; what can be shown is {found:e}"
             ),
             Refuted::Text(why) => write!(f, "the printed text: {why}"),
             Refuted::SineRange { angle } => write!(

@@ -4,6 +4,7 @@ use dalembert_model::scene::Scale;
 
 use super::{Certificate, Split};
 use crate::certify::bound::{Budget, magnitudes, relative};
+use crate::certify::definite::{has_inertia, least_eigenvalue_with};
 use crate::certify::edits::{Stage, difference};
 use crate::certify::input_box::InputBox;
 use crate::certify::sensitivity::rounding_with;
@@ -82,7 +83,18 @@ impl Subject<'_> {
         .collect()
     }
 
-    /// The claim for a scalar with these bounds, whether they hold or not.
+    /// A lower bound of the least eigenvalue of S D S, if D is an output and
+    /// something was edited; `None` as well if there is none above zero.
+    pub fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
+        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
+        if !edited || !has_inertia(self.emitted) {
+            return None;
+        }
+        least_eigenvalue_with(self.emitted, scalar, self.sines(scalar), self.limits).ok()
+    }
+
+    /// The claim for a scalar with these bounds, whether they hold or not;
+    /// nothing is claimed of the least eigenvalue.
     pub fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
         let exact = Stage {
             program: self.emitted.clone(),
@@ -110,6 +122,7 @@ impl Subject<'_> {
             ),
             sines: self.sines(scalar).to_vec(),
             bounds,
+            lambda_min: None,
         }
     }
 

@@ -5,10 +5,12 @@ use super::greedy::{Greedy, State};
 use super::motions::Motions;
 use super::{Pruned, Settings};
 use crate::certify::bound;
+use crate::certify::definite::{has_inertia, least_eigenvalue};
 use crate::certify::edits::{Stage, difference};
 use crate::certify::input_box::InputBox;
 use crate::certify::interval::Interval;
 use crate::certify::sample;
+use crate::emit::ScalarType;
 use crate::graph::{Folding, Graph};
 use crate::schedule::Program;
 use crate::simplify::random::Random;
@@ -20,6 +22,9 @@ const POLISH: usize = 12;
 
 /// How much of the allowance sampled errors may use at first.
 const SHARE: f64 = 0.8;
+
+/// In place of the ratio of errors where D may be singular.
+const SINGULAR: f64 = 4.0;
 
 /// One program to edit.
 pub(super) struct Search<'a> {
@@ -166,6 +171,16 @@ impl Search<'_> {
         let pairs = errors.iter().zip(self.allowances);
         let ratio = pairs.fold(0.0f64, |r, (&e, &a)| r.max(bound::relative(e, a)));
         let program = finish(&stages, Effort::Quick, false);
+        // Too much went as well if D may become singular: the next guess
+        // leaves out less.
+        let singular = |program: &Program| {
+            let scalar = ScalarType::F64;
+            has_inertia(program) && least_eigenvalue(program, scalar, self.limits).is_err()
+        };
+        let ratio = match ratio <= 1.0 && singular(&program) {
+            true => SINGULAR,
+            false => ratio,
+        };
         let pruned = Pruned {
             stages,
             program,

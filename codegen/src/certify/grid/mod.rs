@@ -1,0 +1,197 @@
+//! The largest magnitude of a trigonometric polynomial over a box, from its
+//! values at points that lie close where it is large.
+//!
+//! **Soundness.** Let |T| be largest, M, at x₀ and some rates; hold these
+//! rates. Of the first angle's cells one contains x₀'s; c is its middle, δ its
+//! half width, d the degree of T in that angle.
+//!
+//! - *Whole circle.* M. Riesz: |T(c, x₀₂, …)| ≥ M·cos(d·δ) for d·δ ≤ π/2. So
+//!   M ≤ m(c)/cos(d·δ), m(c) being the maximum over the other angles at c.
+//! - *Part of it.* The ends are points of their own. If x₀ is at an end,
+//!   nothing is lost; if not, ∂T(x₀) = 0, |∂²T| ≤ d²·F with F the largest
+//!   value over whole circles (Bernstein), and M ≤ m(c) + ½(d·δ)²·F.
+//!
+//! So M ≤ B is shown by showing m(c) ≤ B·cos(d·δ) for every cell, angle after
+//! angle; a cell for which that fails is cut in three. The first B that is
+//! tried is a value that T takes and a little more. For each point the rates
+//! are at their worst, monomial by monomial.
+//!
+//! What the arithmetic costs: coefficients are intervals, of which the points
+//! take the middle; their radii are added to each value, and so is
+//! [`SLACK`] times the sum of all |coefficient · monomial|, which covers the
+//! few dozen roundings between a coefficient and a value, since every sine and
+//! cosine is at most 1.
+//!
+//! - `layout`: terms regrouped so that points are quick
+//! - `cells`: the bound
+//! - [`least_eigenvalue`]: the same for a symmetric matrix
+
+mod cells;
+mod definite;
+mod layout;
+
+use std::f64::consts::PI;
+
+use super::expand::{Key, Polynomial, rates};
+use super::input_box::InputBox;
+use super::interval::Interval;
+use crate::simplify::random::Random;
+use cells::Cells;
+pub(super) use definite::least_eigenvalue;
+use layout::Layout;
+
+/// More than a hundred roundings of double precision, relative.
+const SLACK: f64 = 1e-13;
+
+/// What a bound exceeds a value that is taken by, relative.
+const CLOSE: f64 = 0.02;
+
+/// d·δ of the first cells is π over one of these: the finest that leaves
+/// points for more.
+const FIRST: [usize; 3] = [8, 6, 4];
+
+/// Cells whose d·δ is below this are not cut: with four angles their cosines
+/// take 1.6 of the two hundredths.
+const FINEST: f64 = 0.09;
+
+/// Places to climb from.
+const STARTS: usize = 12;
+
+/// Largest magnitudes of polynomials over a box, no closer than `goals` where
+/// they are smaller; `None` if even the first cells have more points than
+/// allowed.
+pub(super) fn magnitudes(
+    polynomials: &[Polynomial],
+    limits: &InputBox,
+    sliding: &[bool],
+    goals: &[f64],
+    points: usize,
+) -> Option<Vec<f64>> {
+    let range = |key: Key| range(key, limits);
+    polynomials
+        .iter()
+        .zip(goals)
+        .map(|(polynomial, &goal)| {
+            let layout = Layout::new(polynomial, limits, sliding, &range);
+            let first = first_cells(&layout, points)?;
+            let whole = bound(&layout, limits, None, goal, [first, points]);
+            if !layout.part.contains(&true) {
+                return Some(whole);
+            }
+            let part = bound(&layout, limits, Some(whole), goal, [first, points]);
+            Some(whole.min(part))
+        })
+        .collect()
+}
+
+/// How fine the first cells are; `None` if even the coarsest are too many.
+fn first_cells(layout: &Layout, points: usize) -> Option<usize> {
+    FIRST.into_iter().find(|&first| {
+        let counts = layout.degrees.iter().map(|&d| (first * d as usize) as f64);
+        counts.product::<f64>() * 4.0 <= points as f64
+    })
+}
+
+/// A bound over the whole circles, or, given that, over the box.
+fn bound(
+    layout: &Layout,
+    limits: &InputBox,
+    whole: Option<f64>,
+    goal: f64,
+    [first, points]: [usize; 2],
+) -> f64 {
+    let mut cells = Cells {
+        layout,
+        buffers: layout.buffers(),
+        accept: &|values, bound| layout.value(values) <= bound,
+        crude: true,
+        first,
+        whole,
+        ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
+        points,
+    };
+    let least = climb(&mut cells);
+    let crude = layout.crude(0, &cells.buffers[0]);
+    let mut bound = (least * (1.0 + CLOSE)).max(goal) + 2.0 * layout.slack;
+    let mut more = 2.0 * CLOSE;
+    while bound < crude {
+        cells.points = points;
+        if cells.below(0, bound) {
+            return bound;
+        }
+        if cells.points == 0 {
+            // Out of points: much less close.
+            more = more.max(0.25);
+        }
+        bound *= 1.0 + more;
+        more *= 2.0;
+    }
+    crude
+}
+
+/// A value that is taken: the largest of a coarse grid, climbed from.
+fn climb(cells: &mut Cells<'_>) -> f64 {
+    let count = cells.layout.joints.len();
+    let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
+        Some((range, _)) => (range.low(), range.high()),
+        None => (0.0, 2.0 * PI),
+    };
+    let at = |angles: &[f64], cells: &mut Cells<'_>| {
+        for (level, &angle) in angles.iter().enumerate() {
+            cells.layout.fold(level, angle, &mut cells.buffers);
+        }
+        cells.layout.value(&cells.buffers[count]) - cells.layout.slack
+    };
+    let mut best = 0.0;
+    let mut random = Random::new(0x9d1d);
+    for _ in 0..STARTS {
+        let mut angles: Vec<f64> = (0..count)
+            .map(|level| {
+                let (low, high) = span(level, cells);
+                low + (high - low) * random.unit()
+            })
+            .collect();
+        let mut value = at(&angles, cells);
+        let mut step = 0.7;
+        while step > 1e-3 {
+            let mut moved = false;
+            for level in 0..count {
+                let (low, high) = span(level, cells);
+                for sign in [-1.0, 1.0] {
+                    let old = angles[level];
+                    angles[level] = match cells.part(level) {
+                        Some(_) => (old + sign * step).clamp(low, high),
+                        None => old + sign * step,
+                    };
+                    let next = at(&angles, cells);
+                    if next > value {
+                        (value, moved) = (next, true);
+                    } else {
+                        angles[level] = old;
+                    }
+                }
+            }
+            if !moved {
+                step *= 0.4;
+            }
+        }
+        best = f64::max(best, value);
+    }
+    best
+}
+
+/// The range of a key's rates.
+fn range(key: Key, limits: &InputBox) -> Interval {
+    let n = limits.joints();
+    let variable = |rate: u8| match usize::from(rate) {
+        0 => Interval::ONE,
+        k if k <= n => limits.velocity[k - 1],
+        k => limits.acceleration[k - 1 - n],
+    };
+    match rates(key) {
+        [a, b] if a == b && a != 0 => variable(a).square(),
+        [0, 0] => Interval::ONE,
+        [0, b] => variable(b),
+        [a, b] => variable(a) * variable(b),
+    }
+}

@@ -1,0 +1,149 @@
+//! D stays positive definite where terms were left out, and that is certified.
+
+mod support;
+
+use dalembert_codegen::certify::attack::{run, text};
+use dalembert_codegen::certify::certificate::{Certificate, Refuted};
+use dalembert_codegen::certify::definite::{Indefinite, least_eigenvalue};
+use dalembert_codegen::certify::edits::{Edit, Place, Stage};
+use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
+use dalembert_codegen::certify::sample::draw;
+use dalembert_codegen::certify::scale;
+use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::Start;
+use dalembert_codegen::graph::Folding;
+use dalembert_codegen::schedule::Program;
+use dalembert_codegen::simplify::random::Random;
+use dalembert_model::number::Rational;
+use dalembert_model::robot::Robot;
+
+fn inertia(robot: &Robot) -> (Program, InputBox) {
+    let mut robot = robot.clone();
+    for joint in &mut robot.joints {
+        joint.limits.velocity = Some(Rational::from_integer(1.into()));
+        joint.limits.acceleration = Some(Rational::from_integer(1.into()));
+    }
+    let generated = support::from(&robot, Function::Inertia, Start::Auto);
+    let program = generated.functions[0].program.clone();
+    (program, InputBox::of(&robot).unwrap())
+}
+
+fn certificate(
+    robot: &Robot,
+    stages: &[Stage],
+    program: &Program,
+    limits: &InputBox,
+) -> Certificate {
+    let ones = vec![1.0; program.outputs.len()];
+    Certificate::make(robot, stages, program, ScalarType::F64, limits, &ones)
+}
+
+/// At 15 % of each entry's range.
+fn pruned(program: &Program, limits: &InputBox) -> Pruned {
+    let ranges = scale::range(program, limits).unwrap();
+    let allowances: Vec<f64> = ranges.iter().map(|t| 0.15 * t).collect();
+    let settings = Settings {
+        retries: 2,
+        ..Settings::default()
+    };
+    prune(program, limits, &allowances, &settings)
+}
+
+/// Terms go, D stays symmetric and positive, and a claim that is too large or
+/// missing is refuted.
+#[test]
+fn a_pruned_inertia_is_certified_to_be_positive_definite() {
+    let mut robot = support::robot("planar3r");
+    let (program, limits) = inertia(&robot);
+    let kept = pruned(&program, &limits);
+    // What the tolerance would let go makes this D indefinite.
+    assert!(kept.stages.is_empty(), "{:?}", kept.stages[0].edits);
+
+    for joint in &mut robot.joints {
+        joint.armature = Rational::from_integer(1.into());
+    }
+    let (program, limits) = inertia(&robot);
+    let pruned = pruned(&program, &limits);
+    let counts = (program.counts(), pruned.program.counts());
+    assert!(counts.1.operations() < counts.0.operations(), "{counts:?}");
+    let honest = certificate(&robot, &pruned.stages, &pruned.program, &limits);
+    assert!(honest.lambda_min.is_some_and(|least| least > 0.0));
+    honest.check(&robot).unwrap();
+    for lie in [honest.lambda_min.map(|least| 1.5 * least), None, Some(-1.0)] {
+        let mut other = honest.clone();
+        other.lambda_min = lie;
+        let refuted = other.check(&robot);
+        assert!(
+            matches!(refuted, Err(Refuted::Eigenvalue { .. })),
+            "{lie:?}"
+        );
+    }
+    let text = text(&pruned.program, ScalarType::F64).unwrap();
+    let mut random = Random::new(3);
+    for _ in 0..3000 {
+        let d = run(&text, ScalarType::F64, &draw(&limits, &mut random));
+        let minor = d[0] * d[4] - d[1] * d[3];
+        let det = d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6])
+            + d[2] * (d[3] * d[7] - d[4] * d[6]);
+        assert!(d[0] > 0.0 && minor > 0.0 && det > 0.0, "{d:?}");
+        assert_eq!([d[1], d[2], d[5]], [d[3], d[6], d[7]]);
+    }
+}
+
+/// Dropping the last link's own inertia leaves D singular: no certificate.
+#[test]
+fn a_singular_d_gets_no_certificate() {
+    let robot = support::robot("planar3r");
+    let (program, limits) = inertia(&robot);
+    let mut found = 0;
+    for step in 0..program.steps.len() {
+        let stage = Stage {
+            program: program.clone(),
+            edits: vec![Edit::zero(Place::Step(step))],
+        };
+        let emitted = stage.program(Folding::Semantic);
+        let bound = least_eigenvalue(&emitted, ScalarType::F64, &limits);
+        let text = text(&emitted, ScalarType::F64).unwrap();
+        let mut random = Random::new(4);
+        let singular = (0..2000).any(|_| {
+            let d = run(&text, ScalarType::F64, &draw(&limits, &mut random));
+            d[0] <= 0.0 || d[4] <= 0.0 || d[8] <= 0.0 || d[4] * d[8] <= d[5] * d[7]
+        });
+        if singular {
+            assert!(bound.is_err(), "t{} = 0", step + 1);
+            let made = certificate(&robot, &[stage], &emitted, &limits);
+            assert_eq!(made.lambda_min, None);
+            assert!(matches!(made.check(&robot), Err(Refuted::Indefinite(_))));
+            found += 1;
+        }
+    }
+    assert!(found > 0, "some term is indispensable");
+}
+
+/// What the message says is wrong with a robot is wrong with it.
+#[test]
+fn a_link_without_inertia_is_named() {
+    let mut robot = support::robot("planar3r");
+    let last = robot.joints.len() - 1;
+    let zero = Rational::default;
+    robot.joints[last].mass = zero();
+    robot.joints[last].inertia = robot.joints[last].inertia.map(|_| zero());
+    let (program, limits) = inertia(&robot);
+    let why = least_eigenvalue(&program, ScalarType::F64, &limits).unwrap_err();
+    assert_eq!(why, Indefinite::Massless { joint: last });
+    assert!(why.to_string().contains("joint 3"), "{why}");
+
+    // Nothing but a point mass at the tip: singular where the arm is
+    // stretched, though every diagonal entry is positive.
+    let mut robot = support::robot("planar2r");
+    for joint in &mut robot.joints {
+        joint.inertia = joint.inertia.map(|_| zero());
+        joint.com = [zero(), zero(), zero()];
+    }
+    robot.joints[0].mass = zero();
+    let (program, limits) = inertia(&robot);
+    let bound = least_eigenvalue(&program, ScalarType::F64, &limits);
+    assert!(matches!(bound, Err(Indefinite::Unproved)), "{bound:?}");
+}
