@@ -85,8 +85,8 @@ fn evaluate<S: Scalar>(
     form: Form,
     motion: &Motion<S>,
 ) -> Vec<S> {
-    let at = chain.at(&motion.q);
-    let composite = Composite::new(chain, &at);
+    let (chain, at) = &chain.posed(&motion.q);
+    let composite = Composite::new(chain, at);
     let mut outputs = Vec::new();
     for quantity in function.quantities() {
         match quantity {
@@ -103,7 +103,7 @@ fn evaluate<S: Scalar>(
                 ));
             }
             Quantity::Torque => outputs.extend(chain.inverse_dynamics(
-                &at,
+                at,
                 &motion.qd,
                 &motion.qdd,
                 form.spin,
@@ -124,7 +124,7 @@ fn evaluate<S: Scalar>(
                 }
                 let rest = zeros(chain.links.len());
                 outputs.extend(still.inverse_dynamics(
-                    &at,
+                    at,
                     &motion.qd,
                     &rest,
                     form.spin,
@@ -279,20 +279,60 @@ pub fn tuned(
     tuned
 }
 
-/// A function in every chain form, in one gauge.
+/// The most choices of axes that the search is offered at once.
+const MOST_AXES: usize = 16;
+
+/// A function in every chain form, in one gauge, in the gauge's axes and in
+/// others: what is dear in one choice of axes may be cheap in another, and
+/// the search mixes them.
 pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) -> Vec<Variant> {
-    let chain = Chain::new(&skeleton(setting), gauge);
-    Form::of(function)
-        .into_iter()
-        .map(|form| {
+    let mut chain = Chain::new(&skeleton(setting), gauge);
+    let mut variants = Vec::new();
+    for axes in axes(&chain) {
+        for (link, axes) in chain.links.iter_mut().zip(axes) {
+            link.axes = axes;
+        }
+        for form in Form::of(function) {
             let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
-            Variant {
+            variants.push(Variant {
                 source: Source::Regrouped,
                 graph,
                 traced,
+            });
+        }
+    }
+    variants
+}
+
+/// The chain's own axes, each link's, those before each group of parallel
+/// axes, those after it, then what differs from the first two in one link.
+fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
+    let freedom: Vec<[i32; 2]> = (0..chain.links.len()).map(|i| chain.freedom(i)).collect();
+    let own: Vec<i32> = chain
+        .links
+        .iter()
+        .zip(&freedom)
+        .map(|(link, &[less, more])| link.axes.clamp(less, more))
+        .collect();
+    let natural = vec![0; own.len()];
+    let mut all = vec![own.clone(), natural.clone()];
+    all.extend([0, 1].map(|side| freedom.iter().map(|bounds| bounds[side]).collect()));
+    for from in [natural, own] {
+        for (i, &[less, more]) in freedom.iter().enumerate() {
+            for axes in less..=more {
+                let mut choice = from.clone();
+                choice[i] = axes;
+                all.push(choice);
             }
-        })
-        .collect()
+        }
+    }
+    let mut different: Vec<Vec<i32>> = Vec::new();
+    for choice in all {
+        if different.len() < MOST_AXES && !different.contains(&choice) {
+            different.push(choice);
+        }
+    }
+    different
 }
 
 /// Values that no recursion forms but that shorten it: the sine and cosine of
@@ -304,7 +344,7 @@ pub fn angle_sums(setting: &Setting) -> Graph {
     let chain = Chain::new(&arm, &Gauge::base(&arm));
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
     let motion = symbols(setting, &builder).of_joints(setting.chained());
-    let at = chain.at(&motion.q);
+    let (chain, at) = chain.posed(&motion.q);
     let mut outputs = Vec::new();
     let mut sum: Option<Rotor<Symbol>> = None;
     for (i, (link, here)) in chain.links.iter().zip(&at).enumerate() {

@@ -158,8 +158,19 @@ impl<P: Fn(&Chain<Exact>, Form) -> u64> Descent<'_, P> {
         };
         for candidate in candidates {
             let mut gauge = self.best.gauge.clone();
-            gauge.links[i] = candidate;
+            gauge.links[i] = LinkGauge {
+                axes: gauge.links[i].axes,
+                ..candidate
+            };
             self.attempt(gauge);
+        }
+        let [less, more] = chain.freedom(i);
+        for axes in less..=more {
+            let mut gauge = self.best.gauge.clone();
+            if gauge.links[i].axes != axes {
+                gauge.links[i].axes = axes;
+                self.attempt(gauge);
+            }
         }
     }
 }

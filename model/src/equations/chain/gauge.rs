@@ -29,6 +29,10 @@ pub struct LinkGauge<S> {
     pub second: S,
     /// Whether a prismatic link keeps its second moments.
     pub keep_seconds: bool,
+    /// By how many joints with parallel axes the frame turns more than its
+    /// link (less if negative), as far as it can ([`Chain::freedom`]): no
+    /// parameter moves, only the axes in which the link is seen change.
+    pub axes: i32,
 }
 
 /// The gauge of a chain.
@@ -55,6 +59,7 @@ impl<S: Scalar> Gauge<S> {
             first: S::zero(),
             second: S::zero(),
             keep_seconds: false,
+            axes: 0,
         });
         Gauge {
             links: links.collect(),

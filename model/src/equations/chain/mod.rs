@@ -5,6 +5,7 @@
 //! - [`body`]: mass, first and second moments about a frame's origin
 //! - [`gauge`]: the freedom that leaves the dynamics alone: where an origin
 //!   lies on its axis, which parameters a link keeps, the unit of length
+//! - [`pose`]: the chain at a position; the axes in which each link is seen
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
 //!
@@ -13,6 +14,7 @@
 pub mod body;
 pub mod composite;
 pub mod gauge;
+pub mod pose;
 pub mod recursion;
 pub mod skeleton;
 
@@ -20,10 +22,11 @@ use alloc::vec::Vec;
 
 pub use body::Body;
 pub use gauge::{Gauge, LinkGauge};
+pub use pose::Displacement;
 pub use skeleton::{Segment, Skeleton};
 
+use super::Rotor;
 use super::matrix::{Vector, difference, dot, opposite, plus, scaled, sum, times, zero_vector};
-use super::{JointPosition, Rotor};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -68,15 +71,8 @@ pub struct ChainLink<S> {
     /// Whether the frame may stay behind while the link turns: for a last
     /// link that is symmetric about its axis.
     pub spins_freely: bool,
-}
-
-/// A joint's position: the pair of θ_i, or the displacement of a slide.
-#[derive(Clone, Debug)]
-pub enum Displacement<S> {
-    /// (sin θ_i, cos θ_i)
-    Turn(Rotor<S>),
-    /// q_i in the chain's unit of length.
-    Slide(S),
+    /// By how many joints the frame turns more than its link, where it can.
+    pub axes: i32,
 }
 
 impl<S: Scalar> Chain<S> {
@@ -101,6 +97,7 @@ impl<S: Scalar> Chain<S> {
                 armature: segment.armature.clone(),
                 viscous: segment.viscous.clone(),
                 spins_freely: false,
+                axes: gauge.axes,
             });
             shift = gauge.origin.clone();
         }
@@ -121,22 +118,6 @@ impl<S: Scalar> Chain<S> {
         if let Some(last) = self.links.last_mut() {
             last.spins_freely = last.kind == JointKind::Revolute && last.body.is_axisymmetric();
         }
-    }
-
-    /// θ_i as pairs and slides in the chain's unit.
-    pub fn at(&self, position: &[JointPosition<S>]) -> Vec<Displacement<S>> {
-        self.links
-            .iter()
-            .zip(position)
-            .map(|(link, q)| match q {
-                JointPosition::Revolute(_) if link.spins_freely => Displacement::Turn(Rotor {
-                    sin: S::zero(),
-                    cos: S::one(),
-                }),
-                JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
-                JointPosition::Prismatic(q) => Displacement::Slide(times(q, &self.per_unit)),
-            })
-            .collect()
     }
 
     /// A rate in the chain's unit: slides are scaled.
@@ -174,6 +155,7 @@ impl<S> Chain<S> {
             armature: f(&link.armature),
             viscous: f(&link.viscous),
             spins_freely: link.spins_freely,
+            axes: link.axes,
         });
         let links = links.collect();
         Chain {

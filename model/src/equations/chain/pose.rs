@@ -1,0 +1,213 @@
+//! A chain at a position, and the axes in which each link is seen.
+//!
+//! Nothing says that a frame must turn with its link. Along parallel axes
+//! Rz(θ_i) Rz(θ_{i+1}) = Rz(θ_i + θ_{i+1}), so the frames of a group of links
+//! between them may stay behind or run ahead by whole joints: the link's
+//! moments and the steps between origins turn instead of the vectors of the
+//! recursion. Only the last frame of a group must turn with its link, if
+//! another link follows.
+
+use alloc::vec::Vec;
+
+use super::{Chain, Rotation};
+use crate::equations::matrix::{Vector, times};
+use crate::equations::{JointPosition, Rotor};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// A joint's position: the pair of θ_i, or the displacement of a slide.
+#[derive(Clone, Debug)]
+pub enum Displacement<S> {
+    /// (sin θ_i, cos θ_i)
+    Turn(Rotor<S>),
+    /// q_i in the chain's unit of length.
+    Slide(S),
+}
+
+/// A link's place among links that turn about parallel axes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Place {
+    /// The first link of the group and the last that turns.
+    group: [usize; 2],
+    /// Whether the axis points against that of the first.
+    opposite: bool,
+    /// The group's revolute links up to and with this one.
+    index: usize,
+    /// How many revolute links the group has.
+    count: usize,
+}
+
+impl<S: Scalar> Chain<S> {
+    /// By how many joints the frame of link i may turn less, and more, than
+    /// its link.
+    pub fn freedom(&self, i: usize) -> [i32; 2] {
+        match &self.places()[i] {
+            Some(place) => self.bounds(i, place),
+            None => [0, 0],
+        }
+    }
+
+    fn bounds(&self, i: usize, place: &Place) -> [i32; 2] {
+        let [_, last] = place.group;
+        let followed = self.links[last + 1..]
+            .iter()
+            .any(|link| link.kind == JointKind::Revolute);
+        if self.links[i].spins_freely || (followed && i == last) {
+            return [0, 0];
+        }
+        [-(place.index as i32), (place.count - place.index) as i32]
+    }
+
+    fn places(&self) -> Vec<Option<Place>> {
+        let mut places: Vec<Option<Place>> = Vec::with_capacity(self.links.len());
+        let mut start = 0;
+        for (i, link) in self.links.iter().enumerate() {
+            if link.kind == JointKind::Prismatic {
+                places.push(None);
+                continue;
+            }
+            let before = places.iter().flatten().next_back().cloned();
+            let place = match (sense(&link.rotation), before) {
+                (Some(opposite), Some(before)) => Place {
+                    group: [start, i],
+                    opposite: before.opposite != opposite,
+                    index: before.index + 1,
+                    count: 0,
+                },
+                _ => {
+                    start = i;
+                    Place {
+                        group: [i, i],
+                        opposite: false,
+                        index: 1,
+                        count: 0,
+                    }
+                }
+            };
+            places.push(Some(place));
+        }
+        let mut ends = (usize::MAX, 0, 0);
+        for place in places.iter_mut().rev().flatten() {
+            if ends.0 != place.group[0] {
+                ends = (place.group[0], place.group[1], place.index);
+            }
+            (place.group[1], place.count) = (ends.1, ends.2);
+        }
+        places
+    }
+
+    /// The chain at a position, every constant in the axes in which its link
+    /// is seen, and how those turn: θ_i as pairs, and slides in its unit.
+    pub fn posed(&self, position: &[JointPosition<S>]) -> (Chain<S>, Vec<Displacement<S>>) {
+        let places = self.places();
+        let angles: Vec<Option<Rotor<S>>> = self
+            .links
+            .iter()
+            .zip(position)
+            .map(|(link, q)| match q {
+                JointPosition::Revolute(_) if link.spins_freely => Some(still()),
+                JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
+                JointPosition::Prismatic(_) => None,
+            })
+            .collect();
+        // θ_a + … + θ_b about the axis of link a, of the group's links only.
+        let sum = |from: usize, to: usize, place: &Place| {
+            let members = (place.group[0]..=place.group[1]).filter_map(|j| {
+                let member = places[j].as_ref()?;
+                (member.index > from && member.index <= to).then_some((j, member))
+            });
+            members.fold(None, |sum: Option<Rotor<S>>, (j, member)| {
+                let angle = angles[j].clone()?;
+                let angle = if member.opposite {
+                    inverse(&angle)
+                } else {
+                    angle
+                };
+                Some(match sum {
+                    Some(sum) => sum.compose(&angle),
+                    None => angle,
+                })
+            })
+        };
+        // The turn from joint `from` to joint `to` of the group, about the
+        // axis of the place.
+        let between = |from: usize, to: usize, place: &Place| {
+            let turn = match from <= to {
+                true => sum(from, to, place),
+                false => sum(to, from, place).map(|turn| inverse(&turn)),
+            };
+            turn.map(|turn| if place.opposite { inverse(&turn) } else { turn })
+        };
+        let mut chain = self.clone();
+        let mut at = Vec::with_capacity(position.len());
+        // Which turn of the group the frame before has made; its own.
+        let mut before: Option<(usize, Place)> = None;
+        for (i, (q, place)) in position.iter().zip(&places).enumerate() {
+            let link = &mut chain.links[i];
+            if let Some((seen, own)) = &before
+                && let Some(turn) = between(*seen, own.index, own)
+            {
+                turned(&mut link.offset, &turn);
+                if link.kind == JointKind::Prismatic {
+                    turned(&mut link.axis, &turn);
+                    link.body = link.body.turned_z(&turn);
+                }
+            }
+            let place = match (q, place) {
+                (JointPosition::Prismatic(q), _) => {
+                    at.push(Displacement::Slide(times(q, &self.per_unit)));
+                    continue;
+                }
+                (JointPosition::Revolute(_), Some(place)) => place,
+                (JointPosition::Revolute(_), None) => continue,
+            };
+            let [less, more] = self.bounds(i, place);
+            let seen = (place.index as i32 + link.axes.clamp(less, more)) as usize;
+            if let Some(turn) = between(seen, place.index, place) {
+                link.body = link.body.turned_z(&turn);
+            }
+            let from = match &before {
+                Some((seen, own)) if own.group == place.group => *seen,
+                _ => 0,
+            };
+            at.push(Displacement::Turn(
+                between(from, seen, place).unwrap_or_else(still),
+            ));
+            before = Some((seen, place.clone()));
+        }
+        (chain, at)
+    }
+}
+
+/// Whether an axis points against the one before; `None` if they are not
+/// parallel. R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π)
+/// it turns the other way.
+fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
+    let along = &rotation[2][2];
+    if along.is_one() {
+        Some(false)
+    } else if along.neg().is_one() {
+        Some(true)
+    } else {
+        None
+    }
+}
+
+fn still<S: Scalar>() -> Rotor<S> {
+    Rotor {
+        sin: S::zero(),
+        cos: S::one(),
+    }
+}
+
+fn inverse<S: Scalar>(turn: &Rotor<S>) -> Rotor<S> {
+    Rotor {
+        sin: turn.sin.neg(),
+        cos: turn.cos.clone(),
+    }
+}
+
+fn turned<S: Scalar>(v: &mut Vector<S>, by: &Rotor<S>) {
+    let [x, y] = by.turn(&v[0], &v[1]);
+    (v[0], v[1]) = (x, y);
+}
