@@ -256,27 +256,64 @@ pub fn tuned(
     let merged = |chain: &Chain<Exact>, form: Form| {
         trace_chain(setting, function, chain, form, Folding::Semantic).0
     };
-    let mut tuned = tune::tune(
-        &arm,
-        tune::start(&arm),
-        &forms,
-        effort.gauge_rounds(),
-        |chain, form| match is_over() {
-            true => u64::MAX,
-            false => simplify::cost(&merged(chain, form)),
-        },
-    );
+    let helpers = [angle_sums(setting)];
+    // What the search makes of a gauge is not what the gauge costs at first.
+    let glance = |chain: &Chain<Exact>, form: Form| match is_over() {
+        true => u64::MAX,
+        false => simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers)),
+    };
+    let start = tune::start(&arm);
+    let mut tuned: Option<Tuned> = None;
+    for axes in starts(&Chain::new(&arm, &start)) {
+        let mut from = start.clone();
+        for (link, axes) in from.links.iter_mut().zip(axes) {
+            link.axes = axes;
+        }
+        let mut found =
+            tune::tune(
+                &arm,
+                from,
+                &forms,
+                effort.gauge_rounds(),
+                |chain, form| match is_over() {
+                    true => u64::MAX,
+                    false => simplify::cost(&merged(chain, form)),
+                },
+            );
+        if arm.links.len() <= MOST_GLANCES {
+            found.price = glance(&Chain::new(&arm, &found.gauge), found.form);
+        }
+        if tuned.as_ref().is_none_or(|best| found.price < best.price) {
+            tuned = Some(found);
+        }
+    }
+    let mut tuned = tuned.unwrap_or(Tuned {
+        gauge: start,
+        form: forms[0],
+        price: u64::MAX,
+    });
     if effort == Effort::Thorough && arm.links.len() <= MOST_GLANCES && !is_over() {
-        // What the search makes of a gauge is not what the gauge costs at
-        // first: descend once more by the price after a short search.
-        let helpers = [angle_sums(setting)];
-        let price = |chain: &Chain<Exact>, form: Form| match is_over() {
-            true => u64::MAX,
-            false => simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers)),
-        };
-        tuned = tune::tune(&arm, tuned.gauge, &[tuned.form], 2, price);
+        tuned = tune::tune(&arm, tuned.gauge, &[tuned.form], 2, glance);
     }
     tuned
+}
+
+/// Axes that a descent starts from: each link's own; the last link's before
+/// it turns; those before each group.
+fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
+    let n = chain.links.len();
+    let before: Vec<i32> = (0..n).map(|i| chain.freedom(i)[0]).collect();
+    let mut last = vec![0; n];
+    if n > 0 {
+        last[n - 1] = before[n - 1].max(-1);
+    }
+    let mut starts = vec![vec![0; n]];
+    for axes in [last, before] {
+        if n <= MOST_GLANCES && !starts.contains(&axes) {
+            starts.push(axes);
+        }
+    }
+    starts
 }
 
 /// The most choices of axes that the search is offered at once.
