@@ -18,7 +18,7 @@ use crate::function::{Function, Quantity};
 use crate::graph::{Counts, Graph};
 use crate::plan::{self, Entry, Plan};
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{self, Source, Variant};
+use crate::portfolio::{self, Source, Sums, Variant};
 use crate::scene::{Setting, SettingError};
 use crate::schedule::{Operand, Program};
 use crate::simplify::{self, Effort, Simplified, Stage};
@@ -36,18 +36,29 @@ pub enum Start {
     /// The cheapest, with the others' values at hand.
     #[default]
     Auto,
+    /// As [`Start::Auto`], where the sines and cosines of angle sums of
+    /// parallel joints may be evaluated instead of formed: fewer operations,
+    /// a pair more, and an error of |q| u in the sum.
+    AngleSums,
     /// One only.
     Only(Formulation),
 }
 
 impl Start {
     /// The choices of the command line and the macro.
-    pub const NAMES: [&'static str; 4] = ["auto", "lagrange_euler", "dalembert", "newton_euler"];
+    pub const NAMES: [&'static str; 5] = [
+        "auto",
+        "angle_sums",
+        "lagrange_euler",
+        "dalembert",
+        "newton_euler",
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Start::Auto => "auto",
+            Start::AngleSums => "angle_sums",
             Start::Only(formulation) => Source::Textbook(formulation).name(),
         }
     }
@@ -56,6 +67,7 @@ impl Start {
     pub fn from_name(name: &str) -> Option<Start> {
         Some(match name {
             "auto" => Start::Auto,
+            "angle_sums" => Start::AngleSums,
             "lagrange_euler" => Start::Only(Formulation::LagrangeEuler),
             "dalembert" => Start::Only(Formulation::Dalembert),
             "newton_euler" => Start::Only(Formulation::NewtonEulerLink),
@@ -76,7 +88,7 @@ impl Start {
                 let variant = portfolio::textbook(setting, function, formulation);
                 (None, vec![variant])
             }
-            Start::Auto => {
+            Start::Auto | Start::AngleSums => {
                 let tuned = portfolio::tuned(setting, function, effort, watch);
                 let mut variants = portfolio::regrouped(setting, function, &tuned.gauge);
                 // The textbook recursion gives D column by column and h_ikm
@@ -483,10 +495,16 @@ pub(crate) fn search(
     tell(Part::Formulations, None);
     let (tuned, variants) = request.start.variants(setting, function, effort, watch);
     let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
-    let helpers = match request.start {
-        Start::Auto => vec![portfolio::angle_sums(setting)],
+    let mut helpers = match request.start {
+        Start::Auto => vec![portfolio::angle_sums(setting, Sums::Products)],
+        Start::AngleSums => vec![portfolio::angle_sums(setting, Sums::Inputs)],
         Start::Only(_) => Vec::new(),
     };
+    if let Some(tuned) = &tuned
+        && std::env::var("NB").is_ok()
+    {
+        helpers.extend(portfolio::neighbours(setting, function, tuned));
+    }
     let judge = match request.prefer {
         Prefer::Accuracy => Judge::new(setting, function),
         Prefer::Operations => Judge::lenient(setting, function),

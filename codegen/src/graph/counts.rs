@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::{Graph, Node};
+use super::{AngleSum, Graph, Node};
 
 /// Operations of straight-line code. Negation and copies are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -49,18 +49,28 @@ impl Graph {
     /// What the outputs cost.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
-        let mut angles = BTreeSet::new();
         for (node, live) in self.nodes.iter().zip(self.live()) {
             match node {
                 _ if !live => {}
                 Node::Sum(..) | Node::Difference(..) => counts.add += 1,
                 Node::Product(..) => counts.mul += 1,
-                Node::Input(input) => angles.extend(input.angle()),
-                Node::Constant(_) => {}
+                Node::Input(_) | Node::Constant(_) => {}
             }
         }
+        let angles = self.angles();
         counts.sincos = angles.len();
         counts.add += angles.iter().map(|angle| angle.additions()).sum::<usize>();
         counts
+    }
+
+    /// The angles whose sine or cosine the outputs need.
+    pub fn angles(&self) -> BTreeSet<AngleSum> {
+        let nodes = self.nodes.iter().zip(self.live());
+        let live = nodes.filter_map(|(node, live)| live.then_some(node));
+        let inputs = live.filter_map(|node| match node {
+            Node::Input(input) => input.angle(),
+            _ => None,
+        });
+        inputs.collect()
     }
 }

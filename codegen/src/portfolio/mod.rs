@@ -19,7 +19,7 @@ use dalembert_model::scalar::Scalar;
 
 use crate::function::{Function, Quantity};
 use crate::graph::symbol::Symbol;
-use crate::graph::{Builder, Counts, Folding, Graph, Input};
+use crate::graph::{AngleSum, Builder, Counts, Folding, Graph, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
 use crate::trace::{Motion, trace_in};
@@ -256,7 +256,7 @@ pub fn tuned(
     let merged = |chain: &Chain<Exact>, form: Form| {
         trace_chain(setting, function, chain, form, Folding::Semantic).0
     };
-    let helpers = [angle_sums(setting)];
+    let helpers = [angle_sums(setting, Sums::Products)];
     // What the search makes of a gauge is not what the gauge costs at first.
     let glance = |chain: &Chain<Exact>, form: Form| match is_over() {
         true => u64::MAX,
@@ -341,6 +341,18 @@ pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) ->
     variants
 }
 
+/// A function in the gauges that differ from a tuned one in one link, in its
+/// form.
+pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
+    let arm = skeleton(setting);
+    let gauges = tune::neighbours(&arm, &tuned.gauge);
+    let graph = |gauge: &Gauge<Exact>| {
+        let chain = Chain::new(&arm, gauge);
+        trace_chain(setting, function, &chain, tuned.form, Folding::Semantic).0
+    };
+    gauges.iter().map(graph).collect()
+}
+
 /// The chain's own axes, each link's, those before each group of parallel
 /// axes, those after it, then what differs from the first two in one link.
 fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
@@ -372,32 +384,64 @@ fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     different
 }
 
-/// Values that no recursion forms but that shorten it: the sine and cosine of
-/// the angle sums of parallel joints, by products, so that large angles lose
-/// nothing.
-pub fn angle_sums(setting: &Setting) -> Graph {
+/// How the sine and cosine of a sum of angles come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sums {
+    /// From those of the angles, so that large angles lose nothing.
+    Products,
+    /// Also as inputs: one evaluation for four products, of an angle that is
+    /// rounded, which costs |q| u.
+    Inputs,
+}
+
+/// Values that no recursion forms but that shorten it: the sines and cosines
+/// of the angle sums of parallel joints.
+pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let arm = skeleton(setting);
     let chain = Chain::new(&arm, &Gauge::base(&arm));
+    let groups = chain.parallel();
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
     let motion = symbols(setting, &builder).of_joints(setting.chained());
-    let (chain, at) = chain.posed(&motion.q);
+    let (_, at) = chain.posed(&motion.q);
     let mut outputs = Vec::new();
-    let mut sum: Option<Rotor<Symbol>> = None;
-    for (i, (link, here)) in chain.links.iter().zip(&at).enumerate() {
-        let Displacement::Turn(pair) = here else {
-            // A slide does not turn what follows.
-            continue;
-        };
-        let parallel = i > 0 && link.rotation[2][2].is_one() && link.rotation[0][0].is_one();
-        sum = Some(match &sum {
-            Some(before) if parallel => {
-                let both = before.compose(pair);
-                outputs.extend([both.sin.value(), both.cos.value()]);
-                both
+    for group in &groups {
+        for first in 0..group.len() {
+            let mut product: Option<Rotor<Symbol>> = None;
+            let mut input: Option<AngleSum> = None;
+            for &(link, opposite) in &group[first..] {
+                let Displacement::Turn(pair) = &at[link] else {
+                    continue;
+                };
+                // About the axis of the group's first link.
+                let turn = Rotor {
+                    sin: if opposite {
+                        pair.sin.neg()
+                    } else {
+                        pair.sin.clone()
+                    },
+                    cos: pair.cos.clone(),
+                };
+                let joint = setting.chained()[link];
+                input = match input {
+                    None => Some(AngleSum::joint(joint)),
+                    Some(sum) => sum.with(joint, opposite != group[first].1),
+                };
+                product = Some(match product {
+                    None => turn,
+                    Some(before) => {
+                        let both = before.compose(&turn);
+                        outputs.extend([both.sin.value(), both.cos.value()]);
+                        if let (Sums::Inputs, Some(sum)) = (sums, input) {
+                            for input in [Input::Sin(sum), Input::Cos(sum)] {
+                                outputs.push(Symbol::input(&builder, input).value());
+                            }
+                        }
+                        both
+                    }
+                });
             }
-            _ => pair.clone(),
-        });
+        }
     }
     std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic)).finish(&outputs)
 }

@@ -149,30 +149,55 @@ impl<P: Fn(&Chain<Exact>, Form) -> u64> Descent<'_, P> {
     }
 
     fn link(&mut self, i: usize) {
-        let mut metres = self.best.gauge.clone();
-        (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
-        let chain = Chain::new(self.arm, &metres);
-        let candidates = match self.arm.links[i].kind {
-            JointKind::Revolute => revolute(self.arm, &chain, &metres.links[i], i),
-            JointKind::Prismatic => prismatic(&chain, &metres.links[i], i),
-        };
-        for candidate in candidates {
+        for link in alternatives(self.arm, &self.best.gauge, i) {
             let mut gauge = self.best.gauge.clone();
-            gauge.links[i] = LinkGauge {
-                axes: gauge.links[i].axes,
-                ..candidate
-            };
+            // The best may have changed since.
+            gauge.links[i] = link;
             self.attempt(gauge);
         }
-        let [less, more] = chain.freedom(i);
-        for axes in less..=more {
-            let mut gauge = self.best.gauge.clone();
-            if gauge.links[i].axes != axes {
-                gauge.links[i].axes = axes;
-                self.attempt(gauge);
+    }
+}
+
+/// Gauges that differ in one link. What the joints before a link feel does
+/// not depend on its gauge, so the search can mix these link by link.
+pub fn neighbours(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>) -> Vec<Gauge<Exact>> {
+    let mut found: Vec<Gauge<Exact>> = Vec::new();
+    if arm.links.len() > MOST_TUNED {
+        return found;
+    }
+    for i in 0..arm.links.len() {
+        for link in alternatives(arm, gauge, i) {
+            let mut other = gauge.clone();
+            other.links[i] = link;
+            let is_new = other != *gauge && !found.contains(&other);
+            if is_new && !is_large(&Chain::new(arm, &other)) {
+                found.push(other);
             }
         }
     }
+    found
+}
+
+/// What a link may keep, where its origin may lie and how its frame may turn.
+fn alternatives(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>, i: usize) -> Vec<LinkGauge<Exact>> {
+    let mut metres = gauge.clone();
+    (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
+    let chain = Chain::new(arm, &metres);
+    let now = &metres.links[i];
+    let mut links = match arm.links[i].kind {
+        JointKind::Revolute => revolute(arm, &chain, now, i),
+        JointKind::Prismatic => prismatic(&chain, now, i),
+    };
+    let [less, more] = chain.freedom(i);
+    links.extend(
+        (less..=more)
+            .filter(|&axes| axes != now.axes)
+            .map(|axes| LinkGauge {
+                axes,
+                ..now.clone()
+            }),
+    );
+    links
 }
 
 fn is_large(chain: &Chain<Exact>) -> bool {

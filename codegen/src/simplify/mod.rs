@@ -161,7 +161,7 @@ pub fn watched(
 /// The price that the search minimises, in hundredths of an operation.
 pub fn cost(graph: &Graph) -> u64 {
     let (counts, model) = (graph.counts(), CostModel::OPERATIONS);
-    counts.mul as u64 * model.mul
-        + counts.add as u64 * model.add
-        + counts.sincos as u64 * model.sincos
+    let angles = graph.angles().into_iter();
+    let angles: u64 = angles.map(|angle| model.angle(angle)).sum();
+    counts.mul as u64 * model.mul + counts.add as u64 * model.add + angles
 }

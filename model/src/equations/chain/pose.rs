@@ -7,6 +7,7 @@
 //! recursion. Only the last frame of a group must turn with its link, if
 //! another link follows.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::{Chain, Rotation};
@@ -45,6 +46,20 @@ impl<S: Scalar> Chain<S> {
             Some(place) => self.bounds(i, place),
             None => [0, 0],
         }
+    }
+
+    /// The links that turn about parallel axes, group by group, and whether
+    /// each turns against the first of its group.
+    pub fn parallel(&self) -> Vec<Vec<(usize, bool)>> {
+        let mut groups: Vec<Vec<(usize, bool)>> = Vec::new();
+        for (i, place) in self.places().iter().enumerate() {
+            let Some(place) = place else { continue };
+            match groups.last_mut() {
+                Some(group) if place.index > 1 => group.push((i, place.opposite)),
+                _ => groups.push(vec![(i, place.opposite)]),
+            }
+        }
+        groups
     }
 
     fn bounds(&self, i: usize, place: &Place) -> [i32; 2] {

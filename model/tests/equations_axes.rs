@@ -1,0 +1,150 @@
+//! The axes in which links are seen change no result: chains with parallel
+//! and antiparallel axes, slides between them, both conventions, seen in every
+//! choice of axes, against Lagrange–Euler in the prime field.
+
+mod equations_support;
+
+use dalembert_model::equations::chain::composite::{Composite, Travel};
+use dalembert_model::equations::chain::recursion::{Couple, Spin};
+use dalembert_model::equations::chain::{Chain, Gauge, Skeleton};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, Rotor};
+use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::{Field, Points};
+use equations_support::random;
+
+/// A residue that knows when it is zero or one: parallel axes are a matter of
+/// structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Known(Field);
+
+impl Scalar for Known {
+    fn zero() -> Self {
+        Known(Field::ZERO)
+    }
+    fn one() -> Self {
+        Known(Field::ONE)
+    }
+    fn add(&self, other: &Self) -> Self {
+        Known(self.0.add(&other.0))
+    }
+    fn sub(&self, other: &Self) -> Self {
+        Known(self.0.sub(&other.0))
+    }
+    fn mul(&self, other: &Self) -> Self {
+        Known(self.0.mul(&other.0))
+    }
+    fn neg(&self) -> Self {
+        Known(self.0.neg())
+    }
+    fn half(&self) -> Self {
+        Known(self.0.half())
+    }
+    fn is_zero(&self) -> bool {
+        self.0 == Field::ZERO
+    }
+    fn is_one(&self) -> bool {
+        self.0 == Field::ONE
+    }
+}
+
+/// The twists of a chain: along, against and across the axis before.
+#[derive(Clone, Copy)]
+enum Twist {
+    Along,
+    Against,
+    Across,
+}
+
+fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Points) -> Arm<Known> {
+    let kinds = random::kinds(twists.len(), slides);
+    let mut arm = random::case(convention, &kinds, points).arm;
+    for (link, twist) in arm.links.iter_mut().zip(twists) {
+        let (sin, cos) = match twist {
+            Twist::Along => (Field::ZERO, Field::ONE),
+            Twist::Against => (Field::ZERO, Field::ONE.neg()),
+            Twist::Across => (Field::ONE, Field::ZERO),
+        };
+        link.alpha = Rotor { sin, cos };
+    }
+    arm.map(|x| Known(*x))
+}
+
+/// Every choice of axes within what the links allow.
+fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
+    let mut all = vec![Vec::new()];
+    for i in 0..chain.links.len() {
+        let [less, more] = chain.freedom(i);
+        let longer = |choice: &Vec<i32>| {
+            let choice = choice.clone();
+            (less..=more).map(move |axes| [choice.clone(), vec![axes]].concat())
+        };
+        all = all.iter().flat_map(longer).collect();
+    }
+    all
+}
+
+fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
+    let position: Vec<_> = arm
+        .links
+        .iter()
+        .map(|link| match link.kind {
+            JointKind::Revolute => JointPosition::Revolute(random::pair(points).map(|x| Known(*x))),
+            JointKind::Prismatic => JointPosition::Prismatic(Known(points.field())),
+        })
+        .collect();
+    let n = arm.links.len();
+    let mut draw = || (0..n).map(|_| Known(points.field())).collect::<Vec<_>>();
+    let (qd, qdd) = (draw(), draw());
+    let (textbook, at) = (Formulation::LagrangeEuler, arm.at(&position));
+    let torque = textbook.inverse_dynamics(arm, &at, &qd, &qdd);
+    let inertia = textbook.inertia(arm, &at);
+    let christoffel = textbook.christoffel(arm, &at);
+    let gravity = textbook.gravity(arm, &at);
+
+    let skeleton = Skeleton::new(arm, &[]);
+    let mut chain = Chain::new(&skeleton, &Gauge::base(&skeleton));
+    let choices = choices(&chain);
+    for choice in &choices {
+        for (link, &axes) in chain.links.iter_mut().zip(choice) {
+            link.axes = axes;
+        }
+        let (posed, at) = chain.posed(&position);
+        for (spin, couple) in [
+            (Spin::Column, Couple::SecondMoments),
+            (Spin::Rates, Couple::Euler),
+        ] {
+            let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
+            assert_eq!(found, torque, "{choice:?}");
+        }
+        let composite = Composite::new(&posed, &at);
+        for travel in [Travel::Outward, Travel::Inward] {
+            assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
+            assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
+        }
+        assert_eq!(composite.christoffel(), christoffel, "{choice:?}");
+    }
+    choices.len()
+}
+
+#[test]
+fn axes_change_nothing() {
+    use Twist::{Across, Against, Along};
+    let mut points = Points::new(77);
+    let mut seen = 0;
+    for convention in [Convention::Standard, Convention::Modified] {
+        for (twists, slides) in [
+            (&[Along, Along, Along][..], 0),
+            (&[Along, Against, Along, Against], 0),
+            (&[Across, Along, Along, Across, Across], 0),
+            (&[Across, Against, Across, Along, Across], 0),
+            (&[Along, Along, Along, Along], 0b0100),
+            (&[Along, Against, Along, Along], 0b0010),
+            (&[Across, Along, Across, Along, Along], 0b01001),
+        ] {
+            seen += compare(&arm(convention, twists, slides, &mut points), &mut points);
+        }
+    }
+    // Enough of them differ from the frames that turn with their links.
+    assert!(seen > 300, "{seen}");
+}
