@@ -86,6 +86,7 @@ fn link_json(link: &LinkFate) -> Value {
         }),
         "origin": link.origin,
         "spins_freely": link.spins_freely,
+        "axes": link.axes,
     })
 }
 

@@ -142,6 +142,21 @@ fn link_text(robot: &Robot, link: &LinkFate, before: Option<&LinkFate>) -> Strin
             "symmetric about its axis: q_{joint} drops out, the frame need not turn"
         ));
     }
+    let joints = |count: i32| match count {
+        1 => "one joint".to_owned(),
+        more => format!("{more} joints"),
+    };
+    match link.axes {
+        0 => {}
+        less if less < 0 => line(format!(
+            "seen in axes that stay behind by {}: its moments turn, not the vectors",
+            joints(-less)
+        )),
+        more => line(format!(
+            "seen in axes that run ahead by {}: its moments turn, not the vectors",
+            joints(more)
+        )),
+    }
     if robot.joints[link.joint].armature != Default::default() {
         line("its armature stays at the joint: it adds to D_ii alone".to_owned());
     }

@@ -113,6 +113,9 @@ pub struct LinkFate {
     pub origin: [f64; 3],
     /// Whether q_n drops out because the link is symmetric about its axis.
     pub spins_freely: bool,
+    /// By how many joints its frame turns more than the link (less if
+    /// negative).
+    pub axes: i32,
 }
 
 /// What became of the parameters of a robot.
@@ -207,6 +210,10 @@ impl Parameters {
                 together: together(i),
                 origin: gauge.origin.each_ref().map(f64::nearest),
                 spins_freely: link.spins_freely,
+                axes: {
+                    let [less, more] = chain.freedom(i);
+                    link.axes.clamp(less, more)
+                },
             }
         });
         Parameters {
