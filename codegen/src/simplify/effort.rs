@@ -81,7 +81,7 @@ impl Effort {
             Effort::Thorough => Settings {
                 rounds: 30,
                 patience: 8,
-                pairs: 6_000,
+                pairs: 2_500,
                 substitutes: 3_000,
                 schedule: Schedule {
                     moves: 150_000,

@@ -39,12 +39,8 @@ pub fn round(
         classes.absorb(graph);
     }
     discover::multiples(&mut classes, &own, &choice);
-    let everything = classes.len() as ClassId;
-    let pool: Vec<ClassId> = if classes.len() <= settings.pairs {
-        (0..everything).collect()
-    } else {
-        own.iter().copied().take(settings.pairs).collect()
-    };
+    // The program's own classes come first, then the other graphs' in turn.
+    let pool: Vec<ClassId> = (0..classes.len().min(settings.pairs) as ClassId).collect();
     discover::pairs(&mut classes, &pool);
     if own.len() <= settings.substitutes {
         discover::resubstitute(&mut classes, &own, &own);
