@@ -13,7 +13,6 @@
 //! - [`emit`]: flat Rust
 //! - [`verify`]: proofs and checks
 //! - [`certify`]: bounds of what was left out and of what rounding costs
-//! - `tolerate`: the cheapest variants that a scene's tolerance admits
 //! - [`couplings`]: which coefficients vanish or repeat, and why
 //! - [`explain`]: what each step brought, and why
 //! - [`watch`]: watching a long search, and ending it early
@@ -41,7 +40,6 @@ pub mod simplify;
 pub mod sincos;
 #[cfg(feature = "stress")]
 pub mod stress;
-mod tolerate;
 pub mod trace;
 pub mod verify;
 pub mod watch;

@@ -8,7 +8,8 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use crate::function::Function;
-use crate::generate::{self, Found, GenerateError, Request, Start};
+use crate::generate::search::{self, Found};
+use crate::generate::{GenerateError, Request, Start};
 use crate::graph::{Counts, Folding, Graph};
 use crate::portfolio::tune::{self, Tuned};
 use crate::portfolio::{self, Form};
@@ -219,7 +220,7 @@ pub(super) fn search(
     function: Function,
     request: &Request,
 ) -> Result<Found, GenerateError> {
-    generate::search(setting, function, &anew(request))
+    search::search(setting, function, &anew(request))
 }
 
 /// What the search made of all forms, and what the plan keeps.
@@ -235,7 +236,7 @@ pub(super) fn searched(
         row(Step::EGraph, &simplified.saturated),
         row(Step::Search, &simplified.graph),
     ];
-    if let Some(entry) = generate::replay(setting, function, request)? {
+    if let Some(entry) = search::replay(setting, function, request)? {
         rows.push(Row::program(Step::Plan, entry.program.clone()));
     }
     Ok(rows)

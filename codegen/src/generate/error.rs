@@ -1,0 +1,90 @@
+//! Why nothing was generated.
+
+use std::fmt;
+
+use crate::certify::certificate::Refuted;
+use crate::certify::choose::Refusal;
+use crate::emit::ScalarType;
+use crate::function::Function;
+use crate::scene::SettingError;
+use crate::verify::exact::Disproof;
+
+/// Why nothing was generated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GenerateError {
+    /// The request names no function or no scalar.
+    Empty,
+    /// The plan is for another robot, or for a scene that has changed.
+    StalePlan {
+        /// The robot that the plan names, or the scene.
+        robot: String,
+    },
+    /// The scene is none of this robot.
+    Scene(SettingError),
+    /// A constant is beyond the scalar's range, or rounds to zero.
+    Constant {
+        /// The function that needs it.
+        function: Function,
+        /// The scalar that cannot hold it.
+        scalar: ScalarType,
+        /// Its value, roughly.
+        value: String,
+    },
+    /// No polynomial gives a sine as exactly as was wanted.
+    SinCos(Function, String),
+    /// A function would be too large to compile.
+    TooLarge {
+        /// Which function.
+        function: Function,
+        /// How many numbers it returns.
+        outputs: usize,
+    },
+    /// The program is not the formula: a defect of this library, or a
+    /// parameter that cannot be proved with.
+    Disproved(Function, Disproof),
+    /// The printed text is not the program: a defect of this library.
+    Text(Function, ScalarType, String),
+    /// No variant meets the scene's tolerance.
+    Tolerance(Function, Refusal),
+    /// The plan's variant is none of the plan's program.
+    Variant(Function, Refuted),
+}
+
+impl fmt::Display for GenerateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
+            GenerateError::StalePlan { robot } => write!(
+                f,
+                "the plan of `{robot}` no longer fits the robot: its parameters changed; \
+                 make it anew with `dalembert generate --effort thorough --save-plan`, or delete it"
+            ),
+            GenerateError::Scene(error) => error.fmt(f),
+            GenerateError::Constant {
+                function,
+                scalar,
+                value,
+            } => write!(
+                f,
+                "`{function}` needs the constant {value}, which {scalar} cannot hold: \
+                 choose other units or a wider scalar"
+            ),
+            GenerateError::SinCos(function, why) => write!(f, "`{function}`: {why}"),
+            GenerateError::TooLarge { function, outputs } => write!(
+                f,
+                "`{function}` would return {outputs} numbers: ask for `inverse_dynamics`, \
+                 `inertia`, `coriolis` or `gravity` instead"
+            ),
+            GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
+            GenerateError::Text(function, scalar, why) => {
+                write!(f, "`{function}` in {scalar}: {why}")
+            }
+            GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
+            GenerateError::Variant(function, why) => {
+                write!(f, "the plan's variant of `{function}`: {why}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for GenerateError {}

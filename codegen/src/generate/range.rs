@@ -1,0 +1,76 @@
+//! What a scalar cannot hold: constants out of its range, overflow inside the
+//! robot's limits.
+
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+
+use super::GenerateError;
+use crate::certify::input_box::InputBox;
+use crate::certify::ranges::{Finding, ranges};
+use crate::emit::ScalarType;
+use crate::schedule::{Operand, Program};
+
+/// A constant that becomes infinite or zero is an error, a subnormal one a
+/// warning: its relative rounding error is no longer bounded by u.
+pub(super) fn check_constants(
+    program: &Program,
+    scalar: ScalarType,
+    warnings: &mut Vec<String>,
+) -> Result<(), GenerateError> {
+    let operands = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
+    let outputs = program.outputs.iter().map(|output| &output.value);
+    for operand in operands.chain(outputs) {
+        let Operand::Constant(constant) = operand else {
+            continue;
+        };
+        let rounded = scalar.round(constant);
+        // A sum over constant angles may be zero by a relation between them
+        // that is not known as such; zero is then what it is rounded to.
+        if constant.as_rational().is_none() && f64::nearest(constant) == 0.0 {
+            continue;
+        }
+        if !rounded.is_finite() || (rounded == 0.0 && !constant.is_zero()) {
+            return Err(GenerateError::Constant {
+                function: program.function,
+                scalar,
+                value: roughly(constant),
+            });
+        }
+        if rounded != 0.0 && rounded.abs() < scalar.least_normal() {
+            warnings.push(format!(
+                "`{}`: the constant {rounded:e} is subnormal in {scalar}",
+                program.function
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Intermediates that may overflow inside the robot's limits, where it has
+/// all of them: never a silent infinity.
+pub(super) fn warn_of_overflow(
+    robot: &Robot,
+    program: &Program,
+    scalar: ScalarType,
+    warnings: &mut Vec<String>,
+) {
+    let Ok(limits) = InputBox::of(robot) else {
+        return;
+    };
+    let findings = ranges(program, scalar, &limits, 1).findings;
+    let mut overflows = findings
+        .iter()
+        .filter(|finding| matches!(finding, Finding::Overflow { .. }));
+    if let Some(first) = overflows.next() {
+        warnings.push(format!(
+            "`{}` in {scalar}, inside the robot's limits: {first}; {} more like it",
+            program.function,
+            overflows.count()
+        ));
+    }
+}
+
+fn roughly(constant: &Exact) -> String {
+    format!("{:e}", f64::nearest(constant))
+}
