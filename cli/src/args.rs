@@ -123,6 +123,10 @@ pub struct GenerateArgs {
     /// every later run, macro and build script replays them
     #[arg(long, conflicts_with = "check")]
     pub save_plan: bool,
+    /// Measure errors at this many states inside the robot's limits [default:
+    /// 100; 10000 with --effort thorough]
+    #[arg(long, value_name = "N", value_parser = states_parser())]
+    pub states: Option<usize>,
     #[command(flatten)]
     pub choice: Choice,
 }

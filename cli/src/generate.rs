@@ -7,10 +7,12 @@ use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::choose::Admitted;
 use dalembert_codegen::certify::prune::omissions;
 use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::explain::errors::{MOST_STATES, of_program};
 use dalembert_codegen::generate::{GenerateError, Generated, GeneratedFunction, Request, generate};
 use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::schedule::Program;
+use dalembert_codegen::simplify::Effort;
 use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
@@ -26,7 +28,11 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     let generated = generate(&robot, &request)?;
     let certificates = certificates(&robot, &request, &generated)?;
     drop(session);
-    output::note(&report(&robot, &request, &generated));
+    let states = args.states.unwrap_or(match args.choice.effort {
+        Effort::Quick => 100,
+        Effort::Thorough => MOST_STATES,
+    });
+    output::note(&report(&robot, &request, &generated, states));
     if args.save_plan {
         save_plan(args, &robot, &request, &generated, kept)?;
     }
@@ -160,7 +166,7 @@ fn exact(function: &GeneratedFunction) -> &Program {
 }
 
 /// What a person wants to know about the code.
-fn report(robot: &Robot, request: &Request, generated: &Generated) -> String {
+fn report(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
     let mut text = format!(
         "robot {}, {} joints, input {}{}\n\n",
         robot.name,
@@ -169,6 +175,7 @@ fn report(robot: &Robot, request: &Request, generated: &Generated) -> String {
         scene(request)
     );
     text += &counts(generated);
+    text += &errors(robot, request, generated, states);
     text += "\nmul add sincos after each stage\n";
     text += &stages(generated);
     for function in &generated.functions {
@@ -188,6 +195,30 @@ fn report(robot: &Robot, request: &Request, generated: &Generated) -> String {
         text += &format!("warning: {warning}\n");
     }
     text
+}
+
+/// What rounding costs each program. A scene's own programs read other
+/// states: what a tolerance admits has its certificates.
+fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
+    if request.scene.is_some() {
+        return String::new();
+    }
+    let mut head = vec!["function".to_owned()];
+    for scalar in &request.scalars {
+        head.extend(["normwise", "per joint"].map(|what| format!("{scalar} {what}")));
+    }
+    let mut rows = vec![head];
+    for function in &generated.functions {
+        let mut row = vec![function.function.to_string()];
+        for errors in of_program(robot, &function.program, &request.scalars, states) {
+            row.extend([errors.normwise, errors.per_joint].map(|error| format!("{error:.1}")));
+        }
+        rows.push(row);
+    }
+    format!(
+        "\nthe worst errors at {states} states inside the limits, in u\n{}",
+        output::table(&rows, 0)
+    )
 }
 
 /// What a tolerance admitted: E by cause, and what was left out.
@@ -251,7 +282,10 @@ pub fn counts(generated: &Generated) -> String {
             counts.add.to_string(),
             counts.div.to_string(),
             counts.sincos.to_string(),
-            function.source.name().to_owned(),
+            match function.planned {
+                true => format!("{}, plan", function.source.name()),
+                false => function.source.name().to_owned(),
+            },
             format!("exact, miss < 1e{}", function.proof.failure_exponent),
         ]);
     }

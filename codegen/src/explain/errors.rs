@@ -1,4 +1,4 @@
-//! What rounding costs each row: f64 against the big float.
+//! What rounding costs: each row, and what is emitted, against the big float.
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
@@ -11,6 +11,7 @@ use super::steps::Code;
 use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::graph::Input;
+use crate::schedule::Program;
 use crate::stress::truth::Truth;
 use crate::trace::{Motion, evaluate};
 use crate::verify::accuracy::Runner;
@@ -22,7 +23,7 @@ pub const MOST_STATES: usize = 10_000;
 /// A seed of its own.
 const SEED: u64 = 0xe7_91a1;
 
-/// The worst errors over the states, in units of u = 2⁻⁵³.
+/// The worst errors over the states, in units of u: 2⁻⁵³ for f64, 2⁻²⁴ for f32.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Errors {
     /// max_i |error_i| / max_i |truth_i|, each quantity by itself.
@@ -34,26 +35,63 @@ pub struct Errors {
 /// The errors of every row over the same states, inside the robot's limits.
 pub fn measure(robot: &Robot, explanation: &Explanation, states: usize) -> Vec<Errors> {
     let function = explanation.function;
-    let truth = Truth::new(robot);
-    let runs: Vec<(JointState, Vec<Big>)> = seeded(robot, states.min(MOST_STATES), SEED)
-        .into_iter()
-        .filter_map(|state| truth.run(function, &state).map(|results| (state, results)))
-        .collect();
+    let runs = runs(robot, function, states);
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
     let errors = |code: &Code| match code {
-        Code::Formula(formulation) => worst(function, robot, &runs, |state| {
+        Code::Formula(formulation) => worst(function, robot, &runs, ScalarType::F64, |state| {
             formula(robot, &arm, *formulation, function, state)
         }),
         Code::Program(program) => {
             let runner = Runner::<f64>::new(program, ScalarType::F64);
-            worst(function, robot, &runs, |state| runner.run(state))
+            worst(function, robot, &runs, ScalarType::F64, |state| {
+                runner.run(state)
+            })
         }
     };
     explanation
         .rows
         .iter()
         .map(|row| errors(&row.code))
+        .collect()
+}
+
+/// The errors of a program in each scalar, inside the robot's limits; states
+/// of f32 are rounded to it first.
+pub fn of_program(
+    robot: &Robot,
+    program: &Program,
+    scalars: &[ScalarType],
+    states: usize,
+) -> Vec<Errors> {
+    let function = program.function;
+    let double = runs(robot, function, states);
+    let errors = |&scalar: &ScalarType| match scalar {
+        ScalarType::F64 => {
+            let runner = Runner::<f64>::new(program, scalar);
+            worst(function, robot, &double, scalar, |state| runner.run(state))
+        }
+        ScalarType::F32 => {
+            let runner = Runner::<f32>::new(program, scalar);
+            let truth = Truth::new(robot);
+            let rounded = double.iter().filter_map(|(state, _)| {
+                let state = state.in_single();
+                let truth = truth.run(function, &state)?;
+                Some((state, truth))
+            });
+            let single: Vec<_> = rounded.collect();
+            worst(function, robot, &single, scalar, |state| runner.run(state))
+        }
+    };
+    scalars.iter().map(errors).collect()
+}
+
+/// States inside the robot's limits and the truth there.
+fn runs(robot: &Robot, function: Function, states: usize) -> Vec<(JointState, Vec<Big>)> {
+    let truth = Truth::new(robot);
+    seeded(robot, states.min(MOST_STATES), SEED)
+        .into_iter()
+        .filter_map(|state| truth.run(function, &state).map(|results| (state, results)))
         .collect()
 }
 
@@ -83,6 +121,7 @@ fn worst(
     function: Function,
     robot: &Robot,
     runs: &[(JointState, Vec<Big>)],
+    scalar: ScalarType,
     run: impl Fn(&JointState) -> Vec<f64>,
 ) -> Errors {
     let outputs = function.outputs(robot.joints.len());
@@ -113,7 +152,7 @@ fn worst(
         .iter()
         .zip(&largest)
         .map(|(e, size)| ratio(*e, *size));
-    let u = ScalarType::F64.unit_roundoff();
+    let u = scalar.unit_roundoff();
     Errors {
         normwise: normwise / u,
         per_joint: per_joint.fold(0.0, f64::max) / u,
