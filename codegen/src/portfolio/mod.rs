@@ -263,12 +263,24 @@ pub fn tuned(
         false => simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers)),
     };
     let start = tune::start(&arm);
-    let mut tuned: Option<Tuned> = None;
-    for axes in starts(&Chain::new(&arm, &start)) {
+    let with = |axes: Vec<i32>| {
         let mut from = start.clone();
         for (link, axes) in from.links.iter_mut().zip(axes) {
             link.axes = axes;
         }
+        from
+    };
+    let mut starts: Vec<Gauge<Exact>> = starts(&Chain::new(&arm, &start))
+        .into_iter()
+        .map(with)
+        .collect();
+    if effort == Effort::Quick && starts.len() > 1 {
+        // One descent: from where the others look dearer already.
+        starts.sort_by_cached_key(|from| glance(&Chain::new(&arm, from), forms[0]));
+        starts.truncate(1);
+    }
+    let mut tuned: Option<Tuned> = None;
+    for from in starts {
         let mut found =
             tune::tune(
                 &arm,

@@ -8,6 +8,7 @@
 //! 1e-40; the final program is proved at other points all the same.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
@@ -18,26 +19,65 @@ use crate::graph::{Input, Print};
 
 /// Tries every pair of the pool; returns how many new ways there are.
 pub fn pairs(classes: &mut Classes, pool: &[ClassId]) -> usize {
+    let known: Table<()> = (0..classes.len() as ClassId)
+        .map(|id| (key(&classes.get(id).print), ()))
+        .collect();
     let mut found = Vec::new();
-    for (index, &a) in pool.iter().enumerate() {
-        let x = classes.get(a).print;
-        for &b in &pool[index..] {
-            let y = classes.get(b).print;
-            for (print, way) in [
-                (x.add(&y), Way::Sum(a, b)),
-                (x.sub(&y), Way::Difference(a, b)),
-                (x.mul(&y), Way::Product(a, b)),
-            ] {
-                if let Some(hit) = classes.find(&print) {
-                    found.push((hit.class, way));
-                }
-            }
+    for_pairs(classes, pool, |first, way| {
+        if known.contains_key(&first) {
+            found.push(way);
+        }
+    });
+    let mut count = 0;
+    for way in found {
+        if let Some(hit) = classes.find(&classes.way_print(way)) {
+            count += usize::from(classes.add_way(hit.class, way));
         }
     }
-    found
-        .into_iter()
-        .filter(|&(class, way)| classes.add_way(class, way))
-        .count()
+    count
+}
+
+/// Calls with the key of every sum, difference and product in the pool.
+fn for_pairs(classes: &Classes, pool: &[ClassId], mut call: impl FnMut(Field, Way)) {
+    let first: Vec<Field> = pool.iter().map(|&id| classes.get(id).print.0[0]).collect();
+    for (index, (&a, x)) in pool.iter().zip(&first).enumerate() {
+        for (&b, y) in pool[index..].iter().zip(&first[index..]) {
+            call(up_to_sign(x.add(y)), Way::Sum(a, b));
+            call(up_to_sign(x.sub(y)), Way::Difference(a, b));
+            call(up_to_sign(x.mul(y)), Way::Product(a, b));
+        }
+    }
+}
+
+/// By the first point of a print up to sign: what agrees there is compared at
+/// all points afterwards.
+type Table<T> = HashMap<Field, T, BuildHasherDefault<AsItIs>>;
+
+fn key(print: &Print) -> Field {
+    up_to_sign(print.0[0])
+}
+
+fn up_to_sign(x: Field) -> Field {
+    x.min(x.neg())
+}
+
+/// Field values are as good as random: no hash need mix them again but for the
+/// table's use of the highest bits.
+#[derive(Clone, Copy, Debug, Default)]
+struct AsItIs(u64);
+
+impl Hasher for AsItIs {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u64(u64::from(byte));
+        }
+    }
+    fn write_u64(&mut self, value: u64) {
+        self.0 = (self.0.rotate_left(8) ^ value).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
 }
 
 /// Finds classes that are a constant multiple of one another, or differ by a
@@ -96,42 +136,30 @@ pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]
 
 /// Tries (a ∘ b) ∘ c for every class of `targets` over the pool.
 pub fn resubstitute(classes: &mut Classes, targets: &[ClassId], pool: &[ClassId]) -> usize {
-    // Canonical print of a ∘ b → the first such pair.
-    let mut table: HashMap<Print, Way> = HashMap::new();
-    for (index, &a) in pool.iter().enumerate() {
-        let x = classes.get(a).print;
-        for &b in &pool[index..] {
-            let y = classes.get(b).print;
-            for (print, way) in [
-                (x.add(&y), Way::Sum(a, b)),
-                (x.sub(&y), Way::Difference(a, b)),
-                (x.mul(&y), Way::Product(a, b)),
-            ] {
-                table.entry(print.canonical().0).or_insert(way);
-            }
-        }
-    }
-    let inverses: Vec<Option<Print>> = pool
+    // a ∘ b → the first such pair.
+    let mut table: Table<Way> = Table::default();
+    for_pairs(classes, pool, |first, way| {
+        table.entry(first).or_insert(way);
+    });
+    let others: Vec<(ClassId, Field, Option<Field>)> = pool
         .iter()
-        .map(|&c| invert(&classes.get(c).print))
+        .map(|&c| (c, classes.get(c).print.0[0]))
+        .map(|(c, x)| (c, x, x.inverse()))
         .collect();
     let mut found: Vec<(ClassId, Way, ClassId, bool)> = Vec::new();
     for &y in targets {
-        let target = classes.get(y).print;
-        for (&c, inverse) in pool.iter().zip(&inverses) {
-            if c == y {
+        let target = classes.get(y).print.0[0];
+        for (c, other, inverse) in &others {
+            if *c == y {
                 continue;
             }
-            let other = classes.get(c).print;
-            let mut candidates = vec![(target.sub(&other), false), (target.add(&other), false)];
-            if let Some(inverse) = inverse {
-                candidates.push((target.mul(inverse), true));
-            }
-            for (print, product) in candidates {
-                if let Some(&way) = table.get(&print.canonical().0)
+            let quotient = inverse.map(|inverse| (target.mul(&inverse), true));
+            let sums = [(target.sub(other), false), (target.add(other), false)];
+            for (inner, product) in sums.into_iter().chain(quotient) {
+                if let Some(&way) = table.get(&up_to_sign(inner))
                     && !way.operands().contains(&y)
                 {
-                    found.push((y, way, c, product));
+                    found.push((y, way, *c, product));
                 }
             }
         }
@@ -157,14 +185,6 @@ pub fn resubstitute(classes: &mut Classes, targets: &[ClassId], pool: &[ClassId]
         }
     }
     count
-}
-
-fn invert(print: &Print) -> Option<Print> {
-    let mut inverse = Print::zero();
-    for (slot, x) in inverse.0.iter_mut().zip(&print.0) {
-        *slot = x.inverse()?;
-    }
-    Some(inverse)
 }
 
 /// The leaf class of a constant.

@@ -71,7 +71,7 @@ impl Effort {
             Effort::Quick => Settings {
                 rounds: 3,
                 patience: 1,
-                pairs: 1_500,
+                pairs: 500,
                 substitutes: 700,
                 schedule: Schedule {
                     moves: 40_000,

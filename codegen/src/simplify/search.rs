@@ -58,7 +58,7 @@ pub fn glance(program: &Graph, helpers: &[Graph]) -> Graph {
     let settings = Settings {
         rounds: 1,
         patience: 0,
-        pairs: 1_000,
+        pairs: 500,
         substitutes: 1_000,
         schedule: COOLING,
     };
