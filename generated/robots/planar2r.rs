@@ -38,27 +38,27 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
     let t1 = qd[0] * qd[0];
     let t2 = s1 * 9.81;
     let t3 = t1 - t2;
-    let t4 = t3 * s2;
-    let t5 = c1 * 9.81;
-    let t6 = qdd[0] + t5;
-    let t7 = t6 * c2;
-    let t8 = t7 + t4;
-    let t9 = t8 * 0.5;
-    let t10 = qdd[1] + qdd[0];
-    let t11 = t10 * 0.3333333333333333;
-    let t12 = t11 + t9;
-    let t13 = qd[0] + qd[1];
-    let t14 = s2 * t13;
-    let t15 = t13 * t14;
-    let t16 = t10 * c2;
-    let t17 = t16 - t15;
-    let t18 = t17 * 0.5;
-    let t19 = qdd[0] * 1.3333333333333333;
-    let t20 = t18 + t19;
-    let t21 = c1 * 14.715;
-    let t22 = t21 + t20;
-    let t23 = t12 + t22;
-    [t23, t12]
+    let t4 = s2 * 0.5;
+    let t5 = t3 * t4;
+    let t6 = qdd[0] + qdd[1];
+    let t7 = t6 * 0.3333333333333333;
+    let t8 = t7 + t5;
+    let t9 = c1 * 9.81;
+    let t10 = qdd[0] + t9;
+    let t11 = c2 * 0.5;
+    let t12 = t10 * t11;
+    let t13 = t8 + t12;
+    let t14 = qd[0] + qd[1];
+    let t15 = t4 * t14;
+    let t16 = t14 * t15;
+    let t17 = t13 - t16;
+    let t18 = c1 * 14.715;
+    let t19 = t17 + t18;
+    let t20 = qdd[0] * 1.3333333333333333;
+    let t21 = t19 + t20;
+    let t22 = t6 * t11;
+    let t23 = t21 + t22;
+    [t23, t13]
 }
 
 /// Gravity load c(q): the torques that hold the arm still.
@@ -69,13 +69,13 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
     let (s2, c2) = libm::sincos(q[1]);
-    let t1 = s1 * s2;
-    let t2 = c2 * c1;
+    let t1 = c2 * c1;
+    let t2 = s1 * s2;
     let t3 = t1 - t2;
     let t4 = t3 * 4.905;
     let t5 = c1 * 14.715;
-    let t6 = t4 - t5;
-    [-t6, -t4]
+    let t6 = t4 + t5;
+    [t6, t4]
 }
 
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
@@ -86,11 +86,11 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
     let c2 = libm::cos(q[1]);
     let t1 = c2 + 1.6666666666666667;
-    let t2 = c2 * 0.5;
-    let t3 = t2 + 0.3333333333333333;
+    let t2 = t1 * 0.5;
+    let t3 = 0.5 - t2;
     [
-        [t1, t3],
-        [t3, 0.3333333333333333],
+        [t1, -t3],
+        [-t3, 0.3333333333333333],
     ]
 }
 
@@ -102,13 +102,13 @@ pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
 pub fn coriolis(q: &[f64; 2], qd: &[f64; 2]) -> [f64; 2] {
     let s2 = libm::sin(q[1]);
     let t1 = qd[0] + qd[1];
-    let t2 = t1 * t1;
-    let t3 = s2 * 0.5;
-    let t4 = t3 * t2;
-    let t5 = t3 * qd[0];
-    let t6 = qd[0] * t5;
-    let t7 = t6 - t4;
-    [t7, t6]
+    let t2 = qd[0] + t1;
+    let t3 = qd[1] * t2;
+    let t4 = s2 * 0.5;
+    let t5 = t3 * t4;
+    let t6 = qd[0] * t4;
+    let t7 = qd[0] * t6;
+    [-t5, t7]
 }
 
 /// What [`manipulator_equation`] returns.
@@ -133,17 +133,17 @@ pub fn manipulator_equation(q: &[f64; 2], qd: &[f64; 2]) -> ManipulatorEquation 
     let t1 = c2 + 1.6666666666666667;
     let t2 = c2 * 0.5;
     let t3 = t2 + 0.3333333333333333;
-    let t4 = qd[1] + qd[0];
-    let t5 = t4 * t4;
-    let t6 = qd[0] * qd[0];
-    let t7 = t5 - t6;
-    let t8 = s2 * 0.5;
-    let t9 = t7 * t8;
-    let t10 = t6 * t8;
-    let t11 = s2 * s1;
-    let t12 = c2 * c1;
+    let t4 = qd[0] + qd[0];
+    let t5 = t4 + qd[1];
+    let t6 = qd[1] * t5;
+    let t7 = s2 * 0.5;
+    let t8 = t6 * t7;
+    let t9 = qd[0] * qd[0];
+    let t10 = t7 * t9;
+    let t11 = t7 * s1;
+    let t12 = t2 * c1;
     let t13 = t11 - t12;
-    let t14 = t13 * 4.905;
+    let t14 = t13 * 9.81;
     let t15 = c1 * 14.715;
     let t16 = t14 - t15;
     ManipulatorEquation {
@@ -151,7 +151,7 @@ pub fn manipulator_equation(q: &[f64; 2], qd: &[f64; 2]) -> ManipulatorEquation 
             [t1, t3],
             [t3, 0.3333333333333333],
         ],
-        h: [-t9, t10],
+        h: [-t8, t10],
         c: [-t16, -t14],
     }
 }
@@ -179,10 +179,10 @@ pub fn dynamic_coefficients(q: &[f64; 2]) -> DynamicCoefficients {
     let t2 = c2 * 0.5;
     let t3 = t2 + 0.3333333333333333;
     let t4 = s2 * 0.5;
-    let t5 = s2 * s1;
-    let t6 = c2 * c1;
+    let t5 = t4 * s1;
+    let t6 = t2 * c1;
     let t7 = t5 - t6;
-    let t8 = t7 * 4.905;
+    let t8 = t7 * 9.81;
     let t9 = c1 * 14.715;
     let t10 = t8 - t9;
     DynamicCoefficients {
@@ -243,27 +243,27 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
     let t1 = qd[0] * qd[0];
     let t2 = s1 * 9.81;
     let t3 = t1 - t2;
-    let t4 = t3 * s2;
-    let t5 = c1 * 9.81;
-    let t6 = qdd[0] + t5;
-    let t7 = t6 * c2;
-    let t8 = t7 + t4;
-    let t9 = t8 * 0.5;
-    let t10 = qdd[1] + qdd[0];
-    let t11 = t10 * 0.33333334;
-    let t12 = t11 + t9;
-    let t13 = qd[0] + qd[1];
-    let t14 = s2 * t13;
-    let t15 = t13 * t14;
-    let t16 = t10 * c2;
-    let t17 = t16 - t15;
-    let t18 = t17 * 0.5;
-    let t19 = qdd[0] * 1.3333334;
-    let t20 = t18 + t19;
-    let t21 = c1 * 14.715;
-    let t22 = t21 + t20;
-    let t23 = t12 + t22;
-    [t23, t12]
+    let t4 = s2 * 0.5;
+    let t5 = t3 * t4;
+    let t6 = qdd[0] + qdd[1];
+    let t7 = t6 * 0.33333334;
+    let t8 = t7 + t5;
+    let t9 = c1 * 9.81;
+    let t10 = qdd[0] + t9;
+    let t11 = c2 * 0.5;
+    let t12 = t10 * t11;
+    let t13 = t8 + t12;
+    let t14 = qd[0] + qd[1];
+    let t15 = t4 * t14;
+    let t16 = t14 * t15;
+    let t17 = t13 - t16;
+    let t18 = c1 * 14.715;
+    let t19 = t17 + t18;
+    let t20 = qdd[0] * 1.3333334;
+    let t21 = t19 + t20;
+    let t22 = t6 * t11;
+    let t23 = t21 + t22;
+    [t23, t13]
 }
 
 /// Gravity load c(q): the torques that hold the arm still.
@@ -274,13 +274,13 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
 pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
     let (s2, c2) = libm::sincosf(q[1]);
-    let t1 = s1 * s2;
-    let t2 = c2 * c1;
+    let t1 = c2 * c1;
+    let t2 = s1 * s2;
     let t3 = t1 - t2;
     let t4 = t3 * 4.905;
     let t5 = c1 * 14.715;
-    let t6 = t4 - t5;
-    [-t6, -t4]
+    let t6 = t4 + t5;
+    [t6, t4]
 }
 
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
@@ -291,11 +291,11 @@ pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
 pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
     let c2 = libm::cosf(q[1]);
     let t1 = c2 + 1.6666666;
-    let t2 = c2 * 0.5;
-    let t3 = t2 + 0.33333334;
+    let t2 = t1 * 0.5;
+    let t3 = 0.5 - t2;
     [
-        [t1, t3],
-        [t3, 0.33333334],
+        [t1, -t3],
+        [-t3, 0.33333334],
     ]
 }
 
@@ -307,13 +307,13 @@ pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
 pub fn coriolis(q: &[f32; 2], qd: &[f32; 2]) -> [f32; 2] {
     let s2 = libm::sinf(q[1]);
     let t1 = qd[0] + qd[1];
-    let t2 = t1 * t1;
-    let t3 = s2 * 0.5;
-    let t4 = t3 * t2;
-    let t5 = t3 * qd[0];
-    let t6 = qd[0] * t5;
-    let t7 = t6 - t4;
-    [t7, t6]
+    let t2 = qd[0] + t1;
+    let t3 = qd[1] * t2;
+    let t4 = s2 * 0.5;
+    let t5 = t3 * t4;
+    let t6 = qd[0] * t4;
+    let t7 = qd[0] * t6;
+    [-t5, t7]
 }
 
 /// What [`manipulator_equation`] returns.
@@ -338,17 +338,17 @@ pub fn manipulator_equation(q: &[f32; 2], qd: &[f32; 2]) -> ManipulatorEquation 
     let t1 = c2 + 1.6666666;
     let t2 = c2 * 0.5;
     let t3 = t2 + 0.33333334;
-    let t4 = qd[1] + qd[0];
-    let t5 = t4 * t4;
-    let t6 = qd[0] * qd[0];
-    let t7 = t5 - t6;
-    let t8 = s2 * 0.5;
-    let t9 = t7 * t8;
-    let t10 = t6 * t8;
-    let t11 = s2 * s1;
-    let t12 = c2 * c1;
+    let t4 = qd[0] + qd[0];
+    let t5 = t4 + qd[1];
+    let t6 = qd[1] * t5;
+    let t7 = s2 * 0.5;
+    let t8 = t6 * t7;
+    let t9 = qd[0] * qd[0];
+    let t10 = t7 * t9;
+    let t11 = t7 * s1;
+    let t12 = t2 * c1;
     let t13 = t11 - t12;
-    let t14 = t13 * 4.905;
+    let t14 = t13 * 9.81;
     let t15 = c1 * 14.715;
     let t16 = t14 - t15;
     ManipulatorEquation {
@@ -356,7 +356,7 @@ pub fn manipulator_equation(q: &[f32; 2], qd: &[f32; 2]) -> ManipulatorEquation 
             [t1, t3],
             [t3, 0.33333334],
         ],
-        h: [-t9, t10],
+        h: [-t8, t10],
         c: [-t16, -t14],
     }
 }
@@ -384,10 +384,10 @@ pub fn dynamic_coefficients(q: &[f32; 2]) -> DynamicCoefficients {
     let t2 = c2 * 0.5;
     let t3 = t2 + 0.33333334;
     let t4 = s2 * 0.5;
-    let t5 = s2 * s1;
-    let t6 = c2 * c1;
+    let t5 = t4 * s1;
+    let t6 = t2 * c1;
     let t7 = t5 - t6;
-    let t8 = t7 * 4.905;
+    let t8 = t7 * 9.81;
     let t9 = c1 * 14.715;
     let t10 = t8 - t9;
     DynamicCoefficients {

@@ -15,13 +15,17 @@ pub struct Settings {
     pub rounds: usize,
     /// Rounds without a gain before it stops.
     pub patience: usize,
-    /// The most classes among which all pairs are tried.
+    /// The most classes among which all pairs are tried, if the program's own
+    /// are not more.
     pub pairs: usize,
     /// The most classes among which two-operation substitutes are tried.
     pub substitutes: usize,
     /// Annealing of a round.
     pub schedule: Schedule,
 }
+
+/// A program with more values than this is not paired whole in any search.
+const MOST_OWN: usize = 1_500;
 
 /// One round from a program: what other graphs and the fingerprints offer,
 /// then extraction. Never returns a dearer program.
@@ -40,7 +44,8 @@ pub fn round(
     }
     discover::multiples(&mut classes, &own, &choice);
     // The program's own classes come first, then the other graphs' in turn.
-    let pool: Vec<ClassId> = (0..classes.len().min(settings.pairs) as ClassId).collect();
+    let most = settings.pairs.max(own.len().min(MOST_OWN));
+    let pool: Vec<ClassId> = (0..classes.len().min(most) as ClassId).collect();
     discover::pairs(&mut classes, &pool);
     if own.len() <= settings.substitutes {
         discover::resubstitute(&mut classes, &own, &own);
