@@ -38,7 +38,7 @@ impl Budget {
     pub const GLANCE: Budget = Budget {
         boxes: 20_000,
         linear: false,
-        points: 1 << 22,
+        points: 1 << 20,
     };
 }
 

@@ -46,6 +46,9 @@ const SLACK: f64 = 1e-13;
 /// What a bound exceeds a value that is taken by, relative.
 const CLOSE: f64 = 0.02;
 
+/// The largest relative step from a bound that could not be shown to the next.
+const MOST_STEP: f64 = 0.15;
+
 /// d·δ of the first cells is π over one of these: the finest that leaves
 /// points for more.
 const FIRST: [usize; 3] = [8, 6, 4];
@@ -112,19 +115,19 @@ fn bound(
     };
     let least = climb(&mut cells);
     let crude = layout.crude(0, &cells.buffers[0]);
-    let mut bound = (least * (1.0 + CLOSE)).max(goal) + 2.0 * layout.slack;
-    let mut more = 2.0 * CLOSE;
+    // The bounds that are tried do not depend on the goal, which only skips
+    // some: what was shown for a goal is shown again without one.
+    let mut bound = least * (1.0 + CLOSE) + 2.0 * layout.slack;
+    let mut more = CLOSE;
     while bound < crude {
-        cells.points = points;
-        if cells.below(0, bound) {
-            return bound;
+        if bound >= goal || bound * (1.0 + MOST_STEP) >= crude {
+            cells.points = points;
+            if cells.below(0, bound) {
+                return bound;
+            }
         }
-        if cells.points == 0 {
-            // Out of points: much less close.
-            more = more.max(0.25);
-        }
+        more = (2.0 * more).min(MOST_STEP);
         bound *= 1.0 + more;
-        more *= 2.0;
     }
     crude
 }
