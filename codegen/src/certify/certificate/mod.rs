@@ -14,8 +14,8 @@
 //! 3. the printed text, read back, is the emitted program, every literal
 //!    rounded once; sines that it computes by polynomials are proved again
 //!    from the literals, over the angles' ranges in the box;
-//! 4. the error of the edits ([`difference`]), of sines and cosines and of
-//!    rounding ([`rounding`]) are bounded anew, and the claims must not be
+//! 4. the error of the edits ([`difference`](super::edits::difference)), of sines and cosines and of
+//!    rounding ([`rounding`](super::sensitivity::rounding)) are bounded anew, and the claims must not be
 //!    smaller.
 //!
 //! The emitted program and the edited one are the same function but not the
