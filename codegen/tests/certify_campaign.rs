@@ -93,10 +93,11 @@ fn stanford_at_a_hundredth() {
     campaign("stanford", 1e-2, &ScalarType::ALL, 5);
 }
 
-/// A short search certifies no omission here: what rounding costs in both.
+/// A short search certifies no omission here, and the bound of rounding is
+/// hundreds of times what is seen: only that it holds.
 #[test]
 fn ur10_whole() {
-    campaign("ur10", 5e-2, &ScalarType::ALL, 0);
+    campaign("ur10", 1e-9, &[ScalarType::F64], 0);
 }
 
 /// A search over seven joints takes longer than a test may: rounding alone.
