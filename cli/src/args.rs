@@ -124,7 +124,7 @@ pub struct GenerateArgs {
     #[arg(long, conflicts_with = "check")]
     pub save_plan: bool,
     /// Measure errors at this many states inside the robot's limits [default:
-    /// 100; 10000 with --effort thorough]
+    /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", value_parser = states_parser())]
     pub states: Option<usize>,
     #[command(flatten)]

@@ -7,7 +7,7 @@ use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::choose::Admitted;
 use dalembert_codegen::certify::prune::omissions;
 use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::explain::errors::{MOST_STATES, of_program};
+use dalembert_codegen::explain::errors::{MOST_STATES, affordable_states, of_program};
 use dalembert_codegen::generate::{GenerateError, Generated, GeneratedFunction, Request, generate};
 use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
 use dalembert_codegen::scene::Setting;
@@ -29,7 +29,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     let certificates = certificates(&robot, &request, &generated)?;
     drop(session);
     let states = args.states.unwrap_or(match args.choice.effort {
-        Effort::Quick => 100,
+        Effort::Quick => affordable_states(robot.joints.len()),
         Effort::Thorough => MOST_STATES,
     });
     output::note(&report(&robot, &request, &generated, states));
@@ -216,7 +216,7 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
         rows.push(row);
     }
     format!(
-        "\nthe worst errors at {states} states inside the limits, in u\n{}",
+        "\nthe worst errors inside the limits, in u, of this many states: {states}\n{}",
         output::table(&rows, 0)
     )
 }

@@ -35,7 +35,8 @@ pub struct Errors {
 /// The errors of every row over the same states, inside the robot's limits.
 pub fn measure(robot: &Robot, explanation: &Explanation, states: usize) -> Vec<Errors> {
     let function = explanation.function;
-    let runs = runs(robot, function, states);
+    let drawn = seeded(robot, states.min(MOST_STATES), SEED);
+    let runs = at(&Truth::new(robot), function, drawn.into_iter());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
     let errors = |code: &Code| match code {
@@ -65,34 +66,43 @@ pub fn of_program(
     states: usize,
 ) -> Vec<Errors> {
     let function = program.function;
-    let double = runs(robot, function, states);
+    let truth = Truth::new(robot);
+    let drawn = seeded(robot, states.min(MOST_STATES), SEED);
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {
             let runner = Runner::<f64>::new(program, scalar);
-            worst(function, robot, &double, scalar, |state| runner.run(state))
+            let runs = at(&truth, function, drawn.iter().cloned());
+            worst(function, robot, &runs, scalar, |state| runner.run(state))
         }
         ScalarType::F32 => {
             let runner = Runner::<f32>::new(program, scalar);
-            let truth = Truth::new(robot);
-            let rounded = double.iter().filter_map(|(state, _)| {
-                let state = state.in_single();
-                let truth = truth.run(function, &state)?;
-                Some((state, truth))
-            });
-            let single: Vec<_> = rounded.collect();
-            worst(function, robot, &single, scalar, |state| runner.run(state))
+            let runs = at(&truth, function, drawn.iter().map(JointState::in_single));
+            worst(function, robot, &runs, scalar, |state| runner.run(state))
         }
     };
     scalars.iter().map(errors).collect()
 }
 
-/// States inside the robot's limits and the truth there.
-fn runs(robot: &Robot, function: Function, states: usize) -> Vec<(JointState, Vec<Big>)> {
-    let truth = Truth::new(robot);
-    seeded(robot, states.min(MOST_STATES), SEED)
-        .into_iter()
-        .filter_map(|state| truth.run(function, &state).map(|results| (state, results)))
-        .collect()
+/// How many states take seconds at most, whatever the robot: the reference's
+/// work grows with the cube of the number of joints where it returns D.
+pub fn affordable_states(joints: usize) -> usize {
+    const STATES: usize = 100;
+    const JOINTS: usize = 10;
+    match joints {
+        0..=JOINTS => STATES,
+        _ => (STATES * JOINTS.pow(3) / joints.pow(3)).max(1),
+    }
+}
+
+/// The states and the truth there, without those that are not finite.
+fn at(
+    truth: &Truth,
+    function: Function,
+    states: impl Iterator<Item = JointState>,
+) -> Vec<(JointState, Vec<Big>)> {
+    let with_truth =
+        |state: JointState| truth.run(function, &state).map(|results| (state, results));
+    states.filter_map(with_truth).collect()
 }
 
 /// A formulation over f64, its constants rounded once.
