@@ -216,7 +216,7 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
         rows.push(row);
     }
     format!(
-        "\nthe worst errors inside the limits, in u, of this many states: {states}\n{}",
+        "\nthe worst errors inside the limits, in u (f64 2^-53, f32 2^-24), of this many states: {states}\n{}",
         output::table(&rows, 0)
     )
 }
