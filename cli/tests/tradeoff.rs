@@ -327,10 +327,10 @@ fn a_tradeoff_with_table_chart_and_certificates() {
     let svg = fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap();
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     for part in [
-        "prefers-color-scheme:dark",
-        "@media print",
+        "@media screen and (prefers-color-scheme:dark)",
         "f64, libm",
-        "dominated",
+        "f32, libm",
+        "relative to the largest torques",
     ] {
         assert!(svg.contains(part), "{part}");
     }

@@ -11,7 +11,7 @@ use serde_json::json;
 use crate::args::StressArgs;
 use crate::outcome::Outcome;
 use crate::output;
-use crate::plot::Chart;
+use crate::plot::curves::Chart;
 
 /// A length of chain, and how long rustc took: `None` without one.
 struct Line {

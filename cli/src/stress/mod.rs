@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use crate::args::StressArgs;
 use crate::outcome::{Failure, Outcome};
-use crate::plot::Chart;
+use crate::plot::curves::Chart;
 use crate::{input, output};
 
 /// Runs the subcommand.

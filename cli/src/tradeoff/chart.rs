@@ -1,238 +1,223 @@
 //! The front as SVG: operations, those of polynomials for sines included, over
 //! certified error, both logarithmic.
 //!
-//! Each variant is a dot at its certified error with a whisker to what was
-//! observed. A line joins the front of each kind; dominated variants are grey.
-//! Kinds differ in colour and in shape, so that print without colours is
-//! legible; the paper is part of the picture, white or dark as the reader's
-//! pages are.
-
-use std::fmt::Write;
+//! Each variant is a mark at its certified error with a whisker to what was
+//! observed. A line joins the front of each kind; dominated variants are grey,
+//! below the others. f64 is open, f32 full, smaller and dashed: where both are, both
+//! are seen.
 
 use super::ladder::Point;
-use crate::plot::escaped;
-
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 420.0;
-const LEFT: f64 = 58.0;
-const RIGHT: f64 = 152.0;
-const TOP: f64 = 40.0;
-const BOTTOM: f64 = 50.0;
-
-const STYLE: &str = "\
-svg{font:12px sans-serif}.p{fill:#fff}.i{fill:#222}\
-.g{stroke:#222;stroke-opacity:.14}.l{fill:none;stroke-width:1.5}.w{stroke-width:1;stroke-opacity:.55}\
-.k0{stroke:#1b6ca8;fill:#1b6ca8}.k1{stroke:#c2571a;fill:#c2571a}\
-.k2{stroke:#2b8a4b;fill:#2b8a4b}.k3{stroke:#9b3fa0;fill:#9b3fa0}\
-.d{stroke:#999;fill:#999;opacity:.6}.l{fill:none}\
-@media(prefers-color-scheme:dark){.p{fill:#111}.i{fill:#ddd}.g{stroke:#ddd}\
-.k0{stroke:#62b0ea;fill:#62b0ea}.k1{stroke:#f0935a;fill:#f0935a}\
-.k2{stroke:#6cc98c;fill:#6cc98c}.k3{stroke:#d68ada;fill:#d68ada}.l{fill:none}}\
-@media print{.p{fill:#fff}.i{fill:#000}}";
+use crate::plot::picture::{Picture, Shape};
 
 /// The kinds of variants, as the legend names them.
-const KINDS: [&str; 4] = [
-    "f64, libm",
-    "f32, libm",
-    "f64, polynomials",
-    "f32, polynomials",
+const KINDS: [(&str, Shape); 4] = [
+    ("f64, libm", Shape::Ring),
+    ("f32, libm", Shape::Dot),
+    ("f64, polynomials", Shape::OpenDiamond),
+    ("f32, polynomials", Shape::Diamond),
 ];
 
-/// The chart's text.
-pub fn svg(title: &str, points: &[Point]) -> String {
-    let counts = |point: &Point| {
+/// What the chart shows of a variant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Dot {
+    kind: usize,
+    operations: f64,
+    certified: f64,
+    observed: f64,
+    dominated: bool,
+}
+
+impl Dot {
+    fn of(point: &Point) -> Dot {
         let counts = point.counts();
-        (counts.operations() + counts.trig_mul + counts.trig_add) as f64
-    };
-    let errors = points.iter().map(|point| point.certified);
-    let x = Axis::over(errors, [LEFT, WIDTH - RIGHT], 1.0);
-    let y = Axis::over(points.iter().map(counts), [HEIGHT - BOTTOM, TOP], 0.05);
-    let mut picture = Picture::new(title);
-    picture.frame(&x, &y);
-    for (kind, name) in KINDS.into_iter().enumerate() {
-        let mut mine: Vec<&Point> = points.iter().filter(|p| p.kind() == kind).collect();
-        if mine.is_empty() {
-            continue;
-        }
-        picture.legend(kind, &format!("k{kind}"), name);
-        mine.sort_by(|a, b| a.certified.total_cmp(&b.certified));
-        let front = mine.iter().filter(|point| !point.dominated);
-        let path: Vec<String> = front
-            .map(|p| format!("{:.1},{:.1}", x.place(p.certified), y.place(counts(p))))
-            .collect();
-        picture.line(&format!(
-            "<polyline class=\"k{kind} l\" points=\"{}\"/>",
-            path.join(" ")
-        ));
-        for point in mine {
-            let class = if point.dominated {
-                "d".into()
-            } else {
-                format!("k{kind}")
-            };
-            let at = [x.place(point.certified), y.place(counts(point))];
-            if point.observed > 0.0 {
-                let seen = x.place(point.observed);
-                picture.line(&format!(
-                    "<path class=\"{class} w\" d=\"M{:.1} {1:.1}H{seen:.1}M{seen:.1} {2:.1}v6\"/>",
-                    at[0],
-                    at[1],
-                    at[1] - 3.0
-                ));
-            }
-            picture.dot(kind, &class, at);
+        Dot {
+            kind: point.kind(),
+            operations: (counts.operations() + counts.trig_mul + counts.trig_add) as f64,
+            certified: point.certified,
+            observed: point.observed,
+            dominated: point.dominated,
         }
     }
-    if points.iter().any(|point| point.dominated) {
-        picture.legend(0, "d", "dominated");
+}
+
+/// The chart's text.
+pub fn svg(title: &str, relative_to: &str, points: &[Point]) -> String {
+    let dots: Vec<Dot> = points.iter().map(Dot::of).collect();
+    front(title, relative_to, &dots)
+}
+
+fn front(title: &str, relative_to: &str, dots: &[Dot]) -> String {
+    let errors = dots.iter().flat_map(|dot| [dot.certified, dot.observed]);
+    let x = Picture::across(errors);
+    let y = Picture::upward(dots.iter().map(|dot| dot.operations));
+    let below = format!("certified error, relative to {relative_to}; whiskers: observed");
+    let mut picture = Picture::new(
+        title,
+        [&x, &y],
+        [&below, "operations, polynomials' included"],
+    );
+    let place = |dot: &Dot| [x.place(dot.certified), y.place(dot.operations)];
+
+    let (dominated, best): (Vec<Dot>, Vec<Dot>) = dots.iter().partition(|dot| dot.dominated);
+    // A variant that several tolerances lead to is dominated by itself.
+    let covered = |dot: &Dot| {
+        let [x, y] = place(dot);
+        let mut alike = best
+            .iter()
+            .filter(|other| other.kind == dot.kind)
+            .map(&place);
+        alike.any(|[left, top]| (left - x).abs() < 1.0 && (top - y).abs() < 1.0)
+    };
+    let dominated: Vec<Dot> = dominated.into_iter().filter(|dot| !covered(dot)).collect();
+
+    for (kind, _) in KINDS.iter().enumerate() {
+        let mut line: Vec<&Dot> = best.iter().filter(|dot| dot.kind == kind).collect();
+        line.sort_by(|a, b| a.certified.total_cmp(&b.certified));
+        let line: Vec<[f64; 2]> = line.into_iter().map(place).collect();
+        picture.curve(kind, kind % 2, &line);
+    }
+    let classed = |dot: &Dot| match dot.dominated {
+        true => "d".to_owned(),
+        false => format!("k{}", dot.kind),
+    };
+    for group in [&dominated, &best] {
+        for (kind, (_, shape)) in KINDS.into_iter().enumerate() {
+            for dot in group.iter().filter(|dot| dot.kind == kind) {
+                if dot.observed > 0.0 {
+                    picture.whisker(&classed(dot), place(dot), x.place(dot.observed));
+                }
+                picture.mark(shape, &classed(dot), place(dot));
+            }
+        }
+    }
+    for (kind, (name, shape)) in KINDS.into_iter().enumerate() {
+        if dots.iter().any(|dot| dot.kind == kind) {
+            let [from, to] = picture.legend(name);
+            picture.curve(kind, kind % 2, &[from, to]);
+            picture.mark(
+                shape,
+                &format!("k{kind}"),
+                [(from[0] + to[0]) / 2.0, from[1]],
+            );
+        }
+    }
+    if !dominated.is_empty() {
+        let [from, to] = picture.legend("dominated");
+        picture.mark(Shape::Ring, "d", [(from[0] + to[0]) / 2.0, from[1]]);
     }
     picture.end()
 }
 
-/// A logarithmic axis.
-struct Axis {
-    /// Decimal logarithms of the ends.
-    ends: [f64; 2],
-    /// Where the ends are in the picture.
-    places: [f64; 2],
-}
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
 
-impl Axis {
-    /// Over values above zero, up to multiples of a step of the logarithm.
-    fn over(values: impl Iterator<Item = f64>, places: [f64; 2], step: f64) -> Axis {
-        let logs = values.filter(|v| *v > 0.0 && v.is_finite()).map(f64::log10);
-        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
-        let [low, high] = logs.fold(nothing, |[low, high], v| [low.min(v), high.max(v)]);
-        let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
-        let low = ((low + 1e-9) / step).floor() * step;
-        let high = ((high - 1e-9) / step).ceil() * step;
-        Axis {
-            ends: [low, high.max(low + step)],
-            places,
-        }
-    }
+    use super::{Dot, front};
 
-    fn place(&self, value: f64) -> f64 {
-        let [low, high] = self.ends;
-        let log = if value > 0.0 { value.log10() } else { low };
-        let [from, to] = self.places;
-        from + ((log - low) / (high - low)).clamp(0.0, 1.0) * (to - from)
-    }
-
-    /// Powers of ten.
-    fn decades(&self) -> Vec<f64> {
-        let [low, high] = self.ends;
-        let all = low.ceil() as i32..=high.floor() as i32;
-        all.map(|k| 10f64.powi(k)).collect()
-    }
-
-    /// Round numbers, equally far apart: for less than two decades.
-    fn round(&self) -> Vec<f64> {
-        let [low, high] = self.ends.map(|end| 10f64.powf(end));
-        let decade = 10f64.powi((high - low).log10().floor() as i32);
-        let steps = [0.1, 0.2, 0.5, 1.0].map(|part| part * decade);
-        let step = steps.into_iter().find(|step| (high - low) / step <= 10.0);
-        let step = step.unwrap_or(decade);
-        let first = (low / step).ceil() as i64;
-        let last = (high / step).floor() as i64;
-        (first..=last).map(|k| k as f64 * step).collect()
-    }
-}
-
-/// The text as it grows.
-struct Picture {
-    svg: String,
-    legends: usize,
-}
-
-impl Picture {
-    fn new(title: &str) -> Picture {
-        let title = escaped(title);
-        let mut picture = Picture {
-            svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-                 role=\"img\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
-                 <rect class=\"p\" width=\"{WIDTH}\" height=\"{HEIGHT}\"/>\n"
-            ),
-            legends: 0,
-        };
-        picture.text([(LEFT + WIDTH - RIGHT) / 2.0, 22.0], "middle", &title);
-        picture
-    }
-
-    fn line(&mut self, element: &str) {
-        self.svg.push_str(element);
-        self.svg.push('\n');
-    }
-
-    fn text(&mut self, [x, y]: [f64; 2], anchor: &str, text: &str) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            self.svg,
-            "<text class=\"i\" x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>"
-        );
-    }
-
-    /// Grid, ticks and the names of the axes.
-    fn frame(&mut self, x: &Axis, y: &Axis) {
-        let decades = x.decades();
-        let every = decades.len().div_ceil(10);
-        for (index, tick) in decades.into_iter().enumerate() {
-            let at = x.place(tick);
-            let (top, foot) = (TOP, HEIGHT - BOTTOM);
-            self.line(&format!("<path class=\"g\" d=\"M{at:.1} {top}V{foot}\"/>"));
-            if index % every == 0 {
-                self.text([at, foot + 16.0], "middle", &format!("{tick:e}"));
+    /// A ladder as a robot gives it: both scalars, both kinds of sines, and
+    /// exact programs that several tolerances lead to.
+    fn ladder() -> Vec<Dot> {
+        let mut dots = Vec::new();
+        for rung in 0..11 {
+            let tolerance = 10f64.powi(rung - 12);
+            for kind in 0..4 {
+                let certified = tolerance * [0.93, 0.94, 0.97, 0.98][kind];
+                dots.push(Dot {
+                    kind,
+                    operations: (260 - 20 * rung) as f64 + if kind > 1 { 60.0 } else { 0.0 },
+                    certified,
+                    observed: certified * 0.1,
+                    dominated: rung == 4,
+                });
             }
         }
-        let ticks = match y.round() {
-            few if few.len() < 12 => few,
-            _ => y.decades(),
-        };
-        for tick in ticks {
-            let at = y.place(tick);
-            let (left, right) = (LEFT, WIDTH - RIGHT);
-            self.line(&format!(
-                "<path class=\"g\" d=\"M{left} {at:.1}H{right}\"/>"
-            ));
-            self.text(
-                [LEFT - 6.0, at + 4.0],
-                "end",
-                &format!("{}", (tick * 1e6).round() / 1e6),
+        let first = dots[0];
+        dots.push(Dot {
+            dominated: true,
+            ..first
+        });
+        dots
+    }
+
+    /// The numbers of an attribute, wherever it stands.
+    fn numbers(svg: &str, attribute: &str) -> Vec<f64> {
+        let key = format!(" {attribute}=\"");
+        let values = svg.split(&key).skip(1);
+        let values = values.map(|rest| rest.split('"').next().unwrap_or_default());
+        values.map(|value| value.parse().unwrap()).collect()
+    }
+
+    /// Every name is on the paper, and no two are in the same place.
+    #[test]
+    fn a_full_ladder_is_legible() {
+        let svg = front("arm: inverse_dynamics", "the actuators' limits", &ladder());
+        let (xs, ys) = (numbers(&svg, "x"), numbers(&svg, "y"));
+        assert_eq!(xs.len(), ys.len());
+        // What stands beside the axis is turned, and alone there.
+        let level = xs.into_iter().zip(ys).filter(|place| place.0 > 16.0);
+        let places: Vec<_> = level.collect();
+        for (index, (x, y)) in places.iter().enumerate() {
+            assert!((10.0..=700.0).contains(x) && (10.0..=415.0).contains(y));
+            for (other_x, other_y) in &places[..index] {
+                let apart = (x - other_x).abs() >= 40.0 || (y - other_y).abs() >= 16.0;
+                assert!(apart, "{x},{y} {other_x},{other_y}");
+            }
+        }
+        for kind in 0..4 {
+            // The line with its place in the legend; ten marks and that one.
+            let count = |what: &str| svg.matches(&format!("class=\"k{kind} {what}\"")).count();
+            assert_eq!(count("l"), 2);
+            assert_eq!(count("o") + count("f"), 11);
+        }
+        // Four dominated ones and the legend's, but not the first one's repeat.
+        assert_eq!(svg.matches("class=\"d o\"").count(), 3);
+        assert_eq!(svg.matches("class=\"d f\"").count(), 2);
+        let first = |class: &str| svg.find(&format!("<path class=\"{class}\"")).unwrap();
+        assert!(first("d o") < first("k0 o"), "dominated ones lie below");
+    }
+
+    /// Nothing was left out, or there is nothing at all: still a picture.
+    #[test]
+    fn one_variant_and_none() {
+        for dots in [&ladder()[..1], &[]] {
+            let svg = front("arm: gravity", "the largest torques", dots);
+            assert!(!svg.contains("NaN") && !svg.contains("inf"));
+            assert!(numbers(&svg, "x").len() > 6);
+        }
+    }
+
+    fn dot(row: &[&str], head: &[&str]) -> Dot {
+        let cell = |name: &str| row[head.iter().position(|cell| *cell == name).unwrap()];
+        let number = |name: &str| cell(name).parse::<f64>().unwrap();
+        let operations = ["mul", "add", "trig_mul", "trig_add"].map(number);
+        Dot {
+            kind: usize::from(cell("scalar") == "f32")
+                + 2 * usize::from(cell("sincos_by") == "polynomials"),
+            operations: operations.iter().sum(),
+            certified: number("certified"),
+            observed: number("observed"),
+            dominated: cell("front") != "yes",
+        }
+    }
+
+    /// The chart that is shown is the chart of the table beside it. A
+    /// difference is mended and reported.
+    #[test]
+    fn the_checked_in_chart_is_that_of_its_table() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/tradeoff");
+        let csv = fs::read_to_string(folder.join("puma560.csv")).unwrap();
+        let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let head = rows.next().unwrap();
+        let dots: Vec<Dot> = rows.map(|row| dot(&row, &head)).collect();
+        let svg = front("puma560: inverse_dynamics", "the actuators' limits", &dots);
+        let file = folder.join("puma560.svg");
+        if fs::read_to_string(&file).unwrap() != svg {
+            fs::write(&file, svg).unwrap();
+            panic!(
+                "{} was not the chart of its table; it is now",
+                file.display()
             );
         }
-        let centre = (LEFT + WIDTH - RIGHT) / 2.0;
-        let below = "certified error, relative to T; whiskers: the largest observed";
-        self.text([centre, HEIGHT - 12.0], "middle", below);
-        let middle = (TOP + HEIGHT - BOTTOM) / 2.0;
-        self.line(&format!(
-            "<text class=\"i\" x=\"16\" y=\"{middle}\" text-anchor=\"middle\" \
-             transform=\"rotate(-90 16 {middle})\">multiplications and additions, the polynomials' too</text>"
-        ));
-    }
-
-    fn legend(&mut self, kind: usize, class: &str, name: &str) {
-        let at = TOP + 10.0 + 18.0 * self.legends as f64;
-        self.legends += 1;
-        self.dot(kind, class, [WIDTH - RIGHT + 16.0, at]);
-        self.text([WIDTH - RIGHT + 28.0, at + 4.0], "start", name);
-    }
-
-    /// A shape of its own for each kind.
-    fn dot(&mut self, kind: usize, class: &str, [x, y]: [f64; 2]) {
-        let path = match kind {
-            0 => "m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0",
-            1 => "m-3.5 -3.5h7v7h-7z",
-            2 => "m0 -5l5 5l-5 5l-5 -5z",
-            _ => "m0 -5l4.5 8h-9z",
-        };
-        self.line(&format!(
-            "<path class=\"{class}\" d=\"M{x:.1} {y:.1}{path}\"/>"
-        ));
-    }
-
-    fn end(mut self) -> String {
-        self.svg.push_str("</svg>\n");
-        self.svg
     }
 }

@@ -61,8 +61,8 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     report::mark(&mut points);
     output::print(&report::table(&points))?;
     if let Some(folder) = &args.output {
-        let title = title(&reading, scene, exact.function, relative_to);
-        write(folder, &title, &points)?;
+        let chart = chart(&reading, scene, exact.function, relative_to, &points);
+        write(folder, &chart, &points)?;
     }
     let violated = points.iter().filter_map(|point| {
         let why = point.violation.as_ref()?;
@@ -75,9 +75,9 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     }
 }
 
-fn write(folder: &Path, title: &str, points: &[Point]) -> Outcome {
+fn write(folder: &Path, chart: &str, points: &[Point]) -> Outcome {
     output::write_file(&folder.join("tradeoff.csv"), &report::csv(points))?;
-    output::write_file(&folder.join("tradeoff.svg"), &chart::svg(title, points))?;
+    output::write_file(&folder.join("tradeoff.svg"), chart)?;
     let certificates = folder.join("certificates");
     fs::create_dir_all(&certificates)
         .map_err(|error| Failure::Input(format!("error: `{}`: {error}", certificates.display())))?;
@@ -118,16 +118,20 @@ fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
         .unwrap_or(Scale::Actuator)
 }
 
-fn title(reading: &Reading, scene: Option<&Scene>, function: Function, scale: Scale) -> String {
+fn chart(
+    reading: &Reading,
+    scene: Option<&Scene>,
+    function: Function,
+    scale: Scale,
+    points: &[Point],
+) -> String {
     let scene = scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name));
+    let title = format!("{}{scene}: {function}", reading.robot.name);
     let scale = match scale {
         Scale::Actuator => "the actuators' limits",
         Scale::Range => "the largest torques",
     };
-    format!(
-        "{}{scene}: {function}, errors relative to {scale}",
-        reading.robot.name
-    )
+    chart::svg(&title, scale, points)
 }
 
 /// The exact program, from the plan if there is one.

@@ -1,0 +1,9 @@
+//! Charts as SVG: both axes logarithmic, legible in print and on dark pages.
+//!
+//! - [`axis`]: where values are, and which of them are named
+//! - [`picture`]: paper, axes, curves, marks and legend
+//! - [`curves`]: a chart of named curves
+
+pub mod axis;
+pub mod curves;
+pub mod picture;
