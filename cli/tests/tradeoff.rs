@@ -350,6 +350,45 @@ fn a_tradeoff_with_table_chart_and_certificates() {
     );
 }
 
+/// The variants compile, run, and are compared with the exact one. What comes
+/// out depends on the machine: only that it is there is tested.
+#[test]
+fn variants_are_measured() {
+    let folder = temporary("measured");
+    let output = path(&folder, "out");
+    let ran = run(&[
+        "tradeoff",
+        &robot("planar2r"),
+        "--function",
+        "gravity",
+        "--relative-to",
+        "range",
+        "--tolerances",
+        "0.1",
+        "--samples",
+        "50",
+        "--measure",
+        "-o",
+        &output,
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let (time, ratio) = (column("ns"), column("time"));
+    assert_eq!(rows[1][..3], ["0e0", "f64", "libm"]);
+    assert_eq!(rows[1][ratio], "1.000");
+    assert!(rows.iter().any(|row| row[2] == "polynomials"), "{csv}");
+    for row in &rows[1..] {
+        for cell in [row[time], row[ratio]] {
+            let number: f64 = cell.parse().unwrap();
+            assert!(number.is_finite() && number > 0.0, "{csv}");
+        }
+    }
+    let head: Vec<&str> = ran.out.lines().next().unwrap().split_whitespace().collect();
+    assert!(head.ends_with(&["ns", "time", "front"]), "{}", ran.out);
+}
+
 #[test]
 fn tradeoff_says_what_it_lacks() {
     let (_, arm) = arm("tradeoff_lacks");
