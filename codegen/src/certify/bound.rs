@@ -32,13 +32,13 @@ impl Budget {
     pub const CERTIFY: Budget = Budget {
         boxes: 300_000,
         linear: false,
-        points: 1 << 24,
+        points: 1 << 26,
     };
     /// For a search that asks often.
     pub const GLANCE: Budget = Budget {
         boxes: 20_000,
         linear: false,
-        points: 1 << 20,
+        points: 1 << 22,
     };
 }
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::FINEST;
 use super::layout::Layout;
+use super::{FINEST, FIRST};
 use crate::certify::interval::Interval;
 
 /// A bound to show.
@@ -14,8 +14,6 @@ pub(super) struct Cells<'a> {
     pub accept: &'a dyn Fn(&[f64], f64) -> bool,
     /// Whether a value is at most what its terms are without sines.
     pub crude: bool,
-    /// d·δ of the first cells is π over this.
-    pub first: usize,
     /// F, if the box is a part of the circles.
     pub whole: Option<f64>,
     pub ranges: Vec<Interval>,
@@ -45,7 +43,7 @@ impl Cells<'_> {
         }
         let degree = f64::from(self.layout.degrees[level]);
         let part = self.part(level);
-        let count = self.first * self.layout.degrees[level] as usize;
+        let count = FIRST * self.layout.degrees[level] as usize;
         let (from, width) = match part {
             Some((range, _)) => {
                 for end in [range.low(), range.high()] {

@@ -14,8 +14,9 @@
 //! are taken off t.
 
 use super::cells::Cells;
+use super::harmonics::harmonics;
 use super::layout::Layout;
-use super::{SLACK, first_cells};
+use super::{NEGLIGIBLE, SLACK};
 use crate::certify::expand::{Key, Polynomial};
 use crate::certify::input_box::InputBox;
 use crate::certify::interval::Interval;
@@ -42,17 +43,22 @@ pub(in crate::certify) fn least_eigenvalue(
     let mut all: Vec<(Key, Interval)> = Vec::new();
     let mut size = vec![0.0; entries.len()];
     let mut off = errors.to_vec();
+    let entries = entries
+        .iter()
+        .map(|entry| harmonics(entry, limits.joints()));
+    let entries: Vec<Polynomial> = entries.collect::<Option<_>>()?;
+    let largest = entries.iter().flatten().map(|(_, x)| x.magnitude());
+    let least = NEGLIGIBLE * largest.fold(0.0, f64::max);
     for (index, entry) in entries.iter().enumerate() {
         for &(key, x) in entry {
             if key & 0xffff != 0 {
                 return None;
             }
             size[index] += x.magnitude();
-            // One that may be zero may be left out.
-            let radius = if x.contains(0.0) {
-                x.magnitude()
-            } else {
-                x.radius()
+            // What is this small is left out.
+            let radius = match x.magnitude().next_up() <= least {
+                true => x.magnitude(),
+                false => x.radius(),
             };
             off[index] += (radius + SLACK * x.magnitude()) * (1.0 + 1e-9);
             all.push((key | index as Key, x));
@@ -63,8 +69,7 @@ pub(in crate::certify) fn least_eigenvalue(
         (0..n).map(row).fold(0.0, f64::max) * (1.0 + 1e-12)
     };
     let (most, lost) = (row_sum(&size), row_sum(&off));
-    let layout = Layout::new(&all, limits, sliding, &|_| Interval::ONE);
-    let first = first_cells(&layout, points)?;
+    let layout = Layout::new(&all, limits, sliding, &|_| Interval::ONE, least);
     let matrix = |values: &[f64]| {
         let mut matrix = vec![0.0; entries.len()];
         for (x, key) in values.iter().zip(&layout.rest) {
@@ -81,7 +86,6 @@ pub(in crate::certify) fn least_eigenvalue(
         buffers: layout.buffers(),
         accept: &accept,
         crude: false,
-        first,
         whole,
         ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
         points,

@@ -4,22 +4,23 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use super::SLACK;
-use crate::certify::expand::{Key, powers};
+use super::harmonics::{bits, multiple, unphased};
+use crate::certify::expand::Key;
 use crate::certify::input_box::InputBox;
 use crate::certify::interval::Interval;
 
-/// Trigonometric polynomials, angle after angle.
+/// Trigonometric polynomials in multiples of their angles, angle after angle.
 pub(super) struct Layout {
     pub joints: Vec<usize>,
     pub degrees: Vec<u32>,
-    /// Of each joint: the powers (cosine, sine) that occur.
-    bases: Vec<Vec<(u32, u32)>>,
+    /// Of each joint: the multiples that occur, and whether of the sine.
+    bases: Vec<Vec<(u32, bool)>>,
     pub coefficients: Vec<f64>,
     /// Of each joint: (from, base, to), and how many values come out.
     folds: Vec<(Vec<[u32; 3]>, usize)>,
-    /// Of each joint: the largest magnitude of the rates of each value that
-    /// goes in.
-    sizes: Vec<Vec<f64>>,
+    /// Of each joint: values that go in and differ by sine and cosine alone,
+    /// one after the other: where they end, and how large their rates are.
+    groups: Vec<Vec<(u32, f64)>>,
     /// The range of the rates of each value that comes out.
     output: Vec<(f64, f64)>,
     /// What is left of the key of each value that comes out.
@@ -30,21 +31,33 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// `range` of what is not an angle in a key.
+    /// Of a polynomial in multiples; `range` of what is not an angle in a key.
+    /// Terms of at most `least` are left to the slack.
     pub(super) fn new(
         polynomial: &[(Key, Interval)],
         limits: &InputBox,
         sliding: &[bool],
         range: &dyn Fn(Key) -> Interval,
+        least: f64,
     ) -> Layout {
+        let n = limits.joints();
+        let mut slack = 0.0;
+        let mut terms: Vec<(Key, f64)> = Vec::new();
+        for &(key, coefficient) in polynomial {
+            let most = range(key).magnitude();
+            let size = (coefficient.magnitude() * most).next_up();
+            if size <= least {
+                slack += size;
+                continue;
+            }
+            slack += (coefficient.radius() * most + SLACK * size) * (1.0 + 1e-9);
+            terms.push((key, coefficient.mid()));
+        }
         let degree = |joint: usize| {
-            let keys = polynomial
-                .iter()
-                .filter(|&&(key, x)| negligible(x, range(key)).is_none())
-                .map(|&(key, _)| powers(key, joint));
-            keys.map(|(c, s)| c + s).max().unwrap_or(0)
+            let multiples = terms.iter().map(|&(key, _)| multiple(key, joint).0);
+            multiples.max().unwrap_or(0)
         };
-        let mut joints: Vec<usize> = (0..limits.joints()).filter(|&j| degree(j) > 0).collect();
+        let mut joints: Vec<usize> = (0..n).filter(|&j| degree(j) > 0).collect();
         // The joint of the highest degree last: its sums are the shortest.
         joints.sort_by_key(|&joint| degree(joint));
         let degrees: Vec<u32> = joints.iter().map(|&j| degree(j)).collect();
@@ -52,45 +65,39 @@ impl Layout {
             .iter()
             .map(|&j| !sliding[j] && limits.position[j].width() < 2.0 * PI * (1.0 - 1e-12))
             .collect();
-        let mut bases: Vec<Vec<(u32, u32)>> = vec![Vec::new(); joints.len()];
-        let mut terms: Vec<Key> = Vec::new();
-        let mut coefficients = Vec::new();
-        let mut slack = 0.0;
-        for &(key, coefficient) in polynomial {
-            if let Some(lost) = negligible(coefficient, range(key)) {
-                slack += lost;
-                continue;
-            }
-            let most = range(key).magnitude();
-            let size = coefficient.magnitude() * most;
-            slack += (coefficient.radius() * most + SLACK * size) * (1.0 + 1e-9);
-            terms.push(key);
-            coefficients.push(coefficient.mid());
-        }
-        let mut sizes = Vec::new();
+        terms.sort_by_key(|&(key, _)| (unphased(key, n), key));
+        let coefficients = terms.iter().map(|&(_, x)| x).collect();
+        let mut terms: Vec<Key> = terms.into_iter().map(|(key, _)| key).collect();
+        let mut bases: Vec<Vec<(u32, bool)>> = vec![Vec::new(); joints.len()];
+        let mut groups = Vec::new();
         let mut folds = Vec::new();
         for (k, &joint) in joints.iter().enumerate() {
-            sizes.push(terms.iter().map(|&key| range(key).magnitude()).collect());
-            let mut places: BTreeMap<Key, u32> = BTreeMap::new();
+            let together = terms.chunk_by(|&a, &b| unphased(a, n) == unphased(b, n));
+            let mut end = 0;
+            groups.push(
+                together
+                    .map(|group| {
+                        end += group.len() as u32;
+                        (end, range(group[0]).magnitude())
+                    })
+                    .collect(),
+            );
+            let rest = |key: Key| key & !bits(joint);
+            let mut after: Vec<Key> = terms.iter().map(|&key| rest(key)).collect();
+            after.sort_by_key(|&key| (unphased(key, n), key));
+            after.dedup();
+            let places: BTreeMap<Key, u32> = after.iter().copied().zip(0..).collect();
             let mut fold = Vec::new();
             for (from, &key) in terms.iter().enumerate() {
-                let power = powers(key, joint);
-                let base = bases[k]
-                    .iter()
-                    .position(|&b| b == power)
-                    .unwrap_or_else(|| {
-                        bases[k].push(power);
-                        bases[k].len() - 1
-                    });
-                let rest = key & !(31u128 << (16 + 5 * joint));
-                let next = places.len() as u32;
-                let to = *places.entry(rest).or_insert(next);
-                fold.push([from as u32, base as u32, to]);
+                let of = multiple(key, joint);
+                let base = bases[k].iter().position(|&b| b == of);
+                let base = base.unwrap_or_else(|| {
+                    bases[k].push(of);
+                    bases[k].len() - 1
+                });
+                fold.push([from as u32, base as u32, places[&rest(key)]]);
             }
-            terms = vec![0; places.len()];
-            for (term, place) in places {
-                terms[place as usize] = term;
-            }
+            terms = after;
             folds.push((fold, terms.len()));
         }
         let output = terms.iter().map(|&key| {
@@ -105,8 +112,8 @@ impl Layout {
             bases,
             coefficients,
             folds,
-            sizes,
-            slack,
+            groups,
+            slack: slack * (1.0 + 1e-9),
             part,
         }
     }
@@ -118,23 +125,36 @@ impl Layout {
         buffers
     }
 
-    /// No sine is larger than one.
+    /// A bound without looking at angles: each group's is the length of its
+    /// coefficients.
     pub(super) fn crude(&self, level: usize, values: &[f64]) -> f64 {
         // After the last angle only rates are left.
-        let Some(sizes) = self.sizes.get(level) else {
+        let Some(groups) = self.groups.get(level) else {
             return self.value(values) * (1.0 + 1e-9);
         };
-        let terms = values.iter().zip(sizes);
-        terms.fold(self.slack, |sum, (x, size)| sum + x.abs() * size) * (1.0 + 1e-9)
+        let (mut sum, mut from) = (self.slack, 0);
+        for &(end, size) in groups {
+            let end = end as usize;
+            let squares: f64 = values[from..end].iter().map(|x| x * x).sum();
+            sum += squares.sqrt() * size;
+            from = end;
+        }
+        sum * (1.0 + 1e-9)
     }
 
     /// Puts an angle into the values before a joint.
     pub(super) fn fold(&self, level: usize, angle: f64, buffers: &mut [Vec<f64>]) {
         let (sin, cos) = libm::sincos(angle);
-        let power = |&(c, s): &(u32, u32)| {
-            (0..c).fold(1.0, |x, _| x * cos) * (0..s).fold(1.0, |x, _| x * sin)
-        };
-        let row: Vec<f64> = self.bases[level].iter().map(power).collect();
+        let mut multiples = [(0.0, 1.0); 16];
+        for k in 1..=(self.degrees[level] as usize).min(15) {
+            let (s, c) = multiples[k - 1];
+            multiples[k] = (s * cos + c * sin, c * cos - s * sin);
+        }
+        let mut row = [0.0; 32];
+        for (value, &(k, sine)) in row.iter_mut().zip(&self.bases[level]) {
+            let (s, c) = multiples[k as usize];
+            *value = if sine { s } else { c };
+        }
         let (from, rest) = buffers.split_at_mut(level + 1);
         rest[0].fill(0.0);
         for &[x, base, to] in &self.folds[level].0 {
@@ -152,11 +172,4 @@ impl Layout {
         }
         f64::max(high, -low) + self.slack
     }
-}
-
-/// What a term can be at most, if it is but the rounding of a sum that
-/// cancels: zero is inside, and it is far below what counts.
-fn negligible(coefficient: Interval, range: Interval) -> Option<f64> {
-    let most = (coefficient.magnitude() * range.magnitude()).next_up();
-    (coefficient.contains(0.0) && most < 1e-13).then_some(most)
 }

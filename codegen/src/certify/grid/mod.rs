@@ -22,12 +22,15 @@
 //! few dozen roundings between a coefficient and a value, since every sine and
 //! cosine is at most 1.
 //!
+//! - `harmonics`: multiples of angles in place of powers
 //! - `layout`: terms regrouped so that points are quick
-//! - `cells`: the bound
+//! - `cells`: the bound; where sines cannot make up the difference any more, no
+//!   angle is looked at
 //! - [`least_eigenvalue`]: the same for a symmetric matrix
 
 mod cells;
 mod definite;
+mod harmonics;
 mod layout;
 
 use std::f64::consts::PI;
@@ -38,10 +41,16 @@ use super::interval::Interval;
 use crate::simplify::random::Random;
 use cells::Cells;
 pub(super) use definite::least_eigenvalue;
+use harmonics::harmonics;
 use layout::Layout;
 
 /// More than a hundred roundings of double precision, relative.
 const SLACK: f64 = 1e-13;
+
+/// Terms smaller than this part of the largest are not looked at one by one:
+/// most are what rounding left of terms that cancel, and would make the degree
+/// higher.
+const NEGLIGIBLE: f64 = 1e-8;
 
 /// What a bound exceeds a value that is taken by, relative.
 const CLOSE: f64 = 0.02;
@@ -49,9 +58,8 @@ const CLOSE: f64 = 0.02;
 /// The largest relative step from a bound that could not be shown to the next.
 const MOST_STEP: f64 = 0.15;
 
-/// d·δ of the first cells is π over one of these: the finest that leaves
-/// points for more.
-const FIRST: [usize; 3] = [8, 6, 4];
+/// d·δ of the first cells is π over this. Coarser ones are cut sooner or later.
+const FIRST: usize = 8;
 
 /// Cells whose d·δ is below this are not cut: with four angles their cosines
 /// take 1.6 of the two hundredths.
@@ -61,8 +69,7 @@ const FINEST: f64 = 0.09;
 const STARTS: usize = 12;
 
 /// Largest magnitudes of polynomials over a box, no closer than `goals` where
-/// they are smaller; `None` if even the first cells have more points than
-/// allowed.
+/// they are smaller; `None` if a power is too high to be written in multiples.
 pub(super) fn magnitudes(
     polynomials: &[Polynomial],
     limits: &InputBox,
@@ -75,40 +82,28 @@ pub(super) fn magnitudes(
         .iter()
         .zip(goals)
         .map(|(polynomial, &goal)| {
-            let layout = Layout::new(polynomial, limits, sliding, &range);
-            let first = first_cells(&layout, points)?;
-            let whole = bound(&layout, limits, None, goal, [first, points]);
+            let polynomial = harmonics(polynomial, limits.joints())?;
+            let sizes = polynomial.iter();
+            let sizes = sizes.map(|&(key, x)| x.magnitude() * range(key).magnitude());
+            let least = NEGLIGIBLE * sizes.fold(0.0, f64::max);
+            let layout = Layout::new(&polynomial, limits, sliding, &range, least);
+            let whole = bound(&layout, limits, None, goal, points);
             if !layout.part.contains(&true) {
                 return Some(whole);
             }
-            let part = bound(&layout, limits, Some(whole), goal, [first, points]);
+            let part = bound(&layout, limits, Some(whole), goal, points);
             Some(whole.min(part))
         })
         .collect()
 }
 
-/// How fine the first cells are; `None` if even the coarsest are too many.
-fn first_cells(layout: &Layout, points: usize) -> Option<usize> {
-    FIRST.into_iter().find(|&first| {
-        let counts = layout.degrees.iter().map(|&d| (first * d as usize) as f64);
-        counts.product::<f64>() * 4.0 <= points as f64
-    })
-}
-
 /// A bound over the whole circles, or, given that, over the box.
-fn bound(
-    layout: &Layout,
-    limits: &InputBox,
-    whole: Option<f64>,
-    goal: f64,
-    [first, points]: [usize; 2],
-) -> f64 {
+fn bound(layout: &Layout, limits: &InputBox, whole: Option<f64>, goal: f64, points: usize) -> f64 {
     let mut cells = Cells {
         layout,
         buffers: layout.buffers(),
         accept: &|values, bound| layout.value(values) <= bound,
         crude: true,
-        first,
         whole,
         ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
         points,
@@ -117,19 +112,34 @@ fn bound(
     let crude = layout.crude(0, &cells.buffers[0]);
     // The bounds that are tried do not depend on the goal, which only skips
     // some: what was shown for a goal is shown again without one.
-    let mut bound = least * (1.0 + CLOSE) + 2.0 * layout.slack;
+    let mut tries = Vec::new();
+    let mut next = least * (1.0 + CLOSE) + 2.0 * layout.slack;
     let mut more = CLOSE;
-    while bound < crude {
-        if bound >= goal || bound * (1.0 + MOST_STEP) >= crude {
-            cells.points = points;
-            if cells.below(0, bound) {
-                return bound;
-            }
-        }
+    while 0.0 < next && next < crude {
+        tries.push(next);
         more = (2.0 * more).min(MOST_STEP);
-        bound *= 1.0 + more;
+        next *= 1.0 + more;
     }
-    crude
+    let mut shown = |bound: f64| {
+        cells.points = points;
+        cells.below(0, bound)
+    };
+    let start = tries.iter().position(|&bound| bound >= goal);
+    let start = start.unwrap_or(tries.len().saturating_sub(1));
+    if tries.get(start).is_some_and(|&bound| shown(bound)) {
+        return tries[start];
+    }
+    // A larger bound takes fewer points: halving finds the least.
+    let (mut failed, mut held) = (start, tries.len());
+    while held > failed + 1 {
+        let middle = (failed + held) / 2;
+        if shown(tries[middle]) {
+            held = middle;
+        } else {
+            failed = middle;
+        }
+    }
+    tries.get(held).copied().unwrap_or(crude)
 }
 
 /// A value that is taken: the largest of a coarse grid, climbed from.
