@@ -5,8 +5,8 @@
 //! through an [`Observer`].
 
 use std::process;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use dalembert_codegen::generate::Request;
@@ -27,47 +27,100 @@ struct Terminal {
     stop: AtomicBool,
 }
 
-/// Watches the searches of a request if they may take long.
+/// Watches the searches of a request if they may take long: thorough ones, and
+/// those for what a tolerance admits.
 pub fn watch(request: &mut Request) -> Session {
-    if request.effort != Effort::Thorough {
+    let thorough = request.effort == Effort::Thorough;
+    let scene = request.scene.as_ref();
+    if !thorough && scene.is_none_or(|scene| scene.tolerance.is_none()) {
         return Session(None);
     }
     let bar = bar(1);
     let stop = AtomicBool::new(false);
     let terminal = Arc::new(Terminal { bar, stop });
-    let heard = terminal.clone();
-    // Without a handler Ctrl-C ends the process, as ever.
-    let _ = ctrlc::set_handler(move || heard.interrupt());
+    if thorough {
+        let heard = terminal.clone();
+        // Without a handler Ctrl-C ends the process, as ever.
+        let _ = ctrlc::set_handler(move || heard.interrupt());
+    }
     request.watch = Watch::by(terminal.clone());
     Session(Some(terminal))
 }
 
 /// The steps of a long run, on a terminal.
-pub struct Steps(ProgressBar);
+pub struct Steps(Arc<Step>);
+
+/// The step that is done at the moment.
+struct Step {
+    bar: ProgressBar,
+    name: Mutex<String>,
+}
 
 impl Steps {
     /// So many of them.
     pub fn new(steps: usize) -> Steps {
-        Steps(bar(steps as u64))
+        let bar = bar(steps as u64);
+        let name = Mutex::default();
+        Steps(Arc::new(Step { bar, name }))
     }
 
     /// The next one begins.
-    pub fn begin(&self, what: &str) {
-        self.0.set_message(what.to_owned());
-        self.0.inc(1);
+    pub fn begin(&self, name: &str) {
+        self.0.bar.set_message(name.to_owned());
+        self.0.bar.inc(1);
+        let mut current = self.0.name.lock().unwrap_or_else(PoisonError::into_inner);
+        name.clone_into(&mut current);
+    }
+
+    /// Shows how far searches within a step have come.
+    pub fn watch(&self) -> Watch {
+        Watch::by(self.0.clone())
+    }
+}
+
+impl Observer for Step {
+    fn step(&self, progress: &Progress) {
+        let name = self.name.lock().unwrap_or_else(PoisonError::into_inner);
+        let Progress {
+            part,
+            round,
+            rounds,
+            ..
+        } = progress;
+        let round = match rounds {
+            0 => round.to_string(),
+            _ => format!("{round}/{rounds}"),
+        };
+        let reached = reached(progress);
+        self.bar
+            .set_message(format!("{name}, {part} {round}{reached}"));
+    }
+
+    /// A ladder without some of its rungs is not what was asked for.
+    fn stop(&self) -> bool {
+        false
     }
 }
 
 impl Drop for Steps {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.0.bar.finish_and_clear();
+    }
+}
+
+/// The best program so far, or how many were tried.
+fn reached(progress: &Progress) -> String {
+    match (progress.best, progress.rounds) {
+        (Some(counts), _) => format!(": {counts}"),
+        (None, 0) => format!(": {} tried", progress.round),
+        (None, _) => String::new(),
     }
 }
 
 /// On standard error; it hides itself where that is no terminal.
 fn bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {msg}") {
+    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(500));
@@ -94,16 +147,12 @@ impl Observer for Terminal {
             part,
             round,
             rounds,
-            best,
+            ..
         } = progress;
         let known = *rounds > 0;
         self.bar.set_length(if known { *rounds as u64 } else { 1 });
         self.bar.set_position(if known { *round as u64 } else { 0 });
-        let reached = match best {
-            Some(counts) => format!(": {counts}"),
-            None if known => String::new(),
-            None => format!(": {round} tried"),
-        };
+        let reached = reached(progress);
         self.bar.set_message(format!("{function}, {part}{reached}"));
     }
 

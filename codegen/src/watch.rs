@@ -22,6 +22,10 @@ pub enum Part {
     Search,
     /// The program is proved and measured.
     Proof,
+    /// What a tolerance allows to leave out is searched for.
+    Omissions,
+    /// Errors are bounded.
+    Bounds,
 }
 
 impl fmt::Display for Part {
@@ -31,6 +35,8 @@ impl fmt::Display for Part {
             Part::EGraph => "e-graph",
             Part::Search => "search",
             Part::Proof => "proof",
+            Part::Omissions => "omissions",
+            Part::Bounds => "bounds",
         })
     }
 }

@@ -10,6 +10,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
+use dalembert_model::read;
 
 /// Writes down what it is told, and wants an end at a part.
 struct Clerk {
@@ -80,6 +81,59 @@ fn an_early_end_keeps_the_best_so_far() {
         // The function whose turn had not come got the quick search, unwatched.
         assert!(seen.iter().all(|p| p.function == Function::InverseDynamics));
     }
+}
+
+const SCENE: &str = r#"
+[scene.hold]
+outputs = ["gravity"]
+tolerance = { value = 0.3, relative_to = "range" }
+scalar = "f64"
+"#;
+
+/// With a tolerance, its search and its bounds are told too; an end keeps a
+/// variant that is certified (or `generate` fails).
+#[test]
+fn a_tolerance_is_watched() {
+    let file = format!(
+        "{}/../generated/robots/planar3r.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let source = std::fs::read_to_string(file).unwrap() + SCENE;
+    let reading = read::parse_bytes(source.as_bytes(), &read::Options::default()).unwrap();
+    let run = |effort, until| {
+        let clerk = Arc::new(Clerk {
+            until,
+            seen: Mutex::default(),
+        });
+        let request = Request {
+            effort,
+            watch: Watch::by(clerk.clone()),
+            ..Request::default()
+        };
+        let request = request.in_scene(&reading.scenes[0], false, false);
+        let generated = generate(&reading.robot, &request).unwrap();
+        let seen = clerk.seen.lock().unwrap().clone();
+        (generated, seen)
+    };
+    let rounds = |seen: &[Progress]| {
+        let rounds = seen.iter().filter(|p| p.part == Part::Omissions);
+        let rounds: Vec<_> = rounds.map(|p| p.round).collect();
+        assert!(rounds.iter().copied().eq(0..rounds.len()), "{rounds:?}");
+        rounds.len()
+    };
+    let (generated, seen) = run(Effort::Thorough, None);
+    let all = rounds(&seen);
+    let bounds = seen.iter().filter(|p| p.part == Part::Bounds);
+    assert!(
+        bounds.count() >= 4,
+        "of the exact program and of the variant"
+    );
+    let (ended, seen) = run(Effort::Thorough, Some(Part::Omissions));
+    assert!(rounds(&seen) < all);
+    let admitted = ended.functions[0].admitted.as_ref().unwrap();
+    let bounds = admitted.certificates.iter().flat_map(|c| &c.bounds);
+    assert!(bounds.clone().count() > 0 && bounds.clone().all(|bound| bound.total() <= 0.3));
+    assert!(ended.functions[0].counts.operations() >= generated.functions[0].counts.operations());
 }
 
 /// A hash of the request, which build scripts take, must not see who watches.

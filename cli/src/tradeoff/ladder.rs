@@ -85,16 +85,19 @@ const SHARE: f64 = 1.0 / 16.0;
 pub struct Ladder<'a> {
     args: &'a TradeoffArgs,
     frame: &'a Frame<'a>,
+    steps: &'a Steps,
     settings: Settings,
     /// The exact program in every scalar.
     exact: Admitted,
 }
 
 impl<'a> Ladder<'a> {
-    pub fn new(args: &'a TradeoffArgs, frame: &'a Frame<'a>) -> Ladder<'a> {
+    pub fn new(args: &'a TradeoffArgs, frame: &'a Frame<'a>, steps: &'a Steps) -> Ladder<'a> {
+        steps.begin("exact");
         Ladder {
             args,
             frame,
+            steps,
             settings: Settings {
                 effort: args.effort,
                 ..Settings::default()
@@ -105,21 +108,21 @@ impl<'a> Ladder<'a> {
 
     /// The points of all tolerances, which ascend; the exact program's first.
     pub fn climb(&self, tolerances: &[f64]) -> Result<Vec<Point>, Failure> {
-        let steps = Steps::new(1 + tolerances.len());
         let mut rungs = Vec::new();
         let mut fruitful = true;
         for &tolerance in tolerances.iter().rev() {
-            steps.begin(&format!("tolerance {tolerance:e}"));
+            self.steps.begin(&format!("tolerance {tolerance:e}"));
             let variants = self.variants(tolerance, fruitful);
             fruitful = variants.iter().any(|variant| !variant.stages.is_empty());
             rungs.push((tolerance, variants));
         }
-        steps.begin("exact");
         rungs.push((0.0, vec![self.exact.clone()]));
         rungs.reverse();
         let mut points = Vec::new();
         for (tolerance, variants) in rungs {
             let tolerances = vec![tolerance; self.frame.scales.len()];
+            self.steps
+                .begin(&format!("attempts to refute {tolerance:e}"));
             for certificate in variants.into_iter().flat_map(|v| v.certificates) {
                 let polynomials = (tolerance > 0.0).then(|| {
                     self.frame

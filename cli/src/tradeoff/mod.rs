@@ -26,6 +26,7 @@ use dalembert_model::scene::{Scale, Scene};
 
 use crate::args::TradeoffArgs;
 use crate::outcome::{Failure, Outcome};
+use crate::progress::{self, Steps};
 use crate::{input, output};
 use ladder::{Ladder, Point};
 
@@ -48,13 +49,18 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             args.robot.display()
         ))
     })?;
+    // Every tolerance and the exact program: searched for, then attacked.
+    let steps = Steps::new(2 * (1 + tolerances.len()));
+    let watch = steps.watch();
+    let frame = frame.watched(watch.over(exact.function));
     if let Some(folder) = &args.output {
         // Before the work: a folder that cannot be is no news an hour later.
         fs::create_dir_all(folder)
             .map_err(|error| Failure::Input(format!("error: `{}`: {error}", folder.display())))?;
     }
     let compiler = args.measure.then(measure::Compiler::find).transpose()?;
-    let mut points = Ladder::new(args, &frame).climb(&tolerances)?;
+    let mut points = Ladder::new(args, &frame, &steps).climb(&tolerances)?;
+    drop(steps);
     if let Some(compiler) = compiler {
         compiler.measure(&mut points)?;
     }
@@ -156,7 +162,7 @@ fn exact(
             }
         }
     }
-    let request = Request {
+    let mut request = Request {
         functions: vec![args.function.unwrap_or(first)],
         scalars: vec![ScalarType::F64],
         effort: args.effort,
@@ -164,7 +170,9 @@ fn exact(
         scene: bare,
         ..Request::default()
     };
+    let session = progress::watch(&mut request);
     let mut functions = generate(&reading.robot, &request)?.functions.into_iter();
+    drop(session);
     let first = functions.next().map(|function| function.program);
     first.ok_or_else(|| Failure::from(GenerateError::Empty))
 }

@@ -15,7 +15,7 @@ use super::certificate::{Certificate, Refuted, Split};
 use super::definite::{Indefinite, has_inertia, least_eigenvalue};
 use super::edits::Stage;
 use super::input_box::{InputBox, MissingLimit};
-use super::prune::{Settings, prune};
+use super::prune::{self, Settings};
 use super::scale;
 use super::sensitivity::rounding;
 use super::sines;
@@ -23,6 +23,7 @@ use crate::emit::ScalarType;
 use crate::scene::Setting;
 use crate::schedule::Program;
 use crate::verify::text::TextError;
+use crate::watch::{Part, Vigil};
 
 /// What errors of a function are bounded in and relative to.
 #[derive(Clone, Debug)]
@@ -37,6 +38,8 @@ pub struct Frame<'a> {
     pub scales: Vec<f64>,
     /// What T is.
     pub relative_to: Scale,
+    /// Who waits, if anybody does.
+    watch: Option<Vigil<'a>>,
 }
 
 /// A variant that meets its tolerance.
@@ -119,7 +122,16 @@ impl<'a> Frame<'a> {
             limits,
             scales,
             relative_to,
+            watch: None,
         })
+    }
+
+    /// The same under a watch: where it is over, a search ends with its best.
+    pub fn watched(self, watch: Vigil<'a>) -> Frame<'a> {
+        Frame {
+            watch: Some(watch),
+            ..self
+        }
     }
 
     /// The tolerance of each output: that of its joint, for an entry of D the
@@ -175,13 +187,25 @@ impl<'a> Frame<'a> {
         scalars: &[ScalarType],
         fineness: Fineness,
     ) -> Admitted {
+        // What the scalars share, then each of them.
+        let tell = |done| {
+            if let Some(watch) = self.watch {
+                let rounds = [done, 1 + scalars.len()];
+                watch.step(Part::Bounds, rounds, Some(emitted.counts()));
+            }
+        };
+        tell(0);
         let subject = self.subject(stages, emitted);
         let model = subject.model(fineness);
-        let certificate = |&scalar| Certificate {
-            lambda_min: subject.least_eigenvalue(scalar),
-            ..subject.claim(scalar, subject.bounds(scalar, &model, fineness))
+        let certificate = |(index, &scalar)| {
+            tell(1 + index);
+            Certificate {
+                lambda_min: subject.least_eigenvalue(scalar),
+                ..subject.claim(scalar, subject.bounds(scalar, &model, fineness))
+            }
         };
-        Admitted::of(stages, emitted, scalars.iter().map(certificate).collect())
+        let certificates = scalars.iter().enumerate().map(certificate);
+        Admitted::of(stages, emitted, certificates.collect())
     }
 
     /// The variant of a plan, with its claims: program and edits are proved to
@@ -228,7 +252,8 @@ impl<'a> Frame<'a> {
             let Some(allowances) = self.allowances(tolerances, scalars, aside, fineness) else {
                 break;
             };
-            let pruned = prune(self.exact, &self.limits, &allowances, settings);
+            let limits = &self.limits;
+            let pruned = prune::watched(self.exact, limits, &allowances, settings, self.watch);
             if pruned.stages.is_empty() {
                 break;
             }

@@ -66,10 +66,14 @@ fn one(
 ) -> Result<Admitted, GenerateError> {
     let function = generated.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
+    let watch = request.watch.over(function);
     let frame = Frame::new(setting, &generated.program, tolerance.relative_to).map_err(fail)?;
+    let frame = frame.watched(watch);
     let tolerances = frame.tolerances(tolerance);
     let (settings, fineness) = match request.effort {
         Effort::Quick => (QUICK, Fineness::GLANCE),
+        // Who wants an end before a function's turn gets the quick search for it.
+        Effort::Thorough if watch.is_over() => (QUICK, Fineness::CERTIFY),
         Effort::Thorough => (Settings::default(), Fineness::CERTIFY),
     };
     let mut admitted = match kept(&frame, function, scalars, request)? {

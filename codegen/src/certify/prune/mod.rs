@@ -13,7 +13,7 @@
 //! - `motions`: errors at a position, at the worst rates
 //! - `fit`: constants corrected for what is left out
 //! - `price`: operations that stay
-//! - `omissions`: what was left out, for reports
+//! - `omissions`: what was left out, for reports; `tally`: rounds, for who watches
 
 mod columns;
 mod fit;
@@ -22,6 +22,7 @@ mod motions;
 mod omissions;
 mod price;
 mod search;
+mod tally;
 
 use super::bound::Budget;
 use super::edits::Stage;
@@ -29,9 +30,11 @@ use super::input_box::InputBox;
 use crate::schedule::Program;
 use crate::simplify::Effort;
 use crate::simplify::random::Random;
+use crate::watch::Vigil;
 use motions::Motions;
 pub use omissions::{Omission, omissions};
 use search::Search;
+use tally::Tally;
 
 /// How hard to search, counted, never timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +88,18 @@ pub fn prune(
     allowances: &[f64],
     settings: &Settings,
 ) -> Pruned {
+    watched(program, limits, allowances, settings, None)
+}
+
+/// [`prune`] under a watch: where it is over, the search ends with its best.
+pub fn watched(
+    program: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &Settings,
+    watch: Option<Vigil<'_>>,
+) -> Pruned {
+    let tally = Tally::new(settings, watch);
     let mut best = Pruned {
         stages: Vec::new(),
         program: program.clone(),
@@ -101,6 +116,7 @@ pub fn prune(
             allowances,
             settings,
             motions: &motions,
+            tally: &tally,
         };
         match search.run(&mut positions, &mut random) {
             Some(found) => best = found,

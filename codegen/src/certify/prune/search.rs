@@ -3,6 +3,7 @@
 use super::columns::Nodes;
 use super::greedy::{Greedy, State};
 use super::motions::Motions;
+use super::tally::Tally;
 use super::{Pruned, Settings};
 use crate::certify::bound;
 use crate::certify::definite::{has_inertia, least_eigenvalue};
@@ -35,6 +36,7 @@ pub(super) struct Search<'a> {
     pub allowances: &'a [f64],
     pub settings: &'a Settings,
     pub motions: &'a Motions,
+    pub tally: &'a Tally<'a>,
 }
 
 /// A certified variant and how it was found.
@@ -47,6 +49,9 @@ struct Found {
 impl Search<'_> {
     /// The cheapest variant found, if it is cheaper than what was there.
     pub(super) fn run(&self, positions: &mut Vec<Vec<f64>>, random: &mut Random) -> Option<Pruned> {
+        if self.tally.is_over() && !self.base.stages.is_empty() {
+            return None;
+        }
         // Outputs that use up their allowance are dear.
         let mut prices = vec![1.0; self.allowances.len()];
         let found = self.guess(positions, &mut prices, random)?;
@@ -64,6 +69,11 @@ impl Search<'_> {
         let mut share = SHARE;
         let mut best: Option<Found> = None;
         for _ in 0..self.settings.guesses {
+            if best.is_some() && self.tally.is_over() {
+                break;
+            }
+            let so_far = best.as_ref().map(|found| &found.pruned.program);
+            self.tally.round(so_far.unwrap_or(&self.base.program));
             let states = self.motions.states(positions);
             let original = Nodes::new(&self.base.program, &states);
             let truth = outputs(self.full, &states);
@@ -117,6 +127,10 @@ impl Search<'_> {
         let mut greedy = self.greedy(&original, &truth, share, prices);
         let mut paid = greedy.price(&state);
         for round in 0..self.settings.retries {
+            if self.tally.is_over() {
+                break;
+            }
+            self.tally.round(&pruned.program);
             let mut trial = state.clone();
             let part = 0.05 + 0.3 * random.unit();
             for edit in &mut trial.edits {

@@ -1,0 +1,39 @@
+//! Rounds counted, for who watches.
+
+use std::cell::Cell;
+
+use super::Settings;
+use crate::schedule::Program;
+use crate::watch::{Part, Vigil};
+
+/// How far a search for omissions has come.
+pub(super) struct Tally<'a> {
+    watch: Option<Vigil<'a>>,
+    done: Cell<usize>,
+    rounds: usize,
+}
+
+impl<'a> Tally<'a> {
+    pub(super) fn new(settings: &Settings, watch: Option<Vigil<'a>>) -> Tally<'a> {
+        Tally {
+            watch,
+            done: Cell::new(0),
+            rounds: settings.stages * (settings.guesses + settings.retries),
+        }
+    }
+
+    /// A round begins; the best program so far.
+    pub(super) fn round(&self, best: &Program) {
+        let done = self.done.get();
+        if let Some(watch) = self.watch {
+            let rounds = [done, self.rounds.max(done + 1)];
+            watch.step(Part::Omissions, rounds, Some(best.counts()));
+        }
+        self.done.set(done + 1);
+    }
+
+    /// Whether the one who watches wants an end.
+    pub(super) fn is_over(&self) -> bool {
+        self.watch.is_some_and(|watch| watch.is_over())
+    }
+}
