@@ -133,12 +133,12 @@ fn save_plan(
                 scene: request.scene.as_ref().map(SceneKey::of),
                 program: exact(function).clone(),
                 edited: function.admitted.as_ref().and_then(|admitted| {
-                    let mut all = admitted.certificates.iter().zip(&admitted.libm);
-                    let (_, bounds) = all.find(|(certificate, _)| certificate.scalar == scalar)?;
+                    let claim = admitted.libm.iter().find(|claim| claim.scalar == scalar)?;
                     Some(Edited {
                         stages: admitted.stages.clone(),
                         program: admitted.program.clone(),
-                        bounds: bounds.clone(),
+                        bounds: claim.bounds.clone(),
+                        lambda_min: claim.lambda_min,
                     })
                 }),
             });

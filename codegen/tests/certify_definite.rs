@@ -12,8 +12,10 @@ use dalembert_codegen::certify::sample::draw;
 use dalembert_codegen::certify::scale;
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Start;
+use dalembert_codegen::generate::{Request, Start, generate};
 use dalembert_codegen::graph::Folding;
+use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
+use dalembert_codegen::scene::Setting;
 use dalembert_codegen::schedule::Program;
 use dalembert_codegen::simplify::random::Random;
 use dalembert_model::number::Rational;
@@ -89,6 +91,67 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
             + d[2] * (d[3] * d[7] - d[4] * d[6]);
         assert!(d[0] > 0.0 && minor > 0.0 && det > 0.0, "{d:?}");
         assert_eq!([d[1], d[2], d[5]], [d[3], d[6], d[7]]);
+    }
+}
+
+/// A plan keeps what is known of D with the variant: replayed, it has the same
+/// certificate, and a plan without it is none.
+#[test]
+fn a_plan_keeps_the_least_eigenvalue() {
+    let scene = "\n[scene.light]\noutputs = [\"inertia\"]\nscalar = \"f64\"\n\
+         tolerance = { value = 0.15, relative_to = \"range\" }\n";
+    let mut reading = support::reading_with("planar3r", scene);
+    for joint in &mut reading.robot.joints {
+        joint.armature = Rational::from_integer(1.into());
+    }
+    let robot = &reading.robot;
+    let request = Request::default().in_scene(&reading.scenes[0], false, false);
+    let found = generate(robot, &request).unwrap().functions.remove(0);
+    let admitted = found.admitted.unwrap();
+    let claim = &admitted.libm[0];
+    assert!(!admitted.stages.is_empty() && claim.lambda_min.is_some_and(|least| least > 0.0));
+    let text = Plan {
+        robot: robot.name.clone(),
+        input: plan::input_hash(robot),
+        entries: vec![Entry {
+            start: request.start,
+            scalar: claim.scalar,
+            source: found.source,
+            stages: found.stages,
+            scene: request.scene.as_ref().map(SceneKey::of),
+            program: admitted.stages[0].program.clone(),
+            edited: Some(Edited {
+                stages: admitted.stages.clone(),
+                program: admitted.program.clone(),
+                bounds: claim.bounds.clone(),
+                lambda_min: claim.lambda_min,
+            }),
+        }],
+    }
+    .write();
+    let replayed = Request {
+        plan: Some(Plan::parse(&text).unwrap()),
+        ..request.clone()
+    };
+    let replayed = generate(robot, &replayed).unwrap().functions.remove(0);
+    assert!(replayed.planned);
+    let again = replayed.admitted.unwrap();
+    assert_eq!(again.libm, admitted.libm);
+    let setting = Setting::of(robot, request.scene.as_ref()).unwrap();
+    for (certificate, first) in again.certificates.iter().zip(&admitted.certificates) {
+        assert_eq!(certificate.lambda_min, first.lambda_min);
+        certificate.check_in(&setting).unwrap();
+    }
+    for (line, words) in [
+        ("# ", "expected `eigenvalue`"),
+        ("eigenvalue 0", "above zero"),
+        ("eigenvalue 1 2", "above zero"),
+        ("eigenvalue nan", "above zero"),
+    ] {
+        let line = format!("\n{line}\n# ");
+        let worse = text.replacen("\neigenvalue ", &line, 1);
+        let error = Plan::parse(&worse).unwrap_err();
+        assert!(error.message.contains(words), "{line}: {error}");
     }
 }
 

@@ -10,7 +10,6 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
-use dalembert_model::read;
 
 /// Writes down what it is told, and wants an end at a part.
 struct Clerk {
@@ -94,12 +93,7 @@ scalar = "f64"
 /// variant that is certified (or `generate` fails).
 #[test]
 fn a_tolerance_is_watched() {
-    let file = format!(
-        "{}/../generated/robots/planar3r.toml",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    let source = std::fs::read_to_string(file).unwrap() + SCENE;
-    let reading = read::parse_bytes(source.as_bytes(), &read::Options::default()).unwrap();
+    let reading = support::reading_with("planar2r", SCENE);
     let run = |effort, until| {
         let clerk = Arc::new(Clerk {
             until,

@@ -51,8 +51,19 @@ pub struct Admitted {
     pub program: Program,
     /// One a scalar, as they were asked for.
     pub certificates: Vec<Certificate>,
-    /// The bounds of each with libm's sines, which plans keep.
-    pub libm: Vec<Vec<Split>>,
+    /// What is claimed of each with libm's sines, which plans keep.
+    pub libm: Vec<Claim>,
+}
+
+/// What is claimed of a variant in a scalar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// The scalar.
+    pub scalar: ScalarType,
+    /// E of each output.
+    pub bounds: Vec<Split>,
+    /// [`Certificate::lambda_min`].
+    pub lambda_min: Option<f64>,
 }
 
 /// Why no variant meets a tolerance.
@@ -217,7 +228,7 @@ impl<'a> Frame<'a> {
         &self,
         stages: &[Stage],
         emitted: &Program,
-        claims: &[(ScalarType, Vec<Split>)],
+        claims: &[Claim],
     ) -> Result<Admitted, Refuted> {
         let first = stages.first().map_or(emitted, |stage| &stage.program);
         if first != self.exact {
@@ -225,8 +236,11 @@ impl<'a> Frame<'a> {
         }
         let subject = self.subject(stages, emitted);
         let mut certificates = Vec::new();
-        for (scalar, bounds) in claims {
-            let certificate = subject.claim(*scalar, bounds.clone());
+        for claim in claims {
+            let certificate = Certificate {
+                lambda_min: claim.lambda_min,
+                ..subject.claim(claim.scalar, claim.bounds.clone())
+            };
             certificate.check_shape(self.setting.robot())?;
             certificate.check_edits()?;
             certificates.push(certificate);
@@ -325,10 +339,15 @@ impl<'a> Frame<'a> {
 
 impl Admitted {
     fn of(stages: &[Stage], emitted: &Program, certificates: Vec<Certificate>) -> Admitted {
+        let claim = |certificate: &Certificate| Claim {
+            scalar: certificate.scalar,
+            bounds: certificate.bounds.clone(),
+            lambda_min: certificate.lambda_min,
+        };
         Admitted {
             stages: stages.to_vec(),
             program: emitted.clone(),
-            libm: certificates.iter().map(|c| c.bounds.clone()).collect(),
+            libm: certificates.iter().map(claim).collect(),
             certificates,
         }
     }

@@ -7,7 +7,7 @@
 use dalembert_model::scene::Tolerance;
 
 use crate::certify::certificate::subject::Fineness;
-use crate::certify::choose::{Admitted, Frame, Refusal};
+use crate::certify::choose::{Admitted, Claim, Frame, Refusal};
 use crate::certify::prune::Settings;
 use crate::emit::ScalarType;
 use crate::function::Function;
@@ -129,11 +129,13 @@ fn kept(
     if !rest.iter().all(same) {
         return Ok(None);
     }
-    let claims = variants
-        .iter()
-        .flatten()
-        .map(|variant| variant.bounds.clone());
-    let claims: Vec<_> = scalars.iter().copied().zip(claims).collect();
+    let pairs = scalars.iter().zip(variants.iter().flatten());
+    let claims = pairs.map(|(&scalar, variant)| Claim {
+        scalar,
+        bounds: variant.bounds.clone(),
+        lambda_min: variant.lambda_min,
+    });
+    let claims: Vec<Claim> = claims.collect();
     frame
         .replayed(&first.stages, &first.program, &claims)
         .map(Some)

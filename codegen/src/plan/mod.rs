@@ -71,6 +71,8 @@ pub struct Edited {
     pub program: Program,
     /// The bounds of each output in the entry's scalar.
     pub bounds: Vec<Split>,
+    /// That of D's least eigenvalue, if D is an output and was edited.
+    pub lambda_min: Option<f64>,
 }
 
 /// Which scene an entry is for. The hash of a plan is the robot's alone, so

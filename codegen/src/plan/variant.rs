@@ -1,9 +1,11 @@
 //! Reads what a tolerance left of a program: `edited`, then for each program
-//! its edits and, after `next`, what they gave; then the bounds.
+//! its edits and, after `next`, what they gave; then the bounds, before them
+//! that of D's least eigenvalue where D was edited.
 
 use super::parse::{results, step};
 use super::{Edited, Entry};
 use crate::certify::certificate::Split;
+use crate::certify::definite::has_inertia;
 use crate::certify::edits::{Edit, Stage};
 use crate::certify::json::read_edit;
 use crate::schedule::Program;
@@ -16,6 +18,7 @@ pub(super) struct Variant {
     edits: Vec<Edit>,
     is_open: bool,
     bounds: Vec<Split>,
+    lambda_min: Option<f64>,
 }
 
 impl Variant {
@@ -27,7 +30,14 @@ impl Variant {
             edits: Vec::new(),
             is_open: false,
             bounds: Vec::new(),
+            lambda_min: None,
         }
+    }
+
+    /// Whether it must be known that D is still positive definite.
+    fn has_edited_inertia(&self) -> bool {
+        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
+        edited && has_inertia(&self.program)
     }
 
     /// Reads a line; the variant is whole with the last of its bounds.
@@ -58,19 +68,29 @@ impl Variant {
                 let step = step(words, &self.program)?;
                 self.program.steps.push(step);
             }
+            ("eigenvalue", false) if self.edits.is_empty() && self.bounds.is_empty() => {
+                if !self.has_edited_inertia() {
+                    return Err("no `eigenvalue` is needed: D is no output, or as it was".into());
+                }
+                self.lambda_min = Some(eigenvalue(&words[1..])?);
+            }
             ("bound", false) if self.edits.is_empty() => {
+                if self.has_edited_inertia() && self.lambda_min.is_none() {
+                    return Err("expected `eigenvalue`: D is an output and was edited".into());
+                }
                 self.bounds.push(bound(&words[1..])?);
                 if self.bounds.len() == self.program.outputs.len() {
                     return Ok(Some(Edited {
                         stages: std::mem::take(&mut self.stages),
                         program: self.program.clone(),
                         bounds: std::mem::take(&mut self.bounds),
+                        lambda_min: self.lambda_min,
                     }));
                 }
             }
             (word, false) => {
                 return Err(format!(
-                    "expected `edit`, `next` or `bound`, found `{word}`"
+                    "expected `edit`, `next`, `eigenvalue` or `bound`, found `{word}`"
                 ));
             }
         }
@@ -87,5 +107,17 @@ fn bound(words: &[&str]) -> Result<Split, String> {
             rounding,
         }),
         _ => Err("expected three numbers of zero or more".into()),
+    }
+}
+
+fn eigenvalue(words: &[&str]) -> Result<f64, String> {
+    match words
+        .iter()
+        .map(|word| word.parse::<f64>())
+        .collect::<Vec<_>>()
+        .as_slice()
+    {
+        [Ok(least)] if *least > 0.0 && least.is_finite() => Ok(*least),
+        _ => Err("expected one number above zero".into()),
     }
 }

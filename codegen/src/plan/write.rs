@@ -82,6 +82,9 @@ fn variant(text: &mut String, edited: &Edited) {
         let next = edited.stages.get(index + 1).map(|next| &next.program);
         steps(text, next.unwrap_or(&edited.program));
     }
+    if let Some(least) = edited.lambda_min {
+        let _ = writeln!(text, "eigenvalue {least:e}");
+    }
     for bound in &edited.bounds {
         let Split {
             model,

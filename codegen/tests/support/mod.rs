@@ -16,8 +16,14 @@ pub fn robot(name: &str) -> Robot {
 
 /// A checked-in robot with its scenes.
 pub fn reading(name: &str) -> Reading {
+    reading_with(name, "")
+}
+
+/// A checked-in robot with more in its file, such as scenes.
+pub fn reading_with(name: &str, more: &str) -> Reading {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
     let source = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
+    let source = source + more;
     read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
