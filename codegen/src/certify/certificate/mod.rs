@@ -23,9 +23,11 @@
 //! exact programs, and the two add up by the triangle inequality.
 //!
 //! - [`subject`]: what a claim is about, and how its bounds are found
+//! - `distinct`: outputs that are one value
 //! - `split`: bounds by cause
 //! - `refuted`: why a certificate is no good
 
+mod distinct;
 mod refuted;
 mod split;
 pub mod subject;

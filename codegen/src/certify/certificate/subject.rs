@@ -2,6 +2,7 @@
 
 use dalembert_model::scene::Scale;
 
+use super::distinct::Distinct;
 use super::{Certificate, Split};
 use crate::certify::bound::{Budget, magnitudes, relative};
 use crate::certify::definite::{has_inertia, least_eigenvalue_with};
@@ -11,7 +12,7 @@ use crate::certify::sensitivity::rounding_with;
 use crate::emit::{MathPath, ScalarType, function};
 use crate::plan::{SceneKey, input_hash};
 use crate::scene::Setting;
-use crate::schedule::Program;
+use crate::schedule::{Operand, Program};
 use crate::sincos::{self, AngleKernel, Sines};
 
 /// How fine a bound is: the finer, the tighter and the dearer. Every one is
@@ -66,14 +67,35 @@ impl Subject<'_> {
         if self.stages.iter().all(|stage| stage.edits.is_empty()) {
             return vec![0.0; self.scales.len()];
         }
-        let error = difference(self.stages);
-        magnitudes(&error, self.limits, self.scales, 0.0, fineness.budget)
+        let mut error = difference(self.stages);
+        // A sign does not matter to a magnitude; a scale does to the search.
+        let pairs = error.outputs.iter().zip(self.scales);
+        let keys = pairs.map(|(edge, scale)| Some((edge.node(), scale.to_bits())));
+        let distinct = Distinct::by(keys);
+        error.outputs = distinct.pick(&error.outputs);
+        let scales = distinct.pick(self.scales);
+        let found = magnitudes(&error, self.limits, &scales, 0.0, fineness.budget);
+        distinct.spread(&found)
     }
 
     /// Bounds by cause, relative to the scales, with the edits' at hand.
     pub fn bounds(&self, scalar: ScalarType, model: &[f64], fineness: Fineness) -> Vec<Split> {
         let sines = self.sines(scalar);
-        let rounding = rounding_with(self.emitted, scalar, sines, self.limits, fineness.boxes);
+        let keys = self
+            .emitted
+            .outputs
+            .iter()
+            .map(|output| match &output.value {
+                Operand::Step(index) => Some(*index),
+                _ => None,
+            });
+        let distinct = Distinct::by(keys);
+        let program = Program {
+            outputs: distinct.pick(&self.emitted.outputs),
+            ..self.emitted.clone()
+        };
+        let found = rounding_with(&program, scalar, sines, self.limits, fineness.boxes);
+        let rounding = distinct.spread(&found);
         let all = model.iter().zip(&rounding).zip(self.scales);
         all.map(|((&model, rounding), &scale)| Split {
             model: relative(model, scale),
