@@ -11,6 +11,7 @@ use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::certificate::subject::Fineness;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::scale;
+use dalembert_codegen::certify::sensitivity::Sensitivity;
 use dalembert_codegen::certify::sines::within;
 use dalembert_codegen::emit::{MathPath, ScalarType, function};
 use dalembert_codegen::function::Function;
@@ -47,8 +48,9 @@ fn the_bench_of_sines_is_up_to_date() {
     let allowances: Vec<f64> = pairs
         .map(|(scale, bound)| scale * (TOLERANCE - 2.0 * bound.rounding))
         .collect();
-    let sines = within(program, scalar, &limits, &allowances, fineness.boxes).unwrap();
-    let certificate = libm.with_sines(&Setting::whole(&robot), &sines, fineness);
+    let sensitivity = Sensitivity::of(program, &limits, fineness);
+    let sines = within(program, scalar, &limits, &allowances, &sensitivity).unwrap();
+    let certificate = libm.with_sines(&Setting::whole(&robot), &sines, &sensitivity);
     for bound in &certificate.bounds {
         assert!(bound.total() <= TOLERANCE, "{bound:?}");
     }

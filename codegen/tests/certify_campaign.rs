@@ -71,14 +71,13 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
     for certificate in &admitted.certificates {
         let (certified, observed) = attacked(certificate);
         assert!(certified <= tolerance, "{certified}");
-        // 3 and 30 are the aim, with finer bounds and more samples.
         assert!(
-            !is_pruned || certified <= 6.0 * observed,
+            !is_pruned || certified <= 3.0 * observed,
             "{certified} {observed}"
         );
         if certificate.scalar == ScalarType::F32 {
             let (certified, observed) = attacked(&certificate.of_rounding());
-            assert!(certified <= 100.0 * observed, "{certified} {observed}");
+            assert!(certified <= 30.0 * observed, "{certified} {observed}");
         }
     }
 }
@@ -93,11 +92,9 @@ fn stanford_at_a_hundredth() {
     campaign("stanford", 1e-2, &ScalarType::ALL, 5);
 }
 
-/// A short search certifies no omission here, and the bound of rounding is
-/// hundreds of times what is seen: only that it holds.
 #[test]
-fn ur10_whole() {
-    campaign("ur10", 1e-9, &[ScalarType::F64], 0);
+fn ur10_at_a_tenth() {
+    campaign("ur10", 1e-1, &ScalarType::ALL, 3);
 }
 
 /// A search over seven joints takes longer than a test may: rounding alone.

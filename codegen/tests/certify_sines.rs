@@ -10,6 +10,7 @@ use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::interval::Interval;
 use dalembert_codegen::certify::json::read_sines;
 use dalembert_codegen::certify::scale;
+use dalembert_codegen::certify::sensitivity::Sensitivity;
 use dalembert_codegen::certify::sines::within;
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::emit::{MathPath, function};
@@ -56,13 +57,22 @@ fn planar() -> Case {
 impl Case {
     fn sines(&self, scalar: ScalarType, tolerance: f64) -> Sines {
         let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
-        within(&self.program, scalar, &self.limits, &allowances, 256).unwrap()
+        let sensitivity = Sensitivity::of(&self.program, &self.limits, Fineness::GLANCE);
+        within(
+            &self.program,
+            scalar,
+            &self.limits,
+            &allowances,
+            &sensitivity,
+        )
+        .unwrap()
     }
 
     fn certificate(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
         let (robot, program) = (&self.robot, &self.program);
         let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
-        libm.with_sines(&Setting::whole(robot), sines, Fineness::CERTIFY)
+        let sensitivity = Sensitivity::of(program, &self.limits, Fineness::CERTIFY);
+        libm.with_sines(&Setting::whole(robot), sines, &sensitivity)
     }
 
     /// The certificate with other sines in its text, and the same claims.

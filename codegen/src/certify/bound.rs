@@ -12,9 +12,9 @@ use std::collections::BinaryHeap;
 
 use super::expand::expand;
 use super::form::{Forms, Scratch};
-use super::grid;
+use super::grid::{self, Closeness};
 use super::input_box::InputBox;
-use crate::graph::{Graph, Input, Node};
+use crate::graph::Graph;
 
 /// How much work a bound may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,20 +80,18 @@ pub fn magnitudes(
     goal: f64,
     budget: Budget,
 ) -> Vec<f64> {
-    // A position that is read as it stands belongs to a sliding joint.
-    let mut sliding = vec![false; whole.joints()];
-    for node in &graph.nodes {
-        if let Node::Input(Input::Position(joint)) = node {
-            sliding[*joint] = true;
-        }
-    }
     // Close enough to the goal to tell how far from it.
-    let goals: Vec<f64> = scales.iter().map(|scale| 0.85 * goal * scale).collect();
+    let goals = scales.iter().map(|scale| 0.85 * goal * scale);
     if budget.points > 0
         && let Some(polynomials) = expand(graph, whole)
-        && let Some(most) = grid::magnitudes(&polynomials, whole, &sliding, &goals, budget.points)
     {
-        return most;
+        let sliding = grid::sliding(graph, whole.joints());
+        let closeness = Closeness::fine(budget.points);
+        let pairs = polynomials.iter().zip(goals);
+        let most = pairs.map(|(p, goal)| grid::magnitude(p, whole, &sliding, goal, closeness));
+        if let Some(most) = most.collect() {
+            return most;
+        }
     }
     let forms = Forms::new(graph, whole.joints(), budget.linear);
     let mut search = Search {
@@ -193,7 +191,7 @@ mod tests {
     use super::*;
     use crate::certify::interval::Interval;
     use crate::graph::builder::Value;
-    use crate::graph::{Builder, Folding};
+    use crate::graph::{Builder, Folding, Input};
     use dalembert_model::number::{Exact, Rational};
 
     /// What is left out may be a rate alone, with no angle to cut: 4e-5·q̈₁.

@@ -5,7 +5,9 @@
 //! out is certified as a whole, and only that decides: as long as E is above
 //! the tolerance, more is set aside, and in the end nothing is left out.
 
+use std::cell::RefCell;
 use std::fmt;
+use std::rc::Rc;
 
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::scene::{Scale, Tolerance};
@@ -17,7 +19,7 @@ use super::edits::Stage;
 use super::input_box::{InputBox, MissingLimit};
 use super::prune::{self, Settings};
 use super::scale;
-use super::sensitivity::rounding;
+use super::sensitivity::Sensitivity;
 use super::sines;
 use crate::emit::ScalarType;
 use crate::scene::Setting;
@@ -40,7 +42,12 @@ pub struct Frame<'a> {
     pub relative_to: Scale,
     /// Who waits, if anybody does.
     watch: Option<Vigil<'a>>,
+    /// Of the programs asked for last.
+    sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
 }
+
+/// The exact program's sensitivity and a variant's or two.
+const KEPT: usize = 3;
 
 /// A variant that meets its tolerance.
 #[derive(Clone, Debug)]
@@ -134,6 +141,7 @@ impl<'a> Frame<'a> {
             scales,
             relative_to,
             watch: None,
+            sensitivities: RefCell::default(),
         })
     }
 
@@ -173,6 +181,22 @@ impl<'a> Frame<'a> {
         all
     }
 
+    /// What bounds of a program's rounding need: found once for the scalars, the
+    /// sines and the tolerances of the same program.
+    fn sensitivity(&self, program: &Program, fineness: Fineness) -> Rc<Sensitivity> {
+        let mut known = self.sensitivities.borrow_mut();
+        let found = known
+            .iter()
+            .position(|s| s.is_of(program, &self.limits, fineness));
+        let found = match found {
+            Some(index) => known.remove(index),
+            None => Rc::new(Sensitivity::of(program, &self.limits, fineness)),
+        };
+        known.truncate(KEPT - 1);
+        known.insert(0, found.clone());
+        found
+    }
+
     /// What is claimed of a variant.
     fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
         Subject {
@@ -208,11 +232,12 @@ impl<'a> Frame<'a> {
         tell(0);
         let subject = self.subject(stages, emitted);
         let model = subject.model(fineness);
+        let sensitivity = self.sensitivity(emitted, fineness);
         let certificate = |(index, &scalar)| {
             tell(1 + index);
             Certificate {
                 lambda_min: subject.least_eigenvalue(scalar),
-                ..subject.claim(scalar, subject.bounds(scalar, &model, fineness))
+                ..subject.claim(scalar, subject.bounds(scalar, &model, &sensitivity))
             }
         };
         let certificates = scalars.iter().enumerate().map(certificate);
@@ -307,8 +332,9 @@ impl<'a> Frame<'a> {
             .zip(&self.scales)
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
-        let sines = sines::within(emitted, *scalar, &self.limits, &allowances, fineness.boxes);
-        let found = certificate.with_sines(self.setting, &sines.ok()?, fineness);
+        let sensitivity = self.sensitivity(emitted, fineness);
+        let sines = sines::within(emitted, *scalar, &self.limits, &allowances, &sensitivity);
+        let found = certificate.with_sines(self.setting, &sines.ok()?, &sensitivity);
         let definite = found.lambda_min.is_some() == certificate.lambda_min.is_some();
         (definite && within(&found, tolerances).is_ok()).then_some(found)
     }
@@ -325,8 +351,9 @@ impl<'a> Frame<'a> {
         let pairs = self.scales.iter().zip(tolerances);
         let whole: Vec<f64> = pairs.map(|(scale, t)| scale * t).collect();
         let mut allowances = whole.clone();
+        let sensitivity = self.sensitivity(self.exact, fineness);
         for &scalar in scalars {
-            let costs = rounding(self.exact, scalar, &self.limits, fineness.boxes);
+            let costs = sensitivity.rounding(scalar, &[]);
             for ((left, whole), cost) in allowances.iter_mut().zip(&whole).zip(&costs) {
                 let rest = whole - aside * (cost.arithmetic + cost.sincos);
                 *left = left.min(rest).max(0.0);

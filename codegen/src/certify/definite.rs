@@ -11,15 +11,16 @@
 use std::fmt;
 
 use super::attack::{run, text};
+use super::certificate::subject::Fineness;
 use super::edits::Stage;
 use super::expand::expand;
 use super::grid;
 use super::input_box::InputBox;
 use super::interval::Interval;
-use super::sensitivity::rounding_with;
+use super::sensitivity::Sensitivity;
 use crate::emit::ScalarType;
 use crate::function::Quantity;
-use crate::graph::{Folding, Graph, Input, Node};
+use crate::graph::{Folding, Graph};
 use crate::schedule::Program;
 use crate::sincos::AngleKernel;
 use crate::verify::states::JointState;
@@ -112,7 +113,7 @@ pub fn least_eigenvalue_with(
     }
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let costs = rounding_with(program, scalar, sines, limits, 64);
+    let costs = Sensitivity::of(program, limits, Fineness::GLANCE).rounding(scalar, sines);
     let unedited = Stage {
         program: program.clone(),
         edits: Vec::new(),
@@ -134,9 +135,7 @@ pub fn least_eigenvalue_with(
         let cost = &costs[entry(i, j)];
         errors.push((cost.arithmetic + cost.sincos) * scale);
     }
-    let sliding: Vec<bool> = (0..limits.joints())
-        .map(|joint| graph.nodes.contains(&Node::Input(Input::Position(joint))))
-        .collect();
+    let sliding = grid::sliding(&graph, limits.joints());
     grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS).ok_or(Indefinite::Unproved)
 }
 

@@ -30,41 +30,18 @@ pub(super) type Polynomial = Vec<(Key, Interval)>;
 /// Products of more terms than this are not written out.
 const MOST_PRODUCTS: usize = 4_000_000;
 
+/// Nor graphs whose products have more together: some seconds.
+const MOST_WORK: usize = 100_000_000;
+
 /// The outputs written out; `None` if they are too large, or of higher degree
 /// than fits.
 pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>> {
-    if limits.joints() > MOST_JOINTS {
-        return None;
-    }
-    let mut values: Vec<Polynomial> = Vec::with_capacity(graph.nodes.len());
-    let mut last_use = vec![0; graph.nodes.len()];
-    for (index, node) in graph.nodes.iter().enumerate() {
-        for operand in node.operands().into_iter().flatten() {
-            last_use[operand.index()] = index;
-        }
-    }
-    for output in &graph.outputs {
-        last_use[output.node().index()] = usize::MAX;
-    }
-    for (index, (node, live)) in graph.nodes.iter().zip(graph.live()).enumerate() {
-        let value = match *node {
-            _ if !live => Vec::new(),
-            Node::Constant(c) => vec![(0, Interval::exact(&graph.constants[c as usize]))],
-            Node::Input(input) => leaf(input, limits)?,
-            Node::Sum(a, b) => sum(&values[a.index()], &values[b.index()], false),
-            Node::Difference(a, b) => sum(&values[a.index()], &values[b.index()], true),
-            Node::Product(a, b) => product(&values[a.index()], &values[b.index()])?,
-        };
-        values.push(value);
-        for operand in node.operands().into_iter().flatten() {
-            // What nobody reads any more need not be kept.
-            if last_use[operand.index()] == index {
-                values[operand.index()] = Vec::new();
-            }
-        }
-    }
+    let mut found: Vec<Polynomial> = vec![Vec::new(); graph.nodes.len()];
+    visit(graph, limits, &mut |node, polynomial| {
+        found[node] = polynomial.clone();
+    })?;
     let outputs = graph.outputs.iter().map(|edge| {
-        let mut value = values[edge.node().index()].clone();
+        let mut value = found[edge.node().index()].clone();
         if edge.is_negative() {
             for (_, coefficient) in &mut value {
                 *coefficient = -*coefficient;
@@ -73,6 +50,67 @@ pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>
         value
     });
     Some(outputs.collect())
+}
+
+/// Shows each output's node, once and without a sign, written out; none is
+/// kept longer than others are made of it. `None` as [`expand`].
+pub(super) fn visit(
+    graph: &Graph,
+    limits: &InputBox,
+    show: &mut dyn FnMut(usize, &Polynomial),
+) -> Option<()> {
+    if limits.joints() > MOST_JOINTS {
+        return None;
+    }
+    let live = graph.live();
+    let mut last_use = vec![0; graph.nodes.len()];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        if live[index] {
+            for operand in node.operands().into_iter().flatten() {
+                last_use[operand.index()] = index;
+            }
+        }
+    }
+    let mut is_output = vec![false; graph.nodes.len()];
+    for output in &graph.outputs {
+        is_output[output.node().index()] = true;
+    }
+    let mut values: Vec<Polynomial> = Vec::with_capacity(graph.nodes.len());
+    let mut work = 0;
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let value = match *node {
+            _ if !live[index] => Vec::new(),
+            Node::Constant(c) => vec![(0, Interval::exact(&graph.constants[c as usize]))],
+            Node::Input(input) => leaf(input, limits)?,
+            Node::Sum(a, b) => sum(&values[a.index()], &values[b.index()], false),
+            Node::Difference(a, b) => sum(&values[a.index()], &values[b.index()], true),
+            Node::Product(a, b) => {
+                let (a, b) = (&values[a.index()], &values[b.index()]);
+                work += a.len() * b.len();
+                if work > MOST_WORK {
+                    return None;
+                }
+                product(a, b)?
+            }
+        };
+        if is_output[index] {
+            show(index, &value);
+        }
+        // What nobody reads any more need not be kept.
+        values.push(if last_use[index] > index {
+            value
+        } else {
+            Vec::new()
+        });
+        if live[index] {
+            for operand in node.operands().into_iter().flatten() {
+                if last_use[operand.index()] == index {
+                    values[operand.index()] = Vec::new();
+                }
+            }
+        }
+    }
+    Some(())
 }
 
 const fn shift(joint: usize) -> usize {

@@ -9,7 +9,8 @@
 //!   and bound over polynomials in the rates ([`form`])
 //! - [`definite`]: whether D stays positive definite
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
-//!   both over the sub-boxes of `subdivide`
+//!   over the sub-boxes of `subdivide`, and written out. `distinct`: equal
+//!   outputs once
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
 //! - [`prune`]: the cheapest edits that a certificate admits
 //! - [`choose`]: the cheapest variant that a tolerance admits
@@ -21,6 +22,7 @@ pub mod bound;
 pub mod certificate;
 pub mod choose;
 pub mod definite;
+mod distinct;
 pub mod edits;
 mod expand;
 pub mod form;

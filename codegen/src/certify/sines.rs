@@ -11,7 +11,7 @@
 
 use super::input_box::InputBox;
 use super::interval::Interval;
-use super::sensitivity::rounding_with;
+use super::sensitivity::Sensitivity;
 use crate::emit::ScalarType;
 use crate::schedule::{Program, Trig};
 use crate::sincos::choose::{Candidates, Choice};
@@ -22,8 +22,8 @@ use crate::sincos::{self, AngleKernel, Sines, TooAccurate};
 const UNIT: f64 = 1e-4;
 
 /// The cheapest polynomials found with which sines and cosines cost no output
-/// more than its allowance, in its unit, over a box; bounded on at most
-/// `boxes` sub-boxes. No sines without angles: nothing is needed then.
+/// more than its allowance, in its unit, over the box of the
+/// program's sensitivity. No sines without angles: nothing is needed then.
 ///
 /// # Errors
 /// An angle whose sine cannot be had as exactly.
@@ -32,13 +32,13 @@ pub fn within(
     scalar: ScalarType,
     limits: &InputBox,
     allowances: &[f64],
-    boxes: usize,
+    sensitivity: &Sensitivity,
 ) -> Result<Sines, TooAccurate> {
     let positions = &limits.position;
-    let error = uniform(program, scalar, limits, allowances, boxes);
+    let error = uniform(program, scalar, allowances, sensitivity);
     let mut sines = sincos::polynomials(program, scalar, positions, error)?;
     let admitted = |sines: &[AngleKernel]| {
-        let costs = rounding_with(program, scalar, sines, limits, boxes);
+        let costs = sensitivity.rounding(scalar, sines);
         let mut pairs = costs.iter().zip(allowances);
         pairs.all(|(cost, &allowed)| cost.sincos <= allowed)
     };
@@ -80,9 +80,8 @@ pub fn within(
 fn uniform(
     program: &Program,
     scalar: ScalarType,
-    limits: &InputBox,
     allowances: &[f64],
-    boxes: usize,
+    sensitivity: &Sensitivity,
 ) -> f64 {
     let unit = |trig: &Trig| AngleKernel {
         angle: trig.angle,
@@ -95,7 +94,7 @@ fn uniform(
         },
     };
     let sines: Sines = program.trig.iter().map(unit).collect();
-    let costs = rounding_with(program, scalar, &sines, limits, boxes);
+    let costs = sensitivity.rounding(scalar, &sines);
     let pairs = costs.iter().zip(allowances);
     let admitted = pairs.filter(|(cost, _)| cost.sincos > 0.0);
     let least = admitted.map(|(cost, allowed)| UNIT * allowed / cost.sincos);

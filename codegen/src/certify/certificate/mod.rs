@@ -15,19 +15,17 @@
 //!    rounded once; sines that it computes by polynomials are proved again
 //!    from the literals, over the angles' ranges in the box;
 //! 4. the error of the edits ([`difference`](super::edits::difference)), of sines and cosines and of
-//!    rounding ([`rounding`](super::sensitivity::rounding)) are bounded anew, and the claims must not be
-//!    smaller.
+//!    rounding ([`sensitivity`](super::sensitivity)) are bounded anew, and the
+//!    claims must not be smaller.
 //!
 //! The emitted program and the edited one are the same function but not the
 //! same arithmetic; rounding is bounded on the emitted one, edits between
 //! exact programs, and the two add up by the triangle inequality.
 //!
 //! - [`subject`]: what a claim is about, and how its bounds are found
-//! - `distinct`: outputs that are one value
 //! - `split`: bounds by cause
 //! - `refuted`: why a certificate is no good
 
-mod distinct;
 mod refuted;
 mod split;
 pub mod subject;
@@ -40,6 +38,7 @@ use super::edits::Stage;
 use super::input_box::InputBox;
 use super::ranges::{Finding, ranges_with};
 use super::scale;
+use super::sensitivity::Sensitivity;
 use crate::emit::ScalarType;
 use crate::graph::Points;
 use crate::graph::print::POINTS;
@@ -69,7 +68,8 @@ pub const ASSUMPTIONS: [&str; 4] = [
 /// How the bounds were found.
 pub const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
      at a grid with Riesz's and Bernstein's inequalities, or branch and bound with intervals; \
-     rounding: interval adjoints over sub-boxes";
+     rounding: largest values times largest adjoints, both written out in the same way, \
+     or interval adjoints over sub-boxes";
 
 /// A claim about one emitted function.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,7 +139,8 @@ impl Certificate {
             sines: &[],
         };
         let fineness = Fineness::CERTIFY;
-        let bounds = subject.bounds(scalar, &subject.model(fineness), fineness);
+        let sensitivity = subject.sensitivity(fineness);
+        let bounds = subject.bounds(scalar, &subject.model(fineness), &sensitivity);
         let lambda_min = subject.least_eigenvalue(scalar);
         Certificate {
             lambda_min,
@@ -168,11 +169,16 @@ impl Certificate {
 
     /// The same claim with polynomials for sines; the edits' bounds stay.
     #[must_use]
-    pub fn with_sines(&self, setting: &Setting, sines: &Sines, fineness: Fineness) -> Certificate {
+    pub fn with_sines(
+        &self,
+        setting: &Setting,
+        sines: &Sines,
+        sensitivity: &Sensitivity,
+    ) -> Certificate {
         let sines = [(self.scalar, sines.clone())];
         let subject = self.subject(setting, &sines);
         let scaled = self.bounds.iter().map(|bound| bound.model);
-        let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], fineness);
+        let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], sensitivity);
         for (bound, model) in bounds.iter_mut().zip(scaled) {
             bound.model = model;
         }
@@ -325,7 +331,8 @@ impl Certificate {
     fn check_bounds(&self, subject: &Subject<'_>) -> Result<Vec<Split>, Refuted> {
         let mut found: Option<Vec<Split>> = None;
         for fineness in [Fineness::CERTIFY, Fineness::GLANCE] {
-            let next = subject.bounds(self.scalar, &subject.model(fineness), fineness);
+            let sensitivity = subject.sensitivity(fineness);
+            let next = subject.bounds(self.scalar, &subject.model(fineness), &sensitivity);
             let best = match found {
                 None => next,
                 Some(best) => best.iter().zip(&next).map(|(a, b)| a.min(*b)).collect(),

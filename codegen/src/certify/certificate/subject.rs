@@ -2,17 +2,17 @@
 
 use dalembert_model::scene::Scale;
 
-use super::distinct::Distinct;
 use super::{Certificate, Split};
 use crate::certify::bound::{Budget, magnitudes, relative};
 use crate::certify::definite::{has_inertia, least_eigenvalue_with};
+use crate::certify::distinct::Distinct;
 use crate::certify::edits::{Stage, difference};
 use crate::certify::input_box::InputBox;
-use crate::certify::sensitivity::rounding_with;
+use crate::certify::sensitivity::Sensitivity;
 use crate::emit::{MathPath, ScalarType, function};
 use crate::plan::{SceneKey, input_hash};
 use crate::scene::Setting;
-use crate::schedule::{Operand, Program};
+use crate::schedule::Program;
 use crate::sincos::{self, AngleKernel, Sines};
 
 /// How fine a bound is: the finer, the tighter and the dearer. Every one is
@@ -21,15 +21,18 @@ use crate::sincos::{self, AngleKernel, Sines};
 pub struct Fineness {
     /// For the bound of the edits.
     pub budget: Budget,
-    /// Sub-boxes of the rounding bound.
+    /// Sub-boxes of the rounding bound by intervals.
     pub boxes: usize,
+    /// Points of a grid for each value and adjoint that rounding counts with.
+    pub points: usize,
 }
 
 impl Fineness {
     /// For certificates: seconds for a six-joint arm.
     pub const CERTIFY: Fineness = Fineness {
         budget: Budget::CERTIFY,
-        boxes: 4096,
+        boxes: 512,
+        points: 1 << 14,
     };
     /// For who waits, as a compiler does.
     pub const GLANCE: Fineness = Fineness {
@@ -38,6 +41,7 @@ impl Fineness {
             ..Budget::GLANCE
         },
         boxes: 64,
+        points: 1 << 8,
     };
 }
 
@@ -78,24 +82,15 @@ impl Subject<'_> {
         distinct.spread(&found)
     }
 
-    /// Bounds by cause, relative to the scales, with the edits' at hand.
-    pub fn bounds(&self, scalar: ScalarType, model: &[f64], fineness: Fineness) -> Vec<Split> {
-        let sines = self.sines(scalar);
-        let keys = self
-            .emitted
-            .outputs
-            .iter()
-            .map(|output| match &output.value {
-                Operand::Step(index) => Some(*index),
-                _ => None,
-            });
-        let distinct = Distinct::by(keys);
-        let program = Program {
-            outputs: distinct.pick(&self.emitted.outputs),
-            ..self.emitted.clone()
-        };
-        let found = rounding_with(&program, scalar, sines, self.limits, fineness.boxes);
-        let rounding = distinct.spread(&found);
+    /// Bounds by cause, relative to the scales, with the edits' and the
+    /// sensitivity at hand.
+    pub fn bounds(
+        &self,
+        scalar: ScalarType,
+        model: &[f64],
+        sensitivity: &Sensitivity,
+    ) -> Vec<Split> {
+        let rounding = sensitivity.rounding(scalar, self.sines(scalar));
         let all = model.iter().zip(&rounding).zip(self.scales);
         all.map(|((&model, rounding), &scale)| Split {
             model: relative(model, scale),
@@ -103,6 +98,11 @@ impl Subject<'_> {
             rounding: relative(rounding.arithmetic, scale),
         })
         .collect()
+    }
+
+    /// What bounds of the emitted program's rounding need.
+    pub fn sensitivity(&self, fineness: Fineness) -> Sensitivity {
+        Sensitivity::of(self.emitted, self.limits, fineness)
     }
 
     /// A lower bound of the least eigenvalue of S D S, if D is an output and

@@ -6,6 +6,9 @@ use super::layout::Layout;
 use super::{FINEST, FIRST};
 use crate::certify::interval::Interval;
 
+/// Terms that are put together in about the time of a point.
+const TERMS: usize = 64;
+
 /// A bound to show.
 pub(super) struct Cells<'a> {
     pub layout: &'a Layout,
@@ -28,11 +31,17 @@ impl Cells<'_> {
         Some((self.ranges[level], whole))
     }
 
+    /// Puts an angle in; what takes about as long as a point counts as one.
+    fn fold(&mut self, level: usize, angle: f64) {
+        let points = 1 + self.layout.terms(level) / TERMS;
+        self.points = self.points.saturating_sub(points);
+        self.layout.fold(level, angle, &mut self.buffers);
+    }
+
     /// Whether the maximum over the joints from `level` on is at most a bound:
     /// `true` is a proof.
     pub(super) fn below(&mut self, level: usize, bound: f64) -> bool {
         if level == self.layout.joints.len() {
-            self.points = self.points.saturating_sub(1);
             return (self.accept)(&self.buffers[level], bound);
         }
         if self.crude && self.layout.crude(level, &self.buffers[level]) <= bound {
@@ -47,7 +56,7 @@ impl Cells<'_> {
         let (from, width) = match part {
             Some((range, _)) => {
                 for end in [range.low(), range.high()] {
-                    self.layout.fold(level, end, &mut self.buffers);
+                    self.fold(level, end);
                     if !self.below(level + 1, bound) {
                         return false;
                     }
@@ -68,7 +77,7 @@ impl Cells<'_> {
                 }
                 None => (bound * (libm::cos(reach) - 1e-15)).next_down(),
             };
-            self.layout.fold(level, angle, &mut self.buffers);
+            self.fold(level, angle);
             if !self.below(level + 1, enough) {
                 if reach <= FINEST || self.points == 0 {
                     return false;

@@ -118,6 +118,11 @@ impl Layout {
         }
     }
 
+    /// How many values go into a joint.
+    pub(super) fn terms(&self, level: usize) -> usize {
+        self.folds[level].0.len()
+    }
+
     /// Room for the values before and after each joint.
     pub(super) fn buffers(&self) -> Vec<Vec<f64>> {
         let mut buffers: Vec<Vec<f64>> = vec![self.coefficients.clone()];

@@ -38,6 +38,7 @@ use std::f64::consts::PI;
 use super::expand::{Key, Polynomial, rates};
 use super::input_box::InputBox;
 use super::interval::Interval;
+use crate::graph::{Graph, Input, Node};
 use crate::simplify::random::Random;
 use cells::Cells;
 pub(super) use definite::least_eigenvalue;
@@ -52,9 +53,6 @@ const SLACK: f64 = 1e-13;
 /// higher.
 const NEGLIGIBLE: f64 = 1e-8;
 
-/// What a bound exceeds a value that is taken by, relative.
-const CLOSE: f64 = 0.02;
-
 /// The largest relative step from a bound that could not be shown to the next.
 const MOST_STEP: f64 = 0.15;
 
@@ -65,56 +63,91 @@ const FIRST: usize = 8;
 /// take 1.6 of the two hundredths.
 const FINEST: f64 = 0.09;
 
-/// Places to climb from.
-const STARTS: usize = 12;
+/// How much work a bound may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Closeness {
+    /// Points at most; with none, no angle is looked at.
+    pub points: usize,
+    /// What a bound exceeds a value that is taken by, relative.
+    pub close: f64,
+    /// Places to climb from to such a value.
+    pub starts: usize,
+}
 
-/// Largest magnitudes of polynomials over a box, no closer than `goals` where
-/// they are smaller; `None` if a power is too high to be written in multiples.
-pub(super) fn magnitudes(
-    polynomials: &[Polynomial],
+impl Closeness {
+    /// For bounds that count by themselves.
+    pub(super) fn fine(points: usize) -> Closeness {
+        Closeness {
+            points,
+            close: 0.02,
+            starts: 12,
+        }
+    }
+}
+
+/// Which joints slide: a position that is read as it stands.
+pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
+    let mut sliding = vec![false; joints];
+    for node in &graph.nodes {
+        if let Node::Input(Input::Position(joint)) = node {
+            sliding[*joint] = true;
+        }
+    }
+    sliding
+}
+
+/// The largest magnitude of a polynomial over a box, no closer than `goal` if it
+/// is smaller; `None` if a power is too high to be written in multiples.
+pub(super) fn magnitude(
+    polynomial: &Polynomial,
     limits: &InputBox,
     sliding: &[bool],
-    goals: &[f64],
-    points: usize,
-) -> Option<Vec<f64>> {
+    goal: f64,
+    closeness: Closeness,
+) -> Option<f64> {
     let range = |key: Key| range(key, limits);
-    polynomials
-        .iter()
-        .zip(goals)
-        .map(|(polynomial, &goal)| {
-            let polynomial = harmonics(polynomial, limits.joints())?;
-            let sizes = polynomial.iter();
-            let sizes = sizes.map(|&(key, x)| x.magnitude() * range(key).magnitude());
-            let least = NEGLIGIBLE * sizes.fold(0.0, f64::max);
-            let layout = Layout::new(&polynomial, limits, sliding, &range, least);
-            let whole = bound(&layout, limits, None, goal, points);
-            if !layout.part.contains(&true) {
-                return Some(whole);
-            }
-            let part = bound(&layout, limits, Some(whole), goal, points);
-            Some(whole.min(part))
-        })
-        .collect()
+    let polynomial = harmonics(polynomial, limits.joints())?;
+    let sizes = polynomial.iter();
+    let sizes = sizes.map(|&(key, x)| x.magnitude() * range(key).magnitude());
+    let least = NEGLIGIBLE * sizes.fold(0.0, f64::max);
+    let layout = Layout::new(&polynomial, limits, sliding, &range, least);
+    let whole = bound(&layout, limits, None, goal, closeness);
+    if !layout.part.contains(&true) {
+        return Some(whole);
+    }
+    let part = bound(&layout, limits, Some(whole), goal, closeness);
+    Some(whole.min(part))
 }
 
 /// A bound over the whole circles, or, given that, over the box.
-fn bound(layout: &Layout, limits: &InputBox, whole: Option<f64>, goal: f64, points: usize) -> f64 {
+fn bound(
+    layout: &Layout,
+    limits: &InputBox,
+    whole: Option<f64>,
+    goal: f64,
+    closeness: Closeness,
+) -> f64 {
+    let points = closeness.points;
+    let buffers = layout.buffers();
+    let crude = layout.crude(0, &buffers[0]);
+    if points == 0 {
+        return crude;
+    }
     let mut cells = Cells {
         layout,
-        buffers: layout.buffers(),
+        buffers,
         accept: &|values, bound| layout.value(values) <= bound,
         crude: true,
         whole,
         ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
         points,
     };
-    let least = climb(&mut cells);
-    let crude = layout.crude(0, &cells.buffers[0]);
+    let least = climb(&mut cells, closeness.starts);
     // The bounds that are tried do not depend on the goal, which only skips
     // some: what was shown for a goal is shown again without one.
     let mut tries = Vec::new();
-    let mut next = least * (1.0 + CLOSE) + 2.0 * layout.slack;
-    let mut more = CLOSE;
+    let mut more = closeness.close;
+    let mut next = least * (1.0 + more) + 2.0 * layout.slack;
     while 0.0 < next && next < crude {
         tries.push(next);
         more = (2.0 * more).min(MOST_STEP);
@@ -143,7 +176,7 @@ fn bound(layout: &Layout, limits: &InputBox, whole: Option<f64>, goal: f64, poin
 }
 
 /// A value that is taken: the largest of a coarse grid, climbed from.
-fn climb(cells: &mut Cells<'_>) -> f64 {
+fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
     let count = cells.layout.joints.len();
     let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
         Some((range, _)) => (range.low(), range.high()),
@@ -157,7 +190,7 @@ fn climb(cells: &mut Cells<'_>) -> f64 {
     };
     let mut best = 0.0;
     let mut random = Random::new(0x9d1d);
-    for _ in 0..STARTS {
+    for _ in 0..starts {
         let mut angles: Vec<f64> = (0..count)
             .map(|level| {
                 let (low, high) = span(level, cells);

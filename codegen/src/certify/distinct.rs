@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 /// Which outputs are bounded, and which of those each output is.
+#[derive(Clone, Debug)]
 pub(super) struct Distinct {
     /// The first of each value.
     firsts: Vec<usize>,

@@ -1,64 +1,30 @@
-//! What rounding costs: adjoints in interval arithmetic over sub-boxes.
+//! Adjoints in interval arithmetic over sub-boxes.
 //!
-//! **Model** (named in certificates). Every operation gives
-//! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
-//! products and η = 0 for sums; literals are constants rounded once; `sin`
-//! and `cos` are within one ulp, which is at most u·2 relative and u
-//! absolute, or polynomials within their proved errors; nothing is contracted to a fused multiply-add.
+//! **Soundness.** Every operation is widened by its rounding, so the intervals
+//! contain x̂ *and* x, and adjoints computed from them contain the mixed ones
+//! of the [model](super): the sum bounds the whole error, not only its first
+//! order.
 //!
-//! **Soundness, and why nothing of second order is left.** Let x̂ be the
-//! computed value of a node, x the exact one, e = x̂ − x. For a product
-//! e = â·e_b + b·e_a + r, for a sum e = e_a + e_b + r, where r is the node's
-//! own rounding, |r| ≤ u·|x̂ before rounding| + η. These are identities, so the
-//! error of an output is exactly Σ r_node·ā_node with adjoints ā that take
-//! the partial derivatives at â and b instead of a and b. The intervals
-//! here are computed with every operation widened by its rounding, so they
-//! contain x̂ *and* x, and adjoints computed from them contain the mixed ones:
-//! the sum below bounds the whole error, not only its first order.
+//! The dependency of values on common angles is lost: for programs that were
+//! searched, the bound is hundreds of times what is seen unless the box is
+//! small. For large errors, as those of coarse polynomials for sines, it is the
+//! better one.
 
 use dalembert_model::number::Exact;
 
-use super::input_box::InputBox;
-use super::interval::Interval;
-use super::subdivide::sub_boxes;
+use super::{Rounding, note, underflow};
+use crate::certify::input_box::InputBox;
+use crate::certify::interval::Interval;
+use crate::certify::subdivide::sub_boxes;
 use crate::emit::ScalarType;
 use crate::graph::{AngleSum, Input};
 use crate::schedule::{Operand, Operation, Program};
 use crate::sincos::AngleKernel;
 use crate::sincos::proof::Errors;
 
-/// Bounds of one output's rounding error, in its unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rounding {
-    /// From operations and constants.
-    pub arithmetic: f64,
-    /// From sines and cosines, and from adding angles.
-    pub sincos: f64,
-}
-
-impl Rounding {
-    fn max(self, other: Rounding) -> Rounding {
-        Rounding {
-            arithmetic: self.arithmetic.max(other.arithmetic),
-            sincos: self.sincos.max(other.sincos),
-        }
-    }
-}
-
 /// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,
-/// which halve the positions in turn. Sines are libm's.
-pub fn rounding(
-    program: &Program,
-    scalar: ScalarType,
-    limits: &InputBox,
-    boxes: usize,
-) -> Vec<Rounding> {
-    rounding_with(program, scalar, &[], limits, boxes)
-}
-
-/// The same with polynomials for sines, whose errors are as they are claimed;
-/// angles that are not among them are libm's.
-pub fn rounding_with(
+/// which halve the positions in turn.
+pub(super) fn rounding(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],
@@ -78,25 +44,20 @@ pub fn rounding_with(
     worst
 }
 
-/// Half the least subnormal.
-pub(crate) fn underflow(scalar: ScalarType) -> f64 {
-    match scalar {
-        // Half of 2^−1074 is no double: the whole.
-        ScalarType::F64 => f64::from_bits(1),
-        ScalarType::F32 => f64::from(f32::from_bits(1)) / 2.0,
-    }
-}
-
 /// The constants that steps read, with what rounding takes from them: exact
 /// numbers are slow to bound, so it is done once and not in every sub-box.
 /// And the errors of polynomials for sines, which hold in every sub-box.
-pub(super) struct Constants {
+pub(in crate::certify) struct Constants {
     steps: Vec<[Option<(Interval, f64)>; 2]>,
     sines: Vec<(AngleSum, Errors)>,
 }
 
 impl Constants {
-    pub(super) fn of(program: &Program, scalar: ScalarType, sines: &[AngleKernel]) -> Constants {
+    pub(in crate::certify) fn of(
+        program: &Program,
+        scalar: ScalarType,
+        sines: &[AngleKernel],
+    ) -> Constants {
         let found = |operand: &Operand| match operand {
             Operand::Constant(constant) => Some(rounded(constant, scalar)),
             _ => None,
@@ -106,6 +67,11 @@ impl Constants {
             steps: steps.map(|s| [found(&s.left), found(&s.right)]).collect(),
             sines: sines.iter().map(|sine| (sine.angle, sine.errors)).collect(),
         }
+    }
+
+    /// Of each step, its operands that are constants.
+    pub(super) fn steps(&self) -> &[[Option<(Interval, f64)>; 2]] {
+        &self.steps
     }
 
     /// What a polynomial is off at most; `None` for libm.
@@ -128,13 +94,13 @@ fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
 
 /// Values that contain what is computed and what is exact, and how far the
 /// two can be apart at the node itself.
-pub(super) struct Forward {
-    pub(super) values: Vec<Interval>,
+pub(in crate::certify) struct Forward {
+    pub(in crate::certify) values: Vec<Interval>,
     own: Vec<f64>,
 }
 
 /// Runs a program with every operation widened by its rounding.
-pub(super) fn forward(
+pub(in crate::certify) fn forward(
     program: &Program,
     scalar: ScalarType,
     constants: &Constants,
@@ -164,7 +130,7 @@ pub(super) fn forward(
 }
 
 /// An operand's interval and its own error.
-fn read(
+pub(super) fn read(
     operand: &Operand,
     values: &[Interval],
     scalar: ScalarType,
@@ -270,11 +236,4 @@ fn over(
         bounds.push(bound);
     }
     bounds
-}
-
-fn note(bound: &mut Rounding, operand: &Operand, error: f64) {
-    match operand {
-        Operand::Input(_) => bound.sincos += error,
-        _ => bound.arithmetic += error,
-    }
 }
