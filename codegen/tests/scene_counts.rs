@@ -2,12 +2,15 @@
 
 mod support;
 
+use std::path::Path;
+
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GeneratedFunction, Request, generate};
-use dalembert_model::number::Angle;
+use dalembert_codegen::generate::{GeneratedFunction, Request, Start, generate};
+use dalembert_codegen::plan;
+use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
-use dalembert_model::scene::Scene;
+use dalembert_model::scene::{MotionBox, Scene};
 
 fn locked(joints: &[usize]) -> Vec<(usize, Position)> {
     let at = || Position::Angle(Angle::default());
@@ -61,4 +64,46 @@ fn vertical_plane() {
 fn gravity_only() {
     let function = puma(Scene::default(), Function::Gravity);
     assert!(function.counts.operations() <= 38);
+}
+
+/// A box changes no equation: the plan of the whole robot serves. Standing
+/// still does.
+#[test]
+fn a_box_alone_takes_the_plan_of_the_whole_robot() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots/puma560.toml");
+    let plan = plan::file::beside(&file).unwrap().unwrap();
+    let whole = plan
+        .find(
+            Function::InverseDynamics,
+            Start::Auto,
+            ScalarType::F64,
+            None,
+        )
+        .unwrap();
+    let planned = |velocity_zero: bool| {
+        let scene = Scene {
+            name: "slow".into(),
+            velocity_zero,
+            bounds: MotionBox {
+                velocity: Some(vec![Rational::from_integer(1.into()); 6]),
+                ..MotionBox::default()
+            },
+            ..Scene::default()
+        };
+        let request = Request {
+            functions: vec![Function::InverseDynamics],
+            scalars: vec![ScalarType::F64],
+            scene: Some(scene),
+            plan: Some(plan.clone()),
+            ..Request::default()
+        };
+        generate(&support::robot("puma560"), &request)
+            .unwrap_or_else(|error| panic!("{error}"))
+            .functions
+            .remove(0)
+    };
+    let slow = planned(false);
+    assert!(slow.planned);
+    assert_eq!(slow.program, whole.program);
+    assert!(!planned(true).planned);
 }

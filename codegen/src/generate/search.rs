@@ -22,8 +22,15 @@ pub(crate) fn replay<'r>(
         return Ok(None);
     };
     let scene = setting.scene();
-    let mut scalars = request.scalars.iter();
-    let found = scalars.find_map(|&scalar| plan.find(function, request.start, scalar, scene));
+    let find = |scene| {
+        let mut scalars = request.scalars.iter();
+        scalars.find_map(|&scalar| plan.find(function, request.start, scalar, scene))
+    };
+    let found = find(scene);
+    // A box or a tolerance by itself leaves the equations as they are.
+    if found.is_none() && setting.has_whole_model() {
+        return Ok(find(None));
+    }
     match (found, scene) {
         // A program of the scene as it was is a program of another scene.
         (Some(entry), Some(scene)) if entry.scene != Some(plan::SceneKey::of(scene)) => {
@@ -92,7 +99,7 @@ pub(crate) fn search(
         Start::Only(_) => Vec::new(),
     };
     if let Some(tuned) = &tuned
-        && std::env::var("NB").is_ok()
+        && effort == Effort::Thorough
     {
         helpers.extend(portfolio::neighbours(setting, function, tuned));
     }

@@ -128,6 +128,17 @@ impl Setting {
         self.scene.as_ref()
     }
 
+    /// Whether the equations are the whole robot's: no scene, or one that only
+    /// says where and how exactly.
+    pub fn has_whole_model(&self) -> bool {
+        let changes = |scene: &Scene| {
+            let still = scene.velocity_zero || scene.acceleration_zero;
+            still || scene.gravity.is_some() || scene.payload.is_some()
+        };
+        let same = !self.scene.as_ref().is_some_and(changes);
+        same && self.rows == self.joints && self.locks.iter().all(Option::is_none)
+    }
+
     /// All joints, zero-based.
     pub fn joints(&self) -> &[usize] {
         &self.joints
