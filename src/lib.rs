@@ -96,6 +96,9 @@ pub use dalembert_model::read;
 ///   `lagrange_euler` and keeps the cheapest; naming one tries that only.
 /// - `effort: quick;` or `thorough`, which takes minutes and finds a few
 ///   operations less.
+/// - `sincos: auto;` takes polynomials for sines where a scene's tolerance
+///   admits them; `polynomial` takes them always, over the joints' limits,
+///   with `sincos_error: 1e-9;` or 1e-6; `libm` never.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
 #[cfg(feature = "macros")]
 pub use dalembert_macros::dynamics;

@@ -71,11 +71,12 @@ pub struct Choice {
     pub no_plan: bool,
     /// Where sines come from; `polynomial` holds over the joints' limits,
     /// `auto` takes it where a scene's tolerance admits it
-    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = ["auto", "libm", "polynomial"])]
-    pub sincos: String,
-    /// The largest error of each sine and cosine by polynomials
-    #[arg(long, value_name = "ERROR", default_value_t = 1e-6, value_parser = error_parser())]
-    pub sincos_error: f64,
+    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = sincos_parser())]
+    pub sincos: SinCos,
+    /// The largest error of each sine and cosine by polynomials [default: 1e-6,
+    /// or what a scene's tolerance admits]
+    #[arg(long, value_name = "ERROR", value_parser = error_parser())]
+    pub sincos_error: Option<f64>,
 }
 
 impl Choice {
@@ -93,12 +94,11 @@ impl Choice {
         if let Some(scalar) = self.scalar {
             request.scalars = vec![scalar];
         }
-        request.sincos = match self.sincos.as_str() {
-            "polynomial" => SinCos::Polynomial {
+        request.sincos = match self.sincos {
+            SinCos::Polynomial { .. } => SinCos::Polynomial {
                 error: self.sincos_error,
             },
-            "libm" => SinCos::Libm,
-            _ => SinCos::Auto,
+            other => other,
         };
         request
     }
@@ -290,6 +290,11 @@ fn start_parser() -> impl TypedValueParser<Value = Start> {
 fn scalar_parser() -> impl TypedValueParser<Value = ScalarType> {
     let names = PossibleValuesParser::new(ScalarType::ALL.map(ScalarType::name));
     names.try_map(|name| ScalarType::from_name(&name).ok_or("no such scalar"))
+}
+
+fn sincos_parser() -> impl TypedValueParser<Value = SinCos> {
+    PossibleValuesParser::new(SinCos::NAMES)
+        .try_map(|name| SinCos::from_name(&name).ok_or("no such source of sines"))
 }
 
 fn error_parser() -> impl TypedValueParser<Value = f64> {

@@ -9,6 +9,7 @@ use dalembert_codegen::function::Quantity;
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::plan;
 use dalembert_codegen::scene;
+use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::verify::floating::GivenState;
 use dalembert_codegen::verify::states::JointState;
 use dalembert_model::read::{self, Reading};
@@ -73,6 +74,11 @@ pub fn reading(path: &Path) -> Result<Reading, Failure> {
 /// choice does without.
 fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
     let mut request = choice.request();
+    if choice.sincos_error.is_some() && !matches!(request.sincos, SinCos::Polynomial { .. }) {
+        return Err(Failure::Input(
+            "error: only polynomials have an error to choose: add --sincos polynomial".into(),
+        ));
+    }
     if !choice.no_plan {
         request.plan = plan::file::beside(robot_file)
             .map_err(|message| Failure::Input(format!("error: {message}")))?;

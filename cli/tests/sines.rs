@@ -3,6 +3,7 @@
 mod support;
 
 use std::fs;
+use std::path::PathBuf;
 
 use serde_json::Value;
 use support::{robot, run, temporary};
@@ -45,6 +46,10 @@ fn what_makes_no_sense_is_refused() {
         assert_eq!(ran.code, 2, "{error}");
         assert!(ran.err.contains(why), "{}", ran.err);
     }
+    let robot = robot("planar2r");
+    let ran = run(&["generate", &robot, "--sincos-error", "1e-5"]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("add --sincos polynomial"), "{}", ran.err);
 }
 
 const SCENE: &str = r#"
@@ -53,17 +58,72 @@ outputs = ["inverse_dynamics"]
 box = { position = [[-3, 3], [0.2, 2.8]], velocity = [2, 3], acceleration = [10, 20] }
 tolerance = { value = 1e-4, relative_to = "range" }
 scalar = "f64"
+
+[scene.fine]
+outputs = ["inverse_dynamics"]
+box = { position = [[-3, 3], [0.2, 2.8]], velocity = [2, 3], acceleration = [10, 20] }
+tolerance = { value = 1e-6, relative_to = "range" }
+scalar = "f32"
 "#;
+
+/// The planar arm of two joints with these scenes, in a folder of its own.
+fn arm(name: &str) -> (PathBuf, String) {
+    let folder = temporary(name);
+    let file = folder.join("arm.toml");
+    let source = fs::read_to_string(robot("planar2r")).unwrap() + SCENE;
+    fs::write(&file, source).unwrap();
+    let name = file.to_str().unwrap().to_owned();
+    (folder, name)
+}
+
+/// Asked for, they come within the tolerance or not at all; how exact they are
+/// is not asked for.
+#[test]
+fn a_tolerance_and_polynomials_by_name() {
+    let (_, arm) = arm("sines_by_name");
+    let in_scene = |scene: &str, more: &[&str]| {
+        run(&[&["generate", &arm, "--scene", scene, "--sincos"], more].concat())
+    };
+    let ran = in_scene("rough", &["polynomial"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(!ran.out.contains("libm") && ran.err.contains("by polynomials"));
+    let ran = in_scene("rough", &["libm"]);
+    assert!(
+        ran.code == 0 && ran.out.contains("libm::sincos"),
+        "{}",
+        ran.err
+    );
+    let ran = in_scene("fine", &["auto"]);
+    assert!(
+        ran.code == 0 && ran.out.contains("libm::sincosf"),
+        "{}",
+        ran.err
+    );
+    for (scene, more, why) in [
+        (
+            "fine",
+            &["polynomial"][..],
+            "no polynomials for its sines within the tolerance",
+        ),
+        (
+            "rough",
+            &["polynomial", "--sincos-error", "1e-9"],
+            "decides how exact",
+        ),
+        ("rough", &["polynomials"], "'polynomial'"),
+    ] {
+        let ran = in_scene(scene, more);
+        assert_eq!(ran.code, 2, "{more:?}");
+        assert!(ran.err.contains(why), "{}", ran.err);
+    }
+}
 
 /// The certificate of a scene carries its polynomials, and `certify` proves
 /// them from the text.
 #[test]
 fn certified_again_from_the_text() {
-    let folder = temporary("sines");
-    let file = folder.join("arm.toml");
-    let source = fs::read_to_string(robot("planar2r")).unwrap() + SCENE;
-    fs::write(&file, source).unwrap();
-    let arm = file.to_str().unwrap();
+    let (folder, arm) = arm("sines");
+    let arm = arm.as_str();
     let code = folder.join("arm.rs");
     let ran = run(&[
         "generate",

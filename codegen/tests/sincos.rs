@@ -19,7 +19,7 @@ const FUNCTION: Function = Function::InverseDynamics;
 fn with(robot: &Robot, error: f64) -> Result<Generated, GenerateError> {
     let request = Request {
         functions: vec![FUNCTION],
-        sincos: SinCos::Polynomial { error },
+        sincos: SinCos::Polynomial { error: Some(error) },
         ..Request::default()
     };
     generate(robot, &request)
@@ -110,7 +110,7 @@ fn whole_turns_are_taken_off_where_limits_are_missing() {
     let request = Request {
         functions: vec![FUNCTION],
         scalars: vec![ScalarType::F64],
-        sincos: SinCos::Polynomial { error: 1e-9 },
+        sincos: SinCos::Polynomial { error: Some(1e-9) },
         ..Request::default()
     };
     let generated = generate(&robot, &request).unwrap();

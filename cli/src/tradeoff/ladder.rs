@@ -129,7 +129,8 @@ impl<'a> Ladder<'a> {
                         .with_polynomials(&certificate, &tolerances, Fineness::CERTIFY)
                 });
                 points.push(self.point(tolerance, certificate)?);
-                if let Some(certificate) = polynomials.flatten() {
+                let found = polynomials.and_then(Result::ok);
+                if let Some(certificate) = found.filter(|found| !found.sines.is_empty()) {
                     points.push(self.point(tolerance, certificate)?);
                 }
             }

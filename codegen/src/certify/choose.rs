@@ -24,6 +24,7 @@ use super::sines;
 use crate::emit::ScalarType;
 use crate::scene::Setting;
 use crate::schedule::Program;
+use crate::sincos::TooAccurate;
 use crate::verify::text::TextError;
 use crate::watch::{Part, Vigil};
 
@@ -118,6 +119,31 @@ impl fmt::Display for Refusal {
 }
 
 impl std::error::Error for Refusal {}
+
+/// Why a variant gets no polynomials for its sines.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoPolynomials {
+    /// None is as exact as what is left of the tolerance.
+    TooAccurate(TooAccurate),
+    /// Their errors with those of the rest are too much.
+    Above(Refusal),
+    /// D with their errors cannot be shown to be positive definite.
+    Indefinite,
+}
+
+impl fmt::Display for NoPolynomials {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoPolynomials::TooAccurate(why) => why.fmt(f),
+            NoPolynomials::Above(why) => why.fmt(f),
+            NoPolynomials::Indefinite => {
+                f.write_str("with their errors D cannot be shown to be positive definite")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoPolynomials {}
 
 impl<'a> Frame<'a> {
     /// The box of a setting, and T over it.
@@ -311,19 +337,21 @@ impl<'a> Frame<'a> {
     }
 
     /// A variant with polynomials for its sines: the cheapest that what edits
-    /// and rounding leave of the tolerances admits. `None` if there are none,
-    /// or no sines.
+    /// and rounding leave of the tolerances admits; as it is if it has no sines.
+    ///
+    /// # Errors
+    /// Why there are none.
     pub fn with_polynomials(
         &self,
         certificate: &Certificate,
         tolerances: &[f64],
         fineness: Fineness,
-    ) -> Option<Certificate> {
+    ) -> Result<Certificate, NoPolynomials> {
         let Certificate {
             emitted, scalar, ..
         } = certificate;
         if emitted.trig.is_empty() {
-            return None;
+            return Ok(certificate.clone());
         }
         // The values that rounding is bounded with change a little.
         let left = certificate.bounds.iter().zip(tolerances);
@@ -334,9 +362,13 @@ impl<'a> Frame<'a> {
             .collect();
         let sensitivity = self.sensitivity(emitted, fineness);
         let sines = sines::within(emitted, *scalar, &self.limits, &allowances, &sensitivity);
-        let found = certificate.with_sines(self.setting, &sines.ok()?, &sensitivity);
-        let definite = found.lambda_min.is_some() == certificate.lambda_min.is_some();
-        (definite && within(&found, tolerances).is_ok()).then_some(found)
+        let sines = sines.map_err(NoPolynomials::TooAccurate)?;
+        let found = certificate.with_sines(self.setting, &sines, &sensitivity);
+        within(&found, tolerances).map_err(NoPolynomials::Above)?;
+        match found.lambda_min.is_some() == certificate.lambda_min.is_some() {
+            true => Ok(found),
+            false => Err(NoPolynomials::Indefinite),
+        }
     }
 
     /// What is left for edits, in each output's unit; `None` if that is

@@ -157,7 +157,7 @@ fn functions(
         plan: source.plan.clone(),
         watch: Watch::default(),
         prefer: Prefer::default(),
-        sincos: crate::sincos::SinCos::default(),
+        sincos: invocation.sincos,
         math: MathPath(module::MATH.into()),
         module: Some(invocation.name.to_string()),
         scene: None,

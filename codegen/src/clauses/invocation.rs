@@ -16,6 +16,7 @@ use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::generate::Start;
 use crate::simplify::Effort;
+use crate::sincos::SinCos;
 
 /// What an invocation says.
 pub(super) struct Invocation {
@@ -30,6 +31,8 @@ pub(super) struct Invocation {
     pub(super) scalars: Vec<ScalarType>,
     pub(super) start: Start,
     pub(super) effort: Effort,
+    /// The error of polynomials stands in it once all clauses are read.
+    pub(super) sincos: SinCos,
     /// The scene's name, and what it is if that stands here.
     pub(super) scene: Option<(Ident, Option<Group>)>,
     /// Whether outputs and scalars were chosen: else they are the scene's.
@@ -45,11 +48,13 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 6] = [
+const CLAUSES: [&str; 8] = [
     "outputs",
     "scalar",
     "formulation",
     "effort",
+    "sincos",
+    "sincos_error",
     "scene",
     "crate",
 ];
@@ -78,15 +83,25 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         scalars: Vec::new(),
         start: Start::Auto,
         effort: Effort::Quick,
+        sincos: SinCos::Auto,
         scene: None,
         chose: [false; 2],
         facade: quote!(::dalembert),
     };
+    let mut error = None;
     for pair in clauses(rest, errors) {
         let key = clause_name(&pair.key, errors);
+        if key == Some("sincos_error") && !pair.value.is_empty() {
+            error = sincos_error(&pair.value, errors).map(|value| (pair.key.clone(), value));
+        }
         invocation.chose[0] |= key == Some("outputs");
         invocation.chose[1] |= key == Some("scalar");
         invocation.clause(key, &pair.value, errors);
+    }
+    match (&mut invocation.sincos, error) {
+        (SinCos::Polynomial { error }, Some((_, value))) => *error = Some(value),
+        (_, Some((key, _))) => errors.push(key, &m::NO_POLYNOMIALS),
+        (_, None) => {}
     }
     if !invocation.chose[0] && invocation.scene.is_none() {
         errors.push(&invocation.name, &m::NO_OUTPUTS);
@@ -177,6 +192,7 @@ impl Invocation {
             }
             Some("formulation") => self.start = word(value, errors).unwrap_or(self.start),
             Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
+            Some("sincos") => self.sincos = word(value, errors).unwrap_or(self.sincos),
             Some("scene") => match value {
                 [TokenTree::Ident(name)] => self.scene = Some((name.clone(), None)),
                 [TokenTree::Ident(name), body] if braces(body).is_some() => {
@@ -234,7 +250,7 @@ fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStre
             }
             [] => errors.say(
                 first(value),
-                &format!("expected the name of an {}", W::WHAT),
+                &format!("expected the word for the {}", W::WHAT),
                 "",
             ),
             [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_COMMA),
@@ -251,6 +267,20 @@ fn word<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Option<W> {
         errors.push(at, &m::ONE_WORD);
     }
     Some(first?.0)
+}
+
+/// An error of sines, as a float literal.
+fn sincos_error(value: &[TokenTree], errors: &mut Errors) -> Option<f64> {
+    let tokens: TokenStream = value.iter().cloned().collect();
+    let number = match value {
+        [TokenTree::Literal(literal)] => literal.to_string().replace('_', "").parse().ok(),
+        _ => None,
+    };
+    let number = number.filter(|error: &f64| *error > 0.0 && *error < 1.0);
+    if number.is_none() {
+        errors.push(tokens, &m::SINCOS_ERROR);
+    }
+    number
 }
 
 /// The path of the facade crate, as an import inside the module can take it.

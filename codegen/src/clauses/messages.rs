@@ -43,6 +43,14 @@ pub(super) const NO_OUTPUTS: Message = message(
 pub(super) const NO_WORD: Message = message("expected a word", "");
 pub(super) const NO_COMMA: Message = message("expected `,` or `;`", "");
 pub(super) const ONE_WORD: Message = message("expected one word only", "");
+pub(super) const SINCOS_ERROR: Message = message(
+    "expected an error above 0 and below 1",
+    "sincos_error: 1e-9;",
+);
+pub(super) const NO_POLYNOMIALS: Message = message(
+    "only polynomials have an error to choose",
+    "add `sincos: polynomial;`, or leave this out",
+);
 pub(super) const CRATE_PATH: Message = message(
     "expected the path of the crate `dalembert`",
     "crate = ::my_library::dalembert;",

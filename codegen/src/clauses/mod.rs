@@ -1,7 +1,7 @@
 //! What users ask for, in whichever way they ask: the words of a request,
 //! the robot file, and `dynamics!` as a whole.
 //!
-//! - [`words`]: outputs, scalars, formulations and efforts by name
+//! - [`words`]: outputs, scalars, formulations, efforts and sources of sines by name
 //! - [`robot_file`]: a robot file from a path, with errors fit to show
 //! - [`expand`]: the tokens of `dynamics!` to the tokens of its modules, by
 //!   way of `invocation` (the grammar), `table` (a robot written in the

@@ -1,4 +1,4 @@
-//! Outputs, scalars, formulations and efforts by name.
+//! Outputs, scalars, formulations, efforts and sources of sines by name.
 
 use std::fmt;
 
@@ -8,6 +8,7 @@ use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::generate::Start;
 use crate::simplify::Effort;
+use crate::sincos::SinCos;
 
 /// A value that users name by a word.
 pub trait Word: Copy {
@@ -48,6 +49,15 @@ impl Word for Start {
     fn all() -> Vec<(&'static str, Self)> {
         let named = |name: &'static str| Start::from_name(name).map(|start| (name, start));
         Start::NAMES.into_iter().filter_map(named).collect()
+    }
+}
+
+impl Word for SinCos {
+    const WHAT: &'static str = "source of sines";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        let named = |name: &'static str| SinCos::from_name(name).map(|sincos| (name, sincos));
+        SinCos::NAMES.into_iter().filter_map(named).collect()
     }
 }
 
@@ -129,6 +139,8 @@ mod tests {
         check::<ScalarType>();
         check::<Effort>();
         check::<Start>();
+        check::<SinCos>();
+        assert_eq!(SinCos::all().len(), SinCos::NAMES.len());
         assert_eq!(Start::all().len(), Start::NAMES.len());
     }
 

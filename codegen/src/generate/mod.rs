@@ -188,13 +188,12 @@ fn sines(
     let SinCos::Polynomial { error } = request.sincos else {
         return Ok(Vec::new());
     };
-    let fail = |why: String| GenerateError::SinCos(generated.function, why);
     if generated.admitted.is_some() {
-        return Err(fail(
-            "a scene's tolerance decides how exact its sines are: leave that to it, or take `libm`"
-                .into(),
-        ));
+        // It has what its tolerance admits, or no sines.
+        return Ok(Vec::new());
     }
+    let error = error.unwrap_or(SinCos::ERROR);
+    let fail = |why: String| GenerateError::SinCos(generated.function, why);
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setting.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);

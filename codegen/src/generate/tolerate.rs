@@ -6,8 +6,9 @@
 
 use dalembert_model::scene::Tolerance;
 
+use crate::certify::certificate::Certificate;
 use crate::certify::certificate::subject::Fineness;
-use crate::certify::choose::{Admitted, Claim, Frame, Refusal};
+use crate::certify::choose::{Admitted, Claim, Frame, NoPolynomials, Refusal};
 use crate::certify::prune::Settings;
 use crate::emit::ScalarType;
 use crate::function::Function;
@@ -50,7 +51,8 @@ pub(crate) fn tolerate(
                 }
                 return Ok(scalars);
             }
-            Err(GenerateError::Tolerance(_, Refusal::Above { .. })) if index < last => {}
+            Err(GenerateError::Tolerance(_, Refusal::Above { .. }) | GenerateError::SinCos(..))
+                if index < last => {}
             Err(error) => return Err(error),
         }
     }
@@ -66,6 +68,10 @@ fn one(
 ) -> Result<Admitted, GenerateError> {
     let function = generated.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
+    if matches!(request.sincos, SinCos::Polynomial { error: Some(_) }) {
+        let why = "a scene's tolerance decides how exact its sines are: give no error for them";
+        return Err(GenerateError::SinCos(function, why.into()));
+    }
     let watch = request.watch.over(function);
     let frame = Frame::new(setting, &generated.program, tolerance.relative_to).map_err(fail)?;
     let frame = frame.watched(watch);
@@ -76,21 +82,48 @@ fn one(
         Effort::Thorough if watch.is_over() => (QUICK, Fineness::CERTIFY),
         Effort::Thorough => (Settings::default(), Fineness::CERTIFY),
     };
-    let mut admitted = match kept(&frame, function, scalars, request)? {
+    let admitted = match kept(&frame, function, scalars, request)? {
         Some(kept) => kept,
         None => frame
             .choose(&tolerances, scalars, &settings, fineness)
             .map_err(fail)?,
     };
-    if request.sincos == SinCos::Auto {
-        // Always as fine, so that a plan's variant gets the sines that it got
-        // when it was found.
-        for certificate in &mut admitted.certificates {
-            let found = frame.with_polynomials(certificate, &tolerances, Fineness::GLANCE);
-            *certificate = found.unwrap_or_else(|| certificate.clone());
+    // Always as fine, so that a plan's variant gets the sines that it got when
+    // it was found.
+    let with = |certificate: &Certificate| {
+        frame.with_polynomials(certificate, &tolerances, Fineness::GLANCE)
+    };
+    let all = |admitted: &Admitted| -> Result<Vec<Certificate>, NoPolynomials> {
+        admitted.certificates.iter().map(with).collect()
+    };
+    match request.sincos {
+        SinCos::Libm => Ok(admitted),
+        SinCos::Auto => {
+            let or_libm = |c: &Certificate| with(c).unwrap_or_else(|_| c.clone());
+            let certificates = admitted.certificates.iter().map(or_libm).collect();
+            Ok(Admitted {
+                certificates,
+                ..admitted
+            })
+        }
+        SinCos::Polynomial { .. } => {
+            // What was left out may have used up what polynomials need.
+            let exact = || frame.unedited(scalars, fineness);
+            let found = all(&admitted).map(|certificates| (admitted, certificates));
+            let found = found.or_else(|_| {
+                let exact = exact();
+                all(&exact).map(|certificates| (exact, certificates))
+            });
+            let (admitted, certificates) = found.map_err(|why| {
+                let why = format!("no polynomials for its sines within the tolerance: {why}");
+                GenerateError::SinCos(function, why)
+            })?;
+            Ok(Admitted {
+                certificates,
+                ..admitted
+            })
         }
     }
-    Ok(admitted)
 }
 
 /// For who waits: seconds for a six-joint arm.

@@ -45,9 +45,29 @@ pub enum SinCos {
     /// By polynomials over the joints' ranges. The code needs no libm then,
     /// and is wrong outside the ranges that its documentation names.
     Polynomial {
-        /// The largest |computed − true| of each sine and cosine.
-        error: f64,
+        /// The largest |computed − true| of each sine and cosine;
+        /// [`SinCos::ERROR`] if nothing is said. A scene's tolerance says it
+        /// by itself.
+        error: Option<f64>,
     },
+}
+
+impl SinCos {
+    /// The error of polynomials for which none is given.
+    pub const ERROR: f64 = 1e-6;
+
+    /// The words that users have for it.
+    pub const NAMES: [&str; 3] = ["auto", "libm", "polynomial"];
+
+    /// By its word; the error is left open.
+    pub fn from_name(name: &str) -> Option<SinCos> {
+        match name {
+            "auto" => Some(SinCos::Auto),
+            "libm" => Some(SinCos::Libm),
+            "polynomial" => Some(SinCos::Polynomial { error: None }),
+            _ => None,
+        }
+    }
 }
 
 /// The code of one angle's sine and cosine, and what was proved of it.
@@ -102,10 +122,11 @@ impl fmt::Display for TooAccurate {
                  narrow the joints' limits of position, or take libm"
             );
         }
+        let wanted = format!("{wanted:.2e}").replace(".00e", "e");
         write!(
             f,
             "no polynomial in {scalar} is proved to give the sines of {angle} in \
-             [{low:?}, {high:?}] to {wanted:e}, at best to {:.2e}: ask for that, \
+             [{low:?}, {high:?}] to {wanted}, at best to {:.2e}: ask for that, \
              for a wider scalar, or for libm",
             self.least
         )
