@@ -10,124 +10,13 @@ use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, Start, generate};
 use dalembert_codegen::graph::Points;
-use dalembert_codegen::simplify::random::Random;
 use dalembert_codegen::trace::{Motion, evaluate};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_codegen::verify::interpret::State;
 use dalembert_codegen::verify::states::{SEED, seeded};
 use dalembert_model::equations::{Arm, Formulation};
-use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot, Severity};
 use dalembert_model::scene::Scene;
-
-/// Draws the parts of a robot.
-struct Draw(Random);
-
-impl Draw {
-    fn chance(&mut self, one_in: usize) -> bool {
-        self.0.below(one_in) == 0
-    }
-
-    /// A number of thousandths in [low, high).
-    fn milli(&mut self, low: i64, high: i64) -> Rational {
-        let value = low + self.0.below((high - low) as usize) as i64;
-        Rational::new(value.into(), 1000.into())
-    }
-
-    /// A length; now and then none.
-    fn length(&mut self) -> Rational {
-        if self.chance(4) {
-            Rational::default()
-        } else {
-            self.milli(-600, 600)
-        }
-    }
-
-    /// A right angle as often as not; else a fraction of π, or radians.
-    fn angle(&mut self) -> Angle {
-        let turns =
-            |over: i64, under: i64| Angle::PiTimes(Rational::new(over.into(), under.into()));
-        let over = self.0.below(9) as i64 - 4;
-        match self.0.below(8) {
-            0..4 => turns(over, 2),
-            4 => turns(over, 3),
-            5 => turns(over, 5),
-            _ => Angle::Radians(self.milli(-3000, 3000)),
-        }
-    }
-
-    fn joint(&mut self) -> Joint {
-        Joint {
-            name: None,
-            kind: if self.chance(3) {
-                JointKind::Prismatic
-            } else {
-                JointKind::Revolute
-            },
-            alpha: self.angle(),
-            a: self.length(),
-            d: self.length(),
-            theta: if self.chance(2) {
-                Angle::default()
-            } else {
-                self.angle()
-            },
-            mass: self.milli(500, 9000),
-            com: [self.length(), self.length(), self.length()],
-            // Diagonally dominant and within the triangle inequality: a body.
-            inertia: Inertia {
-                xx: self.milli(400, 500),
-                yy: self.milli(400, 500),
-                zz: self.milli(400, 500),
-                xy: self.milli(-60, 60),
-                yz: self.milli(-60, 60),
-                xz: self.milli(-60, 60),
-            },
-            viscous: if self.chance(2) {
-                Rational::default()
-            } else {
-                self.milli(0, 900)
-            },
-            armature: if self.chance(2) {
-                Rational::default()
-            } else {
-                self.milli(0, 900)
-            },
-            limits: Limits::default(),
-        }
-    }
-
-    fn robot(&mut self, n: usize) -> Robot {
-        let convention = if self.chance(2) {
-            Convention::Standard
-        } else {
-            Convention::Modified
-        };
-        Robot {
-            name: "random".to_owned(),
-            convention,
-            gravity: [
-                self.milli(-3000, 3000),
-                self.milli(-3000, 3000),
-                self.milli(-9800, -9000),
-            ],
-            joints: (0..n).map(|_| self.joint()).collect(),
-        }
-    }
-}
-
-/// Robots of 1 to 8 joints, in turn, each with its seed.
-fn robots(count: usize, seed: u64) -> impl Iterator<Item = (u64, Robot, Draw)> {
-    (0..count).map(move |index| {
-        let seed = seed + index as u64;
-        let mut draw = Draw(Random::new(seed));
-        let robot = draw.robot(1 + index % 8);
-        let findings = robot.validate();
-        let wrong = findings.iter().find(|f| f.severity == Severity::Error);
-        assert!(wrong.is_none(), "seed {seed}: {wrong:?}");
-        (seed, robot, draw)
-    })
-}
+use support::draw::{Draw, robots};
 
 /// A function whose code stays small enough for a test.
 fn function(n: usize, draw: &mut Draw) -> Function {

@@ -1,6 +1,8 @@
 //! Robots for the tests of the generator.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod draw;
+
 use std::path::Path;
 
 use dalembert_codegen::emit::ScalarType;
