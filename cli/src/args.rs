@@ -174,9 +174,13 @@ pub struct CouplingsArgs {
 pub struct ExplainArgs {
     /// The robot file
     pub robot: PathBuf,
-    /// The functions, separated by commas [default: inverse_dynamics]
+    /// The functions, separated by commas [default: the scene's, or
+    /// inverse_dynamics]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = function_parser())]
     pub outputs: Vec<Function>,
+    /// Only what this scene of the robot file needs
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
     /// States that errors are measured in
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = states_parser())]
     pub states: usize,

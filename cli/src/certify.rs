@@ -19,8 +19,9 @@ use dalembert_model::scene::Scale;
 use serde_json::Value;
 
 use crate::args::CertifyArgs;
+use crate::generate::report;
 use crate::outcome::{Failure, Outcome};
-use crate::{generate, input, output};
+use crate::{input, output};
 
 /// The largest certificate that is read.
 const MOST_BYTES: u64 = 64 << 20;
@@ -53,7 +54,7 @@ fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outc
     for finding in &checked.findings {
         text += &format!("warning: {finding}\n");
     }
-    let mut rows = generate::bounds(certificate);
+    let mut rows = report::bounds(certificate);
     let mut seen = None;
     if args.samples > 0 {
         let attack = attack(certificate, args.samples, args.climbs, 1)

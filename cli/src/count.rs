@@ -6,8 +6,9 @@ use dalembert_codegen::graph::Counts;
 use serde_json::{Map, Value, json};
 
 use crate::args::CountArgs;
+use crate::generate::report;
 use crate::outcome::Outcome;
-use crate::{generate as report, input, output, progress};
+use crate::{input, output, progress};
 
 /// Runs the subcommand.
 pub fn run(args: &CountArgs) -> Outcome {

@@ -12,8 +12,9 @@ use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 
 use crate::args::VerifyArgs;
+use crate::generate::report;
 use crate::outcome::{Failure, Outcome};
-use crate::{generate as report, input, output, sines};
+use crate::{input, output, sines};
 
 /// A measured error and its bound.
 struct Check {

@@ -3,7 +3,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{robot, run};
+use support::{robot, run, temporary};
 
 #[test]
 fn the_table_and_the_reasons() {
@@ -47,6 +47,29 @@ fn as_json() {
         assert_eq!(function["links"].as_array().unwrap().len(), 3);
     }
     assert_eq!(json["coefficients"]["D"]["total"], 6);
+}
+
+#[test]
+fn a_scene() {
+    let folder = temporary("explain_scene");
+    let file = folder.join("arm.toml");
+    let scene = "\n[scene.still]\noutputs = [\"gravity\"]\nlock = { 1 = 0 }\n";
+    let source = std::fs::read_to_string(robot("planar3r")).unwrap() + scene;
+    std::fs::write(&file, source).unwrap();
+    let arm = file.to_str().unwrap();
+    let ran = run(&[
+        "explain", arm, "--scene", "still", "--states", "5", "--json",
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(json["scene"], "still");
+    assert!(json["coefficients"].is_null());
+    let rows = json["functions"]["gravity"]["rows"].as_array().unwrap();
+    // Two joints are left.
+    assert_eq!(rows.last().unwrap()["sincos"], 2);
+    let ran = run(&["explain", arm, "--scene", "stil"]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("did you mean `still`?"), "{}", ran.err);
 }
 
 #[test]

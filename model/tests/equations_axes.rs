@@ -73,8 +73,7 @@ fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Point
 /// Every choice of axes within what the links allow.
 fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
     let mut all = vec![Vec::new()];
-    for i in 0..chain.links.len() {
-        let [less, more] = chain.freedom(i);
+    for [less, more] in chain.freedoms() {
         let longer = |choice: &Vec<i32>| {
             let choice = choice.clone();
             (less..=more).map(move |axes| [choice.clone(), vec![axes]].concat())

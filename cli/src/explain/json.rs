@@ -14,7 +14,12 @@ use super::{Measured, QUANTITIES, REASONS, tally};
 use crate::{count, table3};
 
 /// Everything.
-pub fn write(robot: &Robot, states: usize, explanations: &[Measured]) -> Value {
+pub fn write(
+    robot: &Robot,
+    scene: Option<&str>,
+    states: usize,
+    explanations: &[Measured],
+) -> Value {
     let functions: Map<String, Value> = explanations
         .iter()
         .map(|(e, errors)| (e.function.to_string(), explanation_json(robot, e, errors)))
@@ -23,6 +28,7 @@ pub fn write(robot: &Robot, states: usize, explanations: &[Measured]) -> Value {
     json!({
         "robot": robot.name,
         "input": robot.short_hash(),
+        "scene": scene,
         "states": states,
         "functions": functions,
         "coefficients": couplings.map(coefficients_json),
@@ -31,7 +37,7 @@ pub fn write(robot: &Robot, states: usize, explanations: &[Measured]) -> Value {
 
 fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Value {
     let mut rows = Vec::new();
-    if explanation.function == Function::InverseDynamics {
+    if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
         let [mul, add] = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
         rows.push(json!({ "step": "lagrange_euler_table3", "mul": mul, "add": add }));
     }

@@ -23,29 +23,36 @@ type Measured = (Explanation, Vec<Errors>);
 
 /// Runs the subcommand.
 pub fn run(args: &ExplainArgs) -> Outcome {
-    let robot = input::robot(&args.robot)?;
+    let reading = input::reading(&args.robot)?;
+    let functions = match args.outputs.as_slice() {
+        [] => vec![Function::InverseDynamics],
+        chosen => chosen.to_vec(),
+    };
     let mut request = Request {
+        functions,
         effort: args.effort,
         plan: plan::file::beside(&args.robot)
             .map_err(|message| Failure::Input(format!("error: {message}")))?,
         ..Request::default()
     };
+    if let Some(name) = &args.scene {
+        let scene = input::scene(&args.robot, &reading, name)?;
+        request = request.in_scene(scene, !args.outputs.is_empty(), false);
+    }
     let session = progress::watch(&mut request);
-    let functions = match args.outputs.as_slice() {
-        [] => vec![Function::InverseDynamics],
-        chosen => chosen.to_vec(),
-    };
+    let robot = &reading.robot;
     let mut explanations = Vec::new();
-    for function in functions {
-        let explanation = explain(&robot, function, &request)?;
-        let errors = errors::measure(&robot, &explanation, args.states);
+    for &function in &request.functions {
+        let explanation = explain(robot, function, &request)?;
+        let errors = errors::measure(&explanation, args.states);
         explanations.push((explanation, errors));
     }
     drop(session);
+    let scene = args.scene.as_deref();
     if args.json {
-        output::print_json(&json::write(&robot, args.states, &explanations))
+        output::print_json(&json::write(robot, scene, args.states, &explanations))
     } else {
-        output::print(&text::write(&robot, args.states, &explanations))
+        output::print(&text::write(robot, scene, args.states, &explanations))
     }
 }
 

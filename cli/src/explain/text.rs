@@ -13,9 +13,15 @@ use super::{Measured, QUANTITIES, REASONS, tally};
 use crate::{output, table3};
 
 /// Everything.
-pub fn write(robot: &Robot, states: usize, explanations: &[Measured]) -> String {
+pub fn write(
+    robot: &Robot,
+    scene: Option<&str>,
+    states: usize,
+    explanations: &[Measured],
+) -> String {
+    let scene = scene.map_or_else(String::new, |scene| format!(", scene {scene}"));
     let mut text = format!(
-        "robot {}, {} joints, input {}\n\
+        "robot {}, {} joints, input {}{scene}\n\
          errors: the worst of {states} states inside the limits, f64 against 134 digits,\n\
          in u = 2⁻⁵³; normwise max|error|/max|result|, per joint over each joint's largest\n",
         robot.name,
@@ -37,7 +43,8 @@ pub fn write(robot: &Robot, states: usize, explanations: &[Measured]) -> String 
 fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<String>> {
     let head = ["step", "mul", "add", "sincos", "normwise", "per joint"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    if explanation.function == Function::InverseDynamics {
+    // Table 3 is about whole arms.
+    if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
         let [mul, add] = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
         rows.push(vec![
             "Lagrange–Euler, Table 3".to_owned(),
@@ -61,10 +68,11 @@ fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<
 
 /// Three figures are more than an error is worth.
 fn units(error: f64) -> String {
-    if error < 100.0 {
-        format!("{error:.1}")
-    } else {
-        format!("{error:.0}")
+    match error {
+        ..100.0 => format!("{error:.1}"),
+        ..1e6 => format!("{error:.0}"),
+        // Not rounding: what a tolerance gave up.
+        _ => format!("{error:.0e}"),
     }
 }
 

@@ -2,7 +2,6 @@
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
 
@@ -11,9 +10,10 @@ use super::steps::Code;
 use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::graph::Input;
+use crate::scene::Setting;
 use crate::schedule::Program;
 use crate::stress::truth::Truth;
-use crate::trace::{Motion, evaluate};
+use crate::trace::evaluate;
 use crate::verify::accuracy::Runner;
 use crate::verify::states::{JointState, seeded};
 
@@ -32,20 +32,23 @@ pub struct Errors {
     pub per_joint: f64,
 }
 
-/// The errors of every row over the same states, inside the robot's limits.
-pub fn measure(robot: &Robot, explanation: &Explanation, states: usize) -> Vec<Errors> {
-    let function = explanation.function;
+/// The errors of every row over the same states, inside the limits of the
+/// robot, or of its scene.
+pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
+    let (setting, function) = (&explanation.setting, explanation.function);
+    let robot = setting.robot();
     let drawn = seeded(robot, states.min(MOST_STATES), SEED);
-    let runs = at(&Truth::new(robot), function, drawn.into_iter());
+    let runs = at(&Truth::in_setting(setting), function, drawn.into_iter());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
+    let joints = setting.rows().len();
     let errors = |code: &Code| match code {
-        Code::Formula(formulation) => worst(function, robot, &runs, ScalarType::F64, |state| {
-            formula(robot, &arm, *formulation, function, state)
+        Code::Formula(formulation) => worst(function, joints, &runs, ScalarType::F64, |state| {
+            formula(setting, &arm, *formulation, function, state)
         }),
         Code::Program(program) => {
             let runner = Runner::<f64>::new(program, ScalarType::F64);
-            worst(function, robot, &runs, ScalarType::F64, |state| {
+            worst(function, joints, &runs, ScalarType::F64, |state| {
                 runner.run(state)
             })
         }
@@ -57,27 +60,28 @@ pub fn measure(robot: &Robot, explanation: &Explanation, states: usize) -> Vec<E
         .collect()
 }
 
-/// The errors of a program in each scalar, inside the robot's limits; states
-/// of f32 are rounded to it first.
+/// The errors of a program in each scalar, inside the limits of the robot, or
+/// of its scene; states of f32 are rounded to it first.
 pub fn of_program(
-    robot: &Robot,
+    setting: &Setting,
     program: &Program,
     scalars: &[ScalarType],
     states: usize,
 ) -> Vec<Errors> {
     let function = program.function;
-    let truth = Truth::new(robot);
-    let drawn = seeded(robot, states.min(MOST_STATES), SEED);
+    let truth = Truth::in_setting(setting);
+    let drawn = seeded(setting.robot(), states.min(MOST_STATES), SEED);
+    let joints = setting.rows().len();
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {
             let runner = Runner::<f64>::new(program, scalar);
             let runs = at(&truth, function, drawn.iter().cloned());
-            worst(function, robot, &runs, scalar, |state| runner.run(state))
+            worst(function, joints, &runs, scalar, |state| runner.run(state))
         }
         ScalarType::F32 => {
             let runner = Runner::<f32>::new(program, scalar);
             let runs = at(&truth, function, drawn.iter().map(JointState::in_single));
-            worst(function, robot, &runs, scalar, |state| runner.run(state))
+            worst(function, joints, &runs, scalar, |state| runner.run(state))
         }
     };
     scalars.iter().map(errors).collect()
@@ -107,7 +111,7 @@ fn at(
 
 /// A formulation over f64, its constants rounded once.
 fn formula(
-    robot: &Robot,
+    setting: &Setting,
     arm: &Arm<f64>,
     formulation: Formulation,
     function: Function,
@@ -117,24 +121,26 @@ fn formula(
         // A motion reads the angles of single joints only.
         libm::sincos(angle.terms().map(|(joint, _)| state.q[joint]).sum())
     };
-    let motion = Motion::of(robot, |input| match input {
+    let input = |input| match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
         Input::Position(joint) => state.q[joint],
         Input::Velocity(joint) => state.qd[joint],
         Input::Acceleration(joint) => state.qdd[joint],
-    });
-    evaluate(function, formulation, arm, &motion)
+    };
+    let motion = setting.motion(input, f64::nearest);
+    let results = evaluate(function, formulation, arm, &motion);
+    setting.select(function, setting.joints(), results)
 }
 
 fn worst(
     function: Function,
-    robot: &Robot,
+    joints: usize,
     runs: &[(JointState, Vec<Big>)],
     scalar: ScalarType,
     run: impl Fn(&JointState) -> Vec<f64>,
 ) -> Errors {
-    let outputs = function.outputs(robot.joints.len());
+    let outputs = function.outputs(joints);
     let mut largest = vec![0.0f64; outputs];
     let mut errors = vec![0.0f64; outputs];
     let mut normwise = 0.0f64;
@@ -142,7 +148,7 @@ fn worst(
         let found = run(state);
         let mut start = 0;
         for quantity in function.quantities() {
-            let range = start..start + quantity.len(robot.joints.len());
+            let range = start..start + quantity.len(joints);
             start = range.end;
             let (mut error, mut size) = (0.0f64, 0.0f64);
             for i in range {

@@ -34,6 +34,8 @@ pub const MOST_WRITTEN: usize = 8;
 /// What was found about one function of a robot.
 #[derive(Clone, Debug)]
 pub struct Explanation {
+    /// Of which robot, in which scene.
+    pub setting: Setting,
     /// Which function.
     pub function: Function,
     /// The steps, in their order.
@@ -42,12 +44,14 @@ pub struct Explanation {
     pub merged: Vec<(Formulation, Merged)>,
     /// What became of the parameters.
     pub parameters: Parameters,
-    /// Which coefficients vanish or repeat, unless there are too many.
+    /// Which coefficients of the whole robot vanish or repeat, unless there are
+    /// too many.
     pub couplings: Option<Couplings>,
 }
 
-/// Explains one function; of the request, effort, preference, plan and
-/// watch count.
+/// Explains one function; of the request, effort, preference, plan, scene,
+/// scalars and watch count. With a tolerance the last row is the program that
+/// it admits.
 ///
 /// # Errors
 /// Those of [`generate`](crate::generate::generate).
@@ -62,7 +66,7 @@ pub fn explain(
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });
     }
-    let setting = Setting::whole(robot);
+    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let found = steps::search(&setting, function, request)?;
     // From all formulations there always is a gauge.
     let tuned = found.tuned.as_ref().ok_or(GenerateError::Empty)?;
@@ -83,12 +87,18 @@ pub fn explain(
     rows.extend(steps::newton_euler(&setting, function, &trace));
     rows.extend(steps::chain(&setting, function, tuned));
     rows.extend(steps::searched(&setting, function, request, &found)?);
+    rows.extend(steps::tolerated(&setting, function, request, &found)?);
     let chain = Chain::new(&portfolio::skeleton(&setting), &tuned.gauge);
+    let couplings = match setting.scene() {
+        None => Couplings::of(robot),
+        Some(_) => None,
+    };
     Ok(Explanation {
         function,
         rows,
         merged,
         parameters: Parameters::of(&setting, function, tuned, &chain),
-        couplings: Couplings::of(robot),
+        couplings,
+        setting,
     })
 }

@@ -177,6 +177,7 @@ impl Parameters {
                 difference.then_some(Together::Difference)
             }
         };
+        let freedoms = chain.freedoms();
         let links = arm.links.iter().enumerate().map(|(i, segment)| {
             let gauge = &metres.links[i];
             let link = &now.links[i];
@@ -211,7 +212,7 @@ impl Parameters {
                 origin: gauge.origin.each_ref().map(f64::nearest),
                 spins_freely: link.spins_freely,
                 axes: {
-                    let [less, more] = chain.freedom(i);
+                    let [less, more] = freedoms[i];
                     link.axes.clamp(less, more)
                 },
             }

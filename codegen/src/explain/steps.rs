@@ -9,6 +9,7 @@ use dalembert_model::scalar::Scalar;
 
 use crate::function::Function;
 use crate::generate::search::{self, Found};
+use crate::generate::tolerate;
 use crate::generate::{GenerateError, Request, Start};
 use crate::graph::{Counts, Folding, Graph};
 use crate::portfolio::tune::{self, Tuned};
@@ -50,6 +51,8 @@ pub enum Step {
     Search,
     /// What the plan beside the robot file keeps.
     Plan,
+    /// What the scene's tolerance admits.
+    Tolerance,
 }
 
 impl Step {
@@ -70,6 +73,7 @@ impl Step {
             Step::EGraph => "e_graph",
             Step::Search => "search",
             Step::Plan => "plan",
+            Step::Tolerance => "tolerance",
         }
     }
 
@@ -90,6 +94,7 @@ impl Step {
             Step::EGraph => "  e-graph, all forms",
             Step::Search => "  search, all forms: what is generated",
             Step::Plan => "kept in the plan",
+            Step::Tolerance => "what the tolerance admits",
         }
     }
 }
@@ -138,12 +143,15 @@ pub(super) fn lagrange_euler(
 ) -> Vec<Row> {
     let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
     let joints = setting.robot().joints.iter();
-    let revolute = joints.filter(|joint| joint.kind == JointKind::Revolute);
+    let moves = |i: &usize| setting.lock(*i).is_none();
+    let turning = joints
+        .enumerate()
+        .filter(|(i, joint)| moves(i) && joint.kind == JointKind::Revolute);
     let mut rows = vec![
         Row {
             step: Step::LagrangeWritten,
             counts: Counts {
-                sincos: revolute.count(),
+                sincos: turning.count(),
                 ..trace.traced
             },
             code: Code::Formula(Formulation::LagrangeEuler),
@@ -242,11 +250,28 @@ pub(super) fn searched(
     Ok(rows)
 }
 
+/// What the scene's tolerance admits in place of the plan's program, or else of
+/// the search's, if the scene has one.
+pub(super) fn tolerated(
+    setting: &Setting,
+    function: Function,
+    request: &Request,
+    found: &Found,
+) -> Result<Option<Row>, GenerateError> {
+    let kept = search::replay(setting, function, request)?;
+    let program = kept.map_or_else(
+        || Program::in_setting(setting, function, &found.simplified.graph),
+        |entry| entry.program.clone(),
+    );
+    let admitted = tolerate::admitted(setting, &[&program], request)?;
+    let admitted = admitted.and_then(|all| all.into_iter().next());
+    Ok(admitted.map(|admitted| Row::program(Step::Tolerance, admitted.program)))
+}
+
 /// The request without a plan, from all formulations.
 fn anew(request: &Request) -> Request {
     Request {
         start: Start::Auto,
-        scene: None,
         plan: None,
         ..request.clone()
     }

@@ -11,7 +11,7 @@ mod range;
 pub mod request;
 pub(crate) mod search;
 pub mod start;
-mod tolerate;
+pub(crate) mod tolerate;
 
 use dalembert_model::robot::Robot;
 

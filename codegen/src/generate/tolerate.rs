@@ -15,19 +15,48 @@ use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, Request};
 use crate::plan::{Edited, SceneKey};
 use crate::scene::Setting;
+use crate::schedule::Program;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
-pub(crate) fn tolerate(
+pub(super) fn tolerate(
     setting: &Setting,
     functions: &mut [GeneratedFunction],
     request: &Request,
 ) -> Result<Vec<ScalarType>, GenerateError> {
+    let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
+    let Some(all) = admitted(setting, &programs, request)? else {
+        return Ok(request.scalars.clone());
+    };
+    // One a certificate, the same of every function.
+    let certificates = all
+        .iter()
+        .take(1)
+        .flat_map(|admitted| &admitted.certificates);
+    let scalars = certificates.map(|certificate| certificate.scalar).collect();
+    for (function, admitted) in functions.iter_mut().zip(all) {
+        function.program = admitted.program.clone();
+        function.counts = admitted.program.counts();
+        let sines = admitted.certificates.iter();
+        let sines = sines.filter(|c| !c.sines.is_empty());
+        function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
+        function.admitted = Some(admitted);
+    }
+    Ok(scalars)
+}
+
+/// What the scene's tolerance admits in place of each exact program; `None` if
+/// it has none.
+pub(crate) fn admitted(
+    setting: &Setting,
+    programs: &[&Program],
+    request: &Request,
+) -> Result<Option<Vec<Admitted>>, GenerateError> {
     let scene = setting.scene();
     let Some(tolerance) = scene.and_then(|scene| scene.tolerance.as_ref()) else {
-        return Ok(request.scalars.clone());
+        return Ok(None);
     };
     let mut choices = vec![request.scalars.clone()];
     if request.any_scalar && request.scalars.len() > 1 {
@@ -36,21 +65,10 @@ pub(crate) fn tolerate(
     }
     let last = choices.len() - 1;
     for (index, scalars) in choices.into_iter().enumerate() {
-        let admit =
-            |function: &GeneratedFunction| one(setting, function, tolerance, &scalars, request);
-        let admitted: Result<Vec<Admitted>, GenerateError> = functions.iter().map(admit).collect();
+        let admit = |program: &&Program| one(setting, program, tolerance, &scalars, request);
+        let admitted: Result<Vec<Admitted>, GenerateError> = programs.iter().map(admit).collect();
         match admitted {
-            Ok(admitted) => {
-                for (function, admitted) in functions.iter_mut().zip(admitted) {
-                    function.program = admitted.program.clone();
-                    function.counts = admitted.program.counts();
-                    let sines = admitted.certificates.iter();
-                    let sines = sines.filter(|c| !c.sines.is_empty());
-                    function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
-                    function.admitted = Some(admitted);
-                }
-                return Ok(scalars);
-            }
+            Ok(admitted) => return Ok(Some(admitted)),
             Err(GenerateError::Tolerance(_, Refusal::Above { .. }) | GenerateError::SinCos(..))
                 if index < last => {}
             Err(error) => return Err(error),
@@ -61,19 +79,19 @@ pub(crate) fn tolerate(
 
 fn one(
     setting: &Setting,
-    generated: &GeneratedFunction,
+    program: &Program,
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
 ) -> Result<Admitted, GenerateError> {
-    let function = generated.function;
+    let function = program.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
     if matches!(request.sincos, SinCos::Polynomial { error: Some(_) }) {
         let why = "a scene's tolerance decides how exact its sines are: give no error for them";
         return Err(GenerateError::SinCos(function, why.into()));
     }
     let watch = request.watch.over(function);
-    let frame = Frame::new(setting, &generated.program, tolerance.relative_to).map_err(fail)?;
+    let frame = Frame::new(setting, program, tolerance.relative_to).map_err(fail)?;
     let frame = frame.watched(watch);
     let tolerances = frame.tolerances(tolerance);
     let (settings, fineness) = match request.effort {

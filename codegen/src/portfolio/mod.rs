@@ -314,7 +314,8 @@ pub fn tuned(
 /// it turns; those before each group.
 fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     let n = chain.links.len();
-    let before: Vec<i32> = (0..n).map(|i| chain.freedom(i)[0]).collect();
+    let freedoms = chain.freedoms();
+    let before: Vec<i32> = freedoms.iter().map(|[less, _]| *less).collect();
     let mut last = vec![0; n];
     if n > 0 {
         last[n - 1] = before[n - 1].max(-1);
@@ -368,7 +369,7 @@ pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<G
 /// The chain's own axes, each link's, those before each group of parallel
 /// axes, those after it, then what differs from the first two in one link.
 fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
-    let freedom: Vec<[i32; 2]> = (0..chain.links.len()).map(|i| chain.freedom(i)).collect();
+    let freedom = chain.freedoms();
     let own: Vec<i32> = chain
         .links
         .iter()

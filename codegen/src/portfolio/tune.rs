@@ -188,7 +188,7 @@ fn alternatives(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>, i: usize) -> Vec<Li
         JointKind::Revolute => revolute(arm, &chain, now, i),
         JointKind::Prismatic => prismatic(&chain, now, i),
     };
-    let [less, more] = chain.freedom(i);
+    let [less, more] = chain.freedoms()[i];
     links.extend(
         (less..=more)
             .filter(|&axes| axes != now.axes)

@@ -9,26 +9,34 @@ use dalembert_model::scalar::big::Big;
 
 use crate::function::Function;
 use crate::graph::{AngleSum, Input};
-use crate::trace::{Motion, evaluate};
+use crate::scene::Setting;
+use crate::trace::evaluate;
 use crate::verify::states::JointState;
 
-/// A robot in the big float.
+/// A robot in the big float, or in a scene.
 #[derive(Clone, Debug)]
 pub struct Truth {
-    robot: Robot,
+    setting: Setting,
     arm: Arm<Big>,
 }
 
 impl Truth {
     /// Of a robot, nothing snapped, each parameter rounded to 448 bits.
     pub fn new(robot: &Robot) -> Truth {
+        Truth::in_setting(&Setting::whole(robot))
+    }
+
+    /// Of a robot in a scene: whatever a state says, locked joints are exactly
+    /// where they are locked.
+    pub fn in_setting(setting: &Setting) -> Truth {
         Truth {
-            arm: Arm::from_robot(robot, &mut number),
-            robot: robot.clone(),
+            arm: Arm::from_robot(setting.robot(), &mut number),
+            setting: setting.clone(),
         }
     }
 
-    /// The results of a function, flat; `None` at a state that is not finite.
+    /// The results of a function over the setting's rows, flat; `None` at a
+    /// state that is not finite.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
         let values = state.q.iter().chain(&state.qd).chain(&state.qdd);
         if values.into_iter().any(|x| !x.is_finite()) {
@@ -47,15 +55,18 @@ impl Truth {
                 made
             }
         };
-        let motion = Motion::of(&self.robot, |input| match input {
+        let input = |input| match input {
             Input::Sin(sum) => pair(sum).0,
             Input::Cos(sum) => pair(sum).1,
             Input::Position(joint) => finite(state.q[joint]),
             Input::Velocity(joint) => finite(state.qd[joint]),
             Input::Acceleration(joint) => finite(state.qdd[joint]),
-        });
+        };
+        let setting = &self.setting;
+        let motion = setting.motion(input, number);
         let recursion = Formulation::NewtonEulerLink;
-        Some(evaluate(function, recursion, &self.arm, &motion))
+        let results = evaluate(function, recursion, &self.arm, &motion);
+        Some(setting.select(function, setting.joints(), results))
     }
 }
 

@@ -30,7 +30,7 @@ pub struct LinkGauge<S> {
     /// Whether a prismatic link keeps its second moments.
     pub keep_seconds: bool,
     /// By how many joints with parallel axes the frame turns more than its
-    /// link (less if negative), as far as it can ([`Chain::freedom`]): no
+    /// link (less if negative), as far as it can ([`Chain::freedoms`]): no
     /// parameter moves, only the axes in which the link is seen change.
     pub axes: i32,
 }

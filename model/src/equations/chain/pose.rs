@@ -39,13 +39,14 @@ struct Place {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// By how many joints the frame of link i may turn less, and more, than
+    /// By how many joints the frame of each link may turn less, and more, than
     /// its link.
-    pub fn freedom(&self, i: usize) -> [i32; 2] {
-        match &self.places()[i] {
+    pub fn freedoms(&self) -> Vec<[i32; 2]> {
+        let bounds = |(i, place): (usize, &Option<Place>)| match place {
             Some(place) => self.bounds(i, place),
             None => [0, 0],
-        }
+        };
+        self.places().iter().enumerate().map(bounds).collect()
     }
 
     /// The links that turn about parallel axes, group by group, and whether

@@ -1,0 +1,190 @@
+//! What a person wants to know about generated code: counts, errors, what a
+//! tolerance admitted, proofs.
+
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::choose::Admitted;
+use dalembert_codegen::certify::prune::omissions;
+use dalembert_codegen::explain::errors::of_program;
+use dalembert_codegen::generate::{Generated, Request};
+use dalembert_codegen::scene::Setting;
+use dalembert_model::robot::Robot;
+
+use crate::output;
+
+/// What a person wants to know about the code.
+pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
+    let mut text = format!(
+        "robot {}, {} joints, input {}{}\n\n",
+        robot.name,
+        robot.joints.len(),
+        robot.short_hash(),
+        scene(request)
+    );
+    text += &counts(generated);
+    text += &errors(robot, request, generated, states);
+    text += "\nmul add sincos after each stage\n";
+    text += &stages(generated);
+    for function in &generated.functions {
+        if let Some(admitted) = &function.admitted {
+            text += &tolerance(admitted);
+        }
+    }
+    text += "\nproved: with exact constants, every function\n";
+    for function in &generated.functions {
+        text += &format!("  {}: {}\n", function.function, function.proof);
+    }
+    text += match generated.functions.iter().any(|f| f.admitted.is_some()) {
+        true => "the text was read back: it is the certified program, each constant rounded once\n",
+        false => "the text was read back: it is the proved program, each constant rounded once\n",
+    };
+    for warning in &generated.warnings {
+        text += &format!("warning: {warning}\n");
+    }
+    text
+}
+
+/// What rounding costs each program; what a tolerance admits has its
+/// certificates.
+fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
+    let scene = request.scene.as_ref();
+    if scene.is_some_and(|scene| scene.tolerance.is_some()) {
+        return String::new();
+    }
+    let Ok(setting) = Setting::of(robot, scene) else {
+        return String::new();
+    };
+    let mut head = vec!["function".to_owned()];
+    for scalar in &request.scalars {
+        head.extend(["normwise", "per joint"].map(|what| format!("{scalar} {what}")));
+    }
+    let mut rows = vec![head];
+    for function in &generated.functions {
+        let mut row = vec![function.function.to_string()];
+        for errors in of_program(&setting, &function.program, &request.scalars, states) {
+            row.extend([errors.normwise, errors.per_joint].map(|error| format!("{error:.1}")));
+        }
+        rows.push(row);
+    }
+    format!(
+        "\nthe worst errors inside the limits, in u (f64 2^-53, f32 2^-24), of this many states: {states}\n{}",
+        output::table(&rows, 0)
+    )
+}
+
+/// What a tolerance admitted: E by cause, and what was left out.
+fn tolerance(admitted: &Admitted) -> String {
+    let mut text = String::new();
+    for certificate in &admitted.certificates {
+        let function = certificate.emitted.function;
+        text += &format!("\n{function} in {}, certified\n", certificate.scalar);
+        text += &output::table(&bounds(certificate), 0);
+    }
+    let left_out = omissions(&admitted.stages);
+    if left_out.is_empty() {
+        text += "nothing was left out: no omission was found within the tolerance\n";
+        return text;
+    }
+    text += "\nleft out, and what putting it back costs\n";
+    let mut rows = Vec::new();
+    for omission in &left_out {
+        let pairs = match omission.sincos {
+            0 => String::new(),
+            pairs => format!("+ {pairs} sincos"),
+        };
+        rows.push(vec![
+            omission.words.clone(),
+            omission.operations.to_string(),
+            pairs,
+        ]);
+    }
+    text + &output::table(&rows, 1)
+}
+
+/// The bounds of a certificate, output by output.
+pub fn bounds(certificate: &Certificate) -> Vec<Vec<String>> {
+    let head = ["output", "T", "model", "sincos", "rounding", "E"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    let pairs = certificate.bounds.iter().zip(&certificate.scales);
+    for (index, (bound, scale)) in pairs.enumerate() {
+        let mut row = vec![certificate.emitted.entry(index), format!("{scale:.4e}")];
+        let parts = [bound.model, bound.sincos, bound.rounding, bound.total()];
+        row.extend(parts.map(|x| format!("{x:.3e}")));
+        rows.push(row);
+    }
+    rows
+}
+
+/// `, scene pick`, if there is one.
+pub fn scene(request: &Request) -> String {
+    let scene = request.scene.as_ref();
+    scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name))
+}
+
+/// The table of operation counts.
+pub fn counts(generated: &Generated) -> String {
+    let head = ["function", "mul", "add", "div", "sincos", "from", "proof"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for function in &generated.functions {
+        let counts = function.counts;
+        rows.push(vec![
+            function.function.to_string(),
+            counts.mul.to_string(),
+            counts.add.to_string(),
+            counts.div.to_string(),
+            counts.sincos.to_string(),
+            match function.planned {
+                true => format!("{}, plan", function.source.name()),
+                false => function.source.name().to_owned(),
+            },
+            format!("exact, miss < 1e{}", function.proof.failure_exponent),
+        ]);
+    }
+    output::table(&rows, 2) + &sines(generated)
+}
+
+/// The table of the polynomials that give sines, if any do.
+fn sines(generated: &Generated) -> String {
+    let head = [
+        "function", "scalar", "trig_mul", "trig_add", "angles", "error",
+    ];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for function in &generated.functions {
+        for (scalar, sines) in &function.sines {
+            let counts = function.counts_in(*scalar);
+            let worst = sines.iter().map(|sine| sine.errors.worst());
+            rows.push(vec![
+                function.function.to_string(),
+                scalar.to_string(),
+                counts.trig_mul.to_string(),
+                counts.trig_add.to_string(),
+                sines.len().to_string(),
+                format!("{:.1e}", worst.fold(0.0, f64::max)),
+            ]);
+        }
+    }
+    match rows.len() {
+        1 => String::new(),
+        _ => format!(
+            "\nsines and cosines by polynomials, errors proved\n{}",
+            output::table(&rows, 2)
+        ),
+    }
+}
+
+fn stages(generated: &Generated) -> String {
+    let mut rows = Vec::new();
+    for function in &generated.functions {
+        if rows.is_empty() {
+            let mut head = vec![String::new()];
+            head.extend(function.stages.iter().map(|s| s.name.to_owned()));
+            rows.push(head);
+        }
+        let mut row = vec![function.function.to_string()];
+        row.extend(function.stages.iter().map(|stage| {
+            let counts = stage.counts;
+            format!("{} {} {}", counts.mul, counts.add, counts.sincos)
+        }));
+        rows.push(row);
+    }
+    output::table(&rows, 0)
+}
