@@ -98,10 +98,7 @@ impl<'a> Ladder<'a> {
             args,
             frame,
             steps,
-            settings: Settings {
-                effort: args.effort,
-                ..Settings::default()
-            },
+            settings: Settings::of(args.effort),
             exact: frame.unedited(&ScalarType::ALL, Fineness::CERTIFY),
         }
     }

@@ -16,6 +16,7 @@ use super::certificate::subject::{Fineness, Subject};
 use super::certificate::{Certificate, Refuted, Split};
 use super::definite::{Indefinite, has_inertia, least_eigenvalue};
 use super::edits::Stage;
+use super::gauge;
 use super::input_box::{InputBox, MissingLimit};
 use super::prune::{self, Settings};
 use super::scale;
@@ -311,14 +312,19 @@ impl<'a> Frame<'a> {
         settings: &Settings,
         fineness: Fineness,
     ) -> Result<Admitted, Refusal> {
-        let exact = self.unedited(scalars, fineness);
-        exact.within(tolerances)?;
+        let unedited = self.unedited(scalars, fineness);
+        unedited.within(tolerances)?;
+        let mut start: Option<Option<Program>> = None;
         for aside in [2.0, 8.0] {
             let Some(allowances) = self.allowances(tolerances, scalars, aside, fineness) else {
                 break;
             };
-            let limits = &self.limits;
-            let pruned = prune::watched(self.exact, limits, &allowances, settings, self.watch);
+            let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
+            let start = start.get_or_insert_with(|| {
+                gauge::descend(self.setting, exact, limits, &allowances, settings, watch)
+            });
+            let start = start.as_ref();
+            let pruned = prune::watched(exact, start, limits, &allowances, settings, watch);
             if pruned.stages.is_empty() {
                 break;
             }
@@ -333,7 +339,7 @@ impl<'a> Frame<'a> {
                 least_eigenvalue(self.exact, scalar, &self.limits).map_err(Refusal::Indefinite)?;
             }
         }
-        Ok(exact)
+        Ok(unedited)
     }
 
     /// A variant with polynomials for its sines: the cheapest that what edits

@@ -12,7 +12,8 @@
 //!   over the sub-boxes of `subdivide`, and written out. `distinct`: equal
 //!   outputs once
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
-//! - [`prune`]: the cheapest edits that a certificate admits
+//! - [`prune`]: the cheapest edits that a certificate admits; `gauge`: the exact
+//!   program that they leave least of
 //! - [`choose`]: the cheapest variant that a tolerance admits
 //! - [`certificate`]: the claim and its check; [`json`]: its text
 //! - [`sample`], [`attack`]: attempts to refute it
@@ -26,6 +27,7 @@ mod distinct;
 pub mod edits;
 mod expand;
 pub mod form;
+mod gauge;
 mod grid;
 pub mod input_box;
 pub mod interval;

@@ -12,7 +12,7 @@ use crate::certify::choose::{Admitted, Claim, Frame, NoPolynomials, Refusal};
 use crate::certify::prune::Settings;
 use crate::emit::ScalarType;
 use crate::function::Function;
-use crate::generate::{GenerateError, GeneratedFunction, Request};
+use crate::generate::{GenerateError, GeneratedFunction, Request, Start};
 use crate::plan::{Edited, SceneKey};
 use crate::scene::Setting;
 use crate::schedule::Program;
@@ -98,7 +98,7 @@ fn one(
         Effort::Quick => (QUICK, Fineness::GLANCE),
         // Who wants an end before a function's turn gets the quick search for it.
         Effort::Thorough if watch.is_over() => (QUICK, Fineness::CERTIFY),
-        Effort::Thorough => (Settings::default(), Fineness::CERTIFY),
+        Effort::Thorough => (thorough(request), Fineness::CERTIFY),
     };
     let admitted = match kept(&frame, function, scalars, request)? {
         Some(kept) => kept,
@@ -144,12 +144,26 @@ fn one(
     }
 }
 
+/// Another gauge may be looked for only where the start may be any.
+fn thorough(request: &Request) -> Settings {
+    let sweeps = match request.start {
+        Start::Auto => Settings::THOROUGH.sweeps,
+        Start::AngleSums | Start::Only(_) => 0,
+    };
+    Settings {
+        sweeps,
+        ..Settings::THOROUGH
+    }
+}
+
 /// For who waits: seconds for a six-joint arm.
 const QUICK: Settings = Settings {
     samples: 16,
     guesses: 5,
     retries: 0,
     stages: 1,
+    alike: 0,
+    sweeps: 0,
     budget: Fineness::GLANCE.budget,
     effort: Effort::Quick,
     refit: true,

@@ -357,13 +357,25 @@ pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) ->
 /// A function in the gauges that differ from a tuned one in one link, in its
 /// form.
 pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
-    let arm = skeleton(setting);
-    let gauges = tune::neighbours(&arm, &tuned.gauge);
-    let graph = |gauge: &Gauge<Exact>| {
-        let chain = Chain::new(&arm, gauge);
-        trace_chain(setting, function, &chain, tuned.form, Folding::Semantic).0
-    };
+    let gauges = gauges(setting, &tuned.gauge);
+    let graph = |gauge| in_gauge(setting, function, gauge, tuned.form);
     gauges.iter().map(graph).collect()
+}
+
+/// The gauges that differ from one in one link; none of chains too long to
+/// look at each.
+pub fn gauges(setting: &Setting, gauge: &Gauge<Exact>) -> Vec<Gauge<Exact>> {
+    let arm = skeleton(setting);
+    match arm.links.len() <= MOST_GLANCES {
+        true => tune::neighbours(&arm, gauge),
+        false => Vec::new(),
+    }
+}
+
+/// A function in a gauge and a form, merged by fingerprint.
+pub fn in_gauge(setting: &Setting, function: Function, gauge: &Gauge<Exact>, form: Form) -> Graph {
+    let chain = Chain::new(&skeleton(setting), gauge);
+    trace_chain(setting, function, &chain, form, Folding::Semantic).0
 }
 
 /// The chain's own axes, each link's, those before each group of parallel

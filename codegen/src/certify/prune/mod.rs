@@ -5,7 +5,9 @@
 //! it chose are taken back at random and chosen anew. Errors are measured at
 //! sampled positions, there as the certificate measures them. What the search
 //! finds counts only if [`bound`](super::bound) certifies it. The edited
-//! program is then simplified, which may save more, and edited again.
+//! program is then simplified, which may save more, and edited again. In
+//! which gauge the exact program is matters more than how small it is there
+//! (`certify/gauge.rs`).
 //!
 //! - `search`: guesses, each certified
 //! - `greedy`: the ranking
@@ -36,6 +38,9 @@ pub use omissions::{Omission, omissions};
 use search::Search;
 use tally::Tally;
 
+/// Of the samples and of what is taken back.
+const SEED: u64 = 0x9121;
+
 /// How hard to search, counted, never timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -45,8 +50,14 @@ pub struct Settings {
     pub guesses: usize,
     /// Times that a part is taken back and chosen anew.
     pub retries: usize,
-    /// Programs to edit one after the other.
+    /// Programs to edit one after the other: the first ones may use a part of
+    /// the allowance, so that what goes in any case is gone, and the rest
+    /// simplified, before it gets tight.
     pub stages: usize,
+    /// Other values tried in the place of each, those that run most alike.
+    pub alike: usize,
+    /// Rounds in which a gauge is looked for that leaves less after pruning.
+    pub sweeps: usize,
     /// For the certificates that decide.
     pub budget: Budget,
     /// How much the simplifier may do between stages.
@@ -60,8 +71,10 @@ impl Default for Settings {
         Settings {
             samples: 40,
             guesses: 4,
-            retries: 12,
-            stages: 2,
+            retries: 6,
+            stages: 3,
+            alike: 4,
+            sweeps: 0,
             budget: Budget::GLANCE,
             effort: Effort::Quick,
             refit: true,
@@ -80,6 +93,49 @@ pub struct Pruned {
     pub errors: Vec<f64>,
 }
 
+impl Settings {
+    /// The most that a search may take: minutes for a six-joint arm.
+    pub const THOROUGH: Settings = Settings {
+        samples: 40,
+        guesses: 4,
+        retries: 6,
+        stages: 4,
+        alike: 4,
+        sweeps: 2,
+        budget: Budget::GLANCE,
+        effort: Effort::Thorough,
+        refit: true,
+    };
+
+    /// For the effort of a command that reports on variants.
+    pub fn of(effort: Effort) -> Settings {
+        match effort {
+            Effort::Quick => Settings::default(),
+            Effort::Thorough => Settings::THOROUGH,
+        }
+    }
+
+    /// What a stage may use of the allowances.
+    fn part(&self, stage: usize) -> f64 {
+        match stage + 1 < self.stages {
+            true => RAMP.get(stage).copied().unwrap_or(1.0),
+            false => 1.0,
+        }
+    }
+
+    /// Parts are taken back only where no later stage would find them anyway.
+    fn retries(&self, stage: usize) -> usize {
+        if self.part(stage) < 1.0 {
+            0
+        } else {
+            self.retries
+        }
+    }
+}
+
+/// The parts of the allowances that the first stages may use.
+const RAMP: [f64; 2] = [0.5, 0.8];
+
 /// The cheapest variant found of which every output is certified to stay
 /// within its allowance (in the output's unit) over the box.
 pub fn prune(
@@ -88,40 +144,90 @@ pub fn prune(
     allowances: &[f64],
     settings: &Settings,
 ) -> Pruned {
-    watched(program, limits, allowances, settings, None)
+    watched(program, None, limits, allowances, settings, None)
 }
 
 /// [`prune`] under a watch: where it is over, the search ends with its best.
+/// `start` is an equal program to edit in its place: then the first stage has
+/// no edits and leads there.
 pub fn watched(
     program: &Program,
+    start: Option<&Program>,
     limits: &InputBox,
     allowances: &[f64],
     settings: &Settings,
     watch: Option<Vigil<'_>>,
 ) -> Pruned {
     let tally = Tally::new(settings, watch);
-    let mut best = Pruned {
+    let nothing = Pruned {
         stages: Vec::new(),
         program: program.clone(),
         errors: vec![0.0; program.outputs.len()],
     };
-    let mut random = Random::new(0x9121);
+    let mut best = match start {
+        None => nothing.clone(),
+        Some(start) => Pruned {
+            stages: vec![Stage {
+                program: program.clone(),
+                edits: Vec::new(),
+            }],
+            program: start.clone(),
+            ..nothing.clone()
+        },
+    };
+    let mut random = Random::new(SEED);
     let motions = Motions::new(program, limits);
     let mut positions = motions::positions(limits, settings.samples, &mut random);
-    for _ in 0..settings.stages {
+    for stage in 0..settings.stages {
+        let part = settings.part(stage);
+        let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
         let search = Search {
             full: program,
             base: best.clone(),
             limits,
-            allowances,
+            allowances: &allowances,
             settings,
             motions: &motions,
             tally: &tally,
+            retries: settings.retries(stage),
         };
         match search.run(&mut positions, &mut random) {
             Some(found) => best = found,
+            None if part < 1.0 => {}
             None => break,
         }
     }
-    best
+    let edited = best.stages.iter().any(|stage| !stage.edits.is_empty());
+    match edited && search::cost(&best.program) < search::cost(program) {
+        true => best,
+        false => nothing,
+    }
+}
+
+/// About what [`prune`] would leave of a program: operations, sines and
+/// cosines weighed. Errors at so many samples decide, nothing is certified.
+pub fn appraise(
+    program: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &Settings,
+) -> u32 {
+    let mut random = Random::new(SEED);
+    let motions = Motions::new(program, limits);
+    let positions = motions::positions(limits, settings.samples, &mut random);
+    let search = Search {
+        full: program,
+        base: Pruned {
+            stages: Vec::new(),
+            program: program.clone(),
+            errors: Vec::new(),
+        },
+        limits,
+        allowances,
+        settings,
+        motions: &motions,
+        tally: &Tally::new(settings, None),
+        retries: 0,
+    };
+    search.appraise(&positions, 1.0, &mut random)
 }

@@ -24,6 +24,10 @@ const POLISH: usize = 12;
 /// How much of the allowance sampled errors may use at first.
 const SHARE: f64 = 0.8;
 
+/// An output whose certified error is less than this part of its allowance
+/// may use more of it; the bound is not tight there.
+const ROOM: f64 = 0.88;
+
 /// In place of the ratio of errors where D may be singular.
 const SINGULAR: f64 = 4.0;
 
@@ -37,19 +41,39 @@ pub(super) struct Search<'a> {
     pub settings: &'a Settings,
     pub motions: &'a Motions,
     pub tally: &'a Tally<'a>,
+    /// Times that a part is taken back and chosen anew.
+    pub retries: usize,
 }
 
 /// A certified variant and how it was found.
 struct Found {
     pruned: Pruned,
     state: State,
-    share: f64,
+    /// What sampled errors may use of each output's allowance.
+    shares: Vec<f64>,
 }
 
 impl Search<'_> {
+    /// What would stay if errors at the samples decided, weighed as by
+    /// [`cost`]; nothing is certified.
+    pub(super) fn appraise(&self, positions: &[Vec<f64>], share: f64, random: &mut Random) -> u32 {
+        let prices = vec![1.0; self.allowances.len()];
+        let states = self.motions.states(positions);
+        let original = Nodes::new(&self.base.program, &states);
+        let truth = outputs(self.full, &states);
+        let mut greedy = self.greedy(&original, &truth, &vec![share; prices.len()], &prices);
+        let mut state = State {
+            edits: vec![None; original.len()],
+            nodes: original,
+        };
+        greedy.drop_all(&mut state, 0.0, random);
+        greedy.price(&state)
+    }
+
     /// The cheapest variant found, if it is cheaper than what was there.
     pub(super) fn run(&self, positions: &mut Vec<Vec<f64>>, random: &mut Random) -> Option<Pruned> {
-        if self.tally.is_over() && !self.base.stages.is_empty() {
+        let edited = self.base.stages.iter().any(|stage| !stage.edits.is_empty());
+        if self.tally.is_over() && edited {
             return None;
         }
         // Outputs that use up their allowance are dear.
@@ -66,7 +90,7 @@ impl Search<'_> {
         prices: &mut [f64],
         random: &mut Random,
     ) -> Option<Found> {
-        let mut share = SHARE;
+        let mut shares = vec![SHARE; self.allowances.len()];
         let mut best: Option<Found> = None;
         for _ in 0..self.settings.guesses {
             if best.is_some() && self.tally.is_over() {
@@ -77,7 +101,7 @@ impl Search<'_> {
             let states = self.motions.states(positions);
             let original = Nodes::new(&self.base.program, &states);
             let truth = outputs(self.full, &states);
-            let mut greedy = self.greedy(&original, &truth, share, prices);
+            let mut greedy = self.greedy(&original, &truth, &shares, prices);
             let mut state = State {
                 edits: vec![None; original.len()],
                 nodes: original.clone(),
@@ -87,19 +111,24 @@ impl Search<'_> {
             for (price, used) in prices.iter_mut().zip(greedy.relative(&state)) {
                 *price *= 0.3 + used;
             }
-            let (pruned, ratio) = self.certify(&original, &state, &mut greedy);
+            let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
             self.adversaries(&pruned.stages, positions, random);
             let cheaper = best
                 .as_ref()
                 .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
-            if ratio <= 1.0 && cheaper {
+            if within(&ratios) && cheaper {
                 best = Some(Found {
                     pruned,
                     state,
-                    share,
+                    shares: shares.clone(),
                 });
             }
-            share = (share / libm::pow(ratio.clamp(0.2, 5.0), 0.9) * 0.99).min(1.5);
+            for (share, ratio) in shares.iter_mut().zip(ratios) {
+                *share = match ratio < ROOM {
+                    true => (1.1 * *share).min(1.0),
+                    false => (*share / libm::pow(ratio.min(5.0), 0.9) * 0.99).min(1.5),
+                };
+            }
         }
         best
     }
@@ -115,18 +144,21 @@ impl Search<'_> {
         let Found {
             mut pruned,
             mut state,
-            share,
+            mut shares,
         } = found;
         let states = self.motions.states(positions);
         let original = Nodes::new(&self.base.program, &states);
         let truth = outputs(self.full, &states);
         state.nodes.move_to(&states);
         // The samples have grown since: what is certified must rank as within.
-        let worst = self.greedy(&original, &truth, 1.0, prices).worst(&state);
-        let share = f64::max(share, 1.001 * worst);
-        let mut greedy = self.greedy(&original, &truth, share, prices);
+        let whole = vec![1.0; shares.len()];
+        let used = self.greedy(&original, &truth, &whole, prices);
+        for (share, used) in shares.iter_mut().zip(used.relative(&state)) {
+            *share = share.max(1.001 * used);
+        }
+        let mut greedy = self.greedy(&original, &truth, &shares, prices);
         let mut paid = greedy.price(&state);
-        for round in 0..self.settings.retries {
+        for round in 0..self.retries {
             if self.tally.is_over() {
                 break;
             }
@@ -144,8 +176,8 @@ impl Search<'_> {
             greedy.settle(&mut trial, &original, POLISH / 3);
             let price = greedy.price(&trial);
             if price <= paid && trial.edits != state.edits {
-                let (certified, ratio) = self.certify(&original, &trial, &mut greedy);
-                if ratio <= 1.0 {
+                let (certified, ratios) = self.certify(&original, &trial, &mut greedy);
+                if within(&ratios) {
                     (state, paid, pruned) = (trial, price, certified);
                 }
             }
@@ -157,23 +189,29 @@ impl Search<'_> {
         &'t self,
         nodes: &Nodes,
         truth: &'t [f64],
-        share: f64,
+        shares: &[f64],
         prices: &[f64],
     ) -> Greedy<'t> {
-        let allowances = self.allowances.iter().map(|a| a * share).collect();
-        let refit = self.settings.refit;
+        let pairs = self.allowances.iter().zip(shares);
+        let allowances = pairs.map(|(allowance, share)| allowance * share).collect();
         Greedy::new(
             nodes,
             self.motions,
             truth,
             allowances,
             prices.to_vec(),
-            refit,
+            self.settings,
         )
     }
 
-    /// The variant, and its worst certified error against its allowance.
-    fn certify(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, f64) {
+    /// The variant, and the certified error of each output against its
+    /// allowance.
+    fn certify(
+        &self,
+        original: &Nodes,
+        state: &State,
+        greedy: &mut Greedy<'_>,
+    ) -> (Pruned, Vec<f64>) {
         let mut stages = self.base.stages.clone();
         stages.push(Stage {
             program: self.base.program.clone(),
@@ -183,7 +221,7 @@ impl Search<'_> {
         let budget = self.settings.budget;
         let errors = bound::magnitudes(&graph, self.limits, self.allowances, 1.0, budget);
         let pairs = errors.iter().zip(self.allowances);
-        let ratio = pairs.fold(0.0f64, |r, (&e, &a)| r.max(bound::relative(e, a)));
+        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| bound::relative(e, a)).collect();
         let program = finish(&stages, Effort::Quick, false);
         // Too much went as well if D may become singular: the next guess
         // leaves out less.
@@ -191,16 +229,15 @@ impl Search<'_> {
             let scalar = ScalarType::F64;
             has_inertia(program) && least_eigenvalue(program, scalar, self.limits).is_err()
         };
-        let ratio = match ratio <= 1.0 && singular(&program) {
-            true => SINGULAR,
-            false => ratio,
-        };
+        if within(&ratios) && singular(&program) {
+            ratios.fill(SINGULAR);
+        }
         let pruned = Pruned {
             stages,
             program,
             errors,
         };
-        (pruned, ratio)
+        (pruned, ratios)
     }
 
     /// Positions where the error is large join the samples.
@@ -236,6 +273,11 @@ impl Search<'_> {
     }
 }
 
+/// Whether no certified error is above its allowance.
+fn within(ratios: &[f64]) -> bool {
+    ratios.iter().all(|ratio| *ratio <= 1.0)
+}
+
 /// A program's outputs at states, output after output.
 fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
     let nodes = Nodes::new(program, states);
@@ -257,7 +299,7 @@ fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
 }
 
 /// Operations, and a few more for each sine and cosine.
-fn cost(program: &Program) -> usize {
+pub(super) fn cost(program: &Program) -> usize {
     let counts = program.counts();
     counts.operations() + 8 * counts.sincos
 }

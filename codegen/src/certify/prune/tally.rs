@@ -18,7 +18,9 @@ impl<'a> Tally<'a> {
         Tally {
             watch,
             done: Cell::new(0),
-            rounds: settings.stages * (settings.guesses + settings.retries),
+            rounds: (0..settings.stages)
+                .map(|stage| settings.guesses + settings.retries(stage))
+                .sum(),
         }
     }
 
