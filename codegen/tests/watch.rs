@@ -111,8 +111,10 @@ fn a_tolerance_is_watched() {
     };
     let rounds = |seen: &[Progress]| {
         let rounds = seen.iter().filter(|p| p.part == Part::Omissions);
+        // A better exact program begins anew.
         let rounds: Vec<_> = rounds.map(|p| p.round).collect();
-        assert!(rounds.iter().copied().eq(0..rounds.len()), "{rounds:?}");
+        let goes_on = |pair: &[usize]| pair[1] == pair[0] + 1 || pair[1] == 0;
+        assert!(rounds.windows(2).all(goes_on), "{rounds:?}");
         rounds.len()
     };
     let (generated, seen) = run(Effort::Thorough, None);
