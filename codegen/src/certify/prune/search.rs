@@ -123,7 +123,11 @@ impl Search<'_> {
                     shares: shares.clone(),
                 });
             }
+            // Until something is certified the worst output decides for all:
+            // what is left out for one moves the others.
+            let worst = ratios.iter().copied().fold(0.0, f64::max);
             for (share, ratio) in shares.iter_mut().zip(ratios) {
+                let ratio = if best.is_none() { worst } else { ratio };
                 *share = match ratio < ROOM {
                     true => (1.1 * *share).min(1.0),
                     false => (*share / libm::pow(ratio.min(5.0), 0.9) * 0.99).min(1.5),
