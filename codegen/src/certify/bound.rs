@@ -12,7 +12,7 @@ use std::collections::BinaryHeap;
 
 use super::expand::expand;
 use super::form::{Forms, Scratch};
-use super::grid::{self, Closeness};
+use super::grid::{self, Aim, Closeness};
 use super::input_box::InputBox;
 use crate::graph::Graph;
 
@@ -81,17 +81,9 @@ pub fn magnitudes(
     budget: Budget,
 ) -> Vec<f64> {
     // Close enough to the goal to tell how far from it.
-    let goals = scales.iter().map(|scale| 0.85 * goal * scale);
-    if budget.points > 0
-        && let Some(polynomials) = expand(graph, whole)
-    {
-        let sliding = grid::sliding(graph, whole.joints());
-        let closeness = Closeness::fine(budget.points);
-        let pairs = polynomials.iter().zip(goals);
-        let most = pairs.map(|(p, goal)| grid::magnitude(p, whole, &sliding, goal, closeness));
-        if let Some(most) = most.collect() {
-            return most;
-        }
+    let aims = scales.iter().map(|scale| Aim::Least(0.85 * goal * scale));
+    if let Some(most) = written_out(graph, whole, aims, budget) {
+        return most;
     }
     let forms = Forms::new(graph, whole.joints(), budget.linear);
     let mut search = Search {
@@ -127,6 +119,46 @@ pub fn magnitudes(
         }
     }
     most
+}
+
+/// The same, if every output is shown to be at most its limit; the first for
+/// which it is not ends the search.
+pub fn magnitudes_within(
+    graph: &Graph,
+    whole: &InputBox,
+    limits: &[f64],
+    budget: Budget,
+) -> Option<Vec<f64>> {
+    let aims = limits.iter().map(|&limit| Aim::Within(limit));
+    let most = written_out(graph, whole, aims, budget);
+    let most = most.unwrap_or_else(|| magnitudes(graph, whole, limits, 1.0, budget));
+    let within = most.len() == limits.len() && most.iter().zip(limits).all(|(x, limit)| x <= limit);
+    within.then_some(most)
+}
+
+/// Bounds at a grid, if there is one: of all outputs, or up to the first that is
+/// not within what it is to be.
+fn written_out(
+    graph: &Graph,
+    whole: &InputBox,
+    aims: impl Iterator<Item = Aim>,
+    budget: Budget,
+) -> Option<Vec<f64>> {
+    if budget.points == 0 {
+        return None;
+    }
+    let polynomials = expand(graph, whole)?;
+    let sliding = grid::sliding(graph, whole.joints());
+    let closeness = Closeness::fine(budget.points);
+    let mut most = Vec::new();
+    for (polynomial, aim) in polynomials.iter().zip(aims) {
+        let found = grid::magnitude(polynomial, whole, &sliding, aim, closeness)?;
+        most.push(found);
+        if matches!(aim, Aim::Within(limit) if found > limit) {
+            break;
+        }
+    }
+    Some(most)
 }
 
 struct Search<'a> {

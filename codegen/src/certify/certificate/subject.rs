@@ -38,6 +38,7 @@ impl Fineness {
     pub const GLANCE: Fineness = Fineness {
         budget: Budget {
             boxes: 2_000,
+            points: 1 << 18,
             ..Budget::GLANCE
         },
         boxes: 64,

@@ -96,13 +96,23 @@ pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
     sliding
 }
 
-/// The largest magnitude of a polynomial over a box, no closer than `goal` if it
-/// is smaller; `None` if a power is too high to be written in multiples.
+/// What a bound is for. The bounds that are tried do not depend on it: what was
+/// shown for one aim is shown again for another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Aim {
+    /// As small as can be shown, but no smaller than this.
+    Least(f64),
+    /// At most this, or it does not matter.
+    Within(f64),
+}
+
+/// The largest magnitude of a polynomial over a box; `None` if a power is too
+/// high to be written in multiples.
 pub(super) fn magnitude(
     polynomial: &Polynomial,
     limits: &InputBox,
     sliding: &[bool],
-    goal: f64,
+    aim: Aim,
     closeness: Closeness,
 ) -> Option<f64> {
     let range = |key: Key| range(key, limits);
@@ -111,11 +121,12 @@ pub(super) fn magnitude(
     let sizes = sizes.map(|&(key, x)| x.magnitude() * range(key).magnitude());
     let least = NEGLIGIBLE * sizes.fold(0.0, f64::max);
     let layout = Layout::new(&polynomial, limits, sliding, &range, least);
-    let whole = bound(&layout, limits, None, goal, closeness);
     if !layout.part.contains(&true) {
-        return Some(whole);
+        return Some(bound(&layout, limits, None, aim, closeness));
     }
-    let part = bound(&layout, limits, Some(whole), goal, closeness);
+    let (Aim::Least(goal) | Aim::Within(goal)) = aim;
+    let whole = bound(&layout, limits, None, Aim::Least(goal), closeness);
+    let part = bound(&layout, limits, Some(whole), aim, closeness);
     Some(whole.min(part))
 }
 
@@ -124,7 +135,7 @@ fn bound(
     layout: &Layout,
     limits: &InputBox,
     whole: Option<f64>,
-    goal: f64,
+    aim: Aim,
     closeness: Closeness,
 ) -> f64 {
     let points = closeness.points;
@@ -143,8 +154,6 @@ fn bound(
         points,
     };
     let least = climb(&mut cells, closeness.starts);
-    // The bounds that are tried do not depend on the goal, which only skips
-    // some: what was shown for a goal is shown again without one.
     let mut tries = Vec::new();
     let mut more = closeness.close;
     let mut next = least * (1.0 + more) + 2.0 * layout.slack;
@@ -157,10 +166,22 @@ fn bound(
         cells.points = points;
         cells.below(0, bound)
     };
-    let start = tries.iter().position(|&bound| bound >= goal);
-    let start = start.unwrap_or(tries.len().saturating_sub(1));
+    let start = match aim {
+        Aim::Least(goal) => {
+            let enough = tries.iter().position(|&bound| bound >= goal);
+            enough.unwrap_or(tries.len().saturating_sub(1))
+        }
+        Aim::Within(most) if crude <= most => return crude,
+        Aim::Within(most) => match tries.iter().rposition(|&bound| bound <= most) {
+            Some(last) => last,
+            None => return crude,
+        },
+    };
     if tries.get(start).is_some_and(|&bound| shown(bound)) {
         return tries[start];
+    }
+    if matches!(aim, Aim::Within(_)) {
+        return crude;
     }
     // A larger bound takes fewer points: halving finds the least.
     let (mut failed, mut held) = (start, tries.len());

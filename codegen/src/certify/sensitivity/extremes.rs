@@ -5,7 +5,7 @@
 
 use super::gradient::Gradient;
 use crate::certify::expand::visit;
-use crate::certify::grid::{self, Closeness};
+use crate::certify::grid::{self, Aim, Closeness};
 use crate::certify::input_box::InputBox;
 use crate::graph::{Edge, Input};
 use crate::schedule::Program;
@@ -49,7 +49,7 @@ impl Extremes {
         };
         let mut most = vec![Some(0.0); graph.nodes.len()];
         visit(graph, limits, &mut |node, polynomial| {
-            most[node] = grid::magnitude(polynomial, limits, &sliding, 0.0, closeness);
+            most[node] = grid::magnitude(polynomial, limits, &sliding, Aim::Least(0.0), closeness);
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
         let of = |edge: &Edge| most[edge.node().index()];
