@@ -28,6 +28,11 @@ const SHARE: f64 = 0.8;
 /// may use more of it; the bound is not tight there.
 const ROOM: f64 = 0.88;
 
+/// Guesses that are added as long as none was certified, and how much less each
+/// leaves out.
+const MORE: usize = 4;
+const CAUTION: f64 = 0.8;
+
 /// In place of the ratio of errors where D may be singular.
 const SINGULAR: f64 = 4.0;
 
@@ -92,8 +97,9 @@ impl Search<'_> {
     ) -> Option<Found> {
         let mut shares = vec![SHARE; self.allowances.len()];
         let mut best: Option<Found> = None;
-        for _ in 0..self.settings.guesses {
-            if best.is_some() && self.tally.is_over() {
+        for round in 0..self.settings.guesses + MORE {
+            let enough = round >= self.settings.guesses || self.tally.is_over();
+            if best.is_some() && enough {
                 break;
             }
             let so_far = best.as_ref().map(|found| &found.pruned.program);
@@ -132,6 +138,9 @@ impl Search<'_> {
                     true => (1.1 * *share).min(1.0),
                     false => (*share / libm::pow(ratio.min(5.0), 0.9) * 0.99).min(1.5),
                 };
+                if best.is_none() && round + 1 >= self.settings.guesses {
+                    *share *= CAUTION;
+                }
             }
         }
         best
@@ -180,8 +189,8 @@ impl Search<'_> {
             greedy.settle(&mut trial, &original, POLISH / 3);
             let price = greedy.price(&trial);
             if price <= paid && trial.edits != state.edits {
-                let (certified, ratios) = self.certify(&original, &trial, &mut greedy);
-                if within(&ratios) {
+                let certified = self.certified(&original, &trial, &mut greedy);
+                if let Some(certified) = certified {
                     (state, paid, pruned) = (trial, price, certified);
                 }
             }
@@ -216,32 +225,51 @@ impl Search<'_> {
         state: &State,
         greedy: &mut Greedy<'_>,
     ) -> (Pruned, Vec<f64>) {
+        let (mut pruned, error) = self.variant(original, state, greedy);
+        let budget = self.settings.budget;
+        pruned.errors = bound::magnitudes(&error, self.limits, self.allowances, 1.0, budget);
+        let pairs = pruned.errors.iter().zip(self.allowances);
+        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| bound::relative(e, a)).collect();
+        // Too much went as well if D may become singular: the next guess
+        // leaves out less.
+        if within(&ratios) && !self.is_definite(&pruned.program) {
+            ratios.fill(SINGULAR);
+        }
+        (pruned, ratios)
+    }
+
+    /// The variant, if every output is certified to be within its allowance.
+    fn certified(
+        &self,
+        original: &Nodes,
+        state: &State,
+        greedy: &mut Greedy<'_>,
+    ) -> Option<Pruned> {
+        let (mut pruned, error) = self.variant(original, state, greedy);
+        let budget = self.settings.budget;
+        pruned.errors = bound::magnitudes_within(&error, self.limits, self.allowances, budget)?;
+        self.is_definite(&pruned.program).then_some(pruned)
+    }
+
+    /// The variant, its errors still to be found, and the program of them.
+    fn variant(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, Graph) {
         let mut stages = self.base.stages.clone();
         stages.push(Stage {
             program: self.base.program.clone(),
             edits: greedy.edits(original, state),
         });
-        let graph = difference(&stages);
-        let budget = self.settings.budget;
-        let errors = bound::magnitudes(&graph, self.limits, self.allowances, 1.0, budget);
-        let pairs = errors.iter().zip(self.allowances);
-        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| bound::relative(e, a)).collect();
-        let program = finish(&stages, Effort::Quick, false);
-        // Too much went as well if D may become singular: the next guess
-        // leaves out less.
-        let singular = |program: &Program| {
-            let scalar = ScalarType::F64;
-            has_inertia(program) && least_eigenvalue(program, scalar, self.limits).is_err()
-        };
-        if within(&ratios) && singular(&program) {
-            ratios.fill(SINGULAR);
-        }
+        let error = difference(&stages);
         let pruned = Pruned {
+            program: finish(&stages, Effort::Quick, false),
             stages,
-            program,
-            errors,
+            errors: Vec::new(),
         };
-        (pruned, ratios)
+        (pruned, error)
+    }
+
+    /// Whether D, if it is an output, is positive definite.
+    fn is_definite(&self, program: &Program) -> bool {
+        !has_inertia(program) || least_eigenvalue(program, ScalarType::F64, self.limits).is_ok()
     }
 
     /// Positions where the error is large join the samples.

@@ -110,6 +110,7 @@ impl<'a> Greedy<'a> {
             ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
             let mut taken = 0;
             while taken < FRESH {
+                self.mirror(&columns);
                 let before = self.settled(state, &columns, &fit);
                 let paid = self.price(state);
                 let live = self.scratch.live().to_vec();
@@ -138,7 +139,7 @@ impl<'a> Greedy<'a> {
                     columns = state.nodes.run(&state.edits);
                     refused[node] = true;
                 } else {
-                    fit = self.fit(state, &columns);
+                    fit = fresh;
                 }
                 taken += 1;
                 ranked.retain(|c| c.score.is_finite());

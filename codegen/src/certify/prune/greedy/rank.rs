@@ -17,6 +17,7 @@ impl Greedy<'_> {
         noise: f64,
         random: &mut Random,
     ) -> Vec<Ranked> {
+        self.mirror(columns);
         let before = self.settled(state, columns, fit);
         let paid = self.price(state);
         let live = self.scratch.live().to_vec();
@@ -66,7 +67,14 @@ impl Greedy<'_> {
         score
     }
 
-    /// The potential if a node's edit is new and the columns are not.
+    /// Takes the columns that candidates are tried on.
+    pub(super) fn mirror(&mut self, columns: &[f64]) {
+        self.trial.clear();
+        self.trial.extend_from_slice(columns);
+    }
+
+    /// The potential if a node's edit is new and the columns, which are
+    /// [mirrored](Self::mirror), are not.
     fn retry(
         &mut self,
         state: &State,
@@ -78,9 +86,7 @@ impl Greedy<'_> {
         let (m, inputs) = (nodes.samples, nodes.inputs.len());
         self.dirty.clear();
         self.dirty.resize(nodes.len(), false);
-        self.dirty[node] = true;
         let mut trial = std::mem::take(&mut self.trial);
-        trial[..node * m].copy_from_slice(&columns[..node * m]);
         for k in node..nodes.len() {
             let is_dirty =
                 |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n as usize]);
@@ -93,15 +99,16 @@ impl Greedy<'_> {
                         is_dirty(op.left) || is_dirty(op.right)
                     }
                 };
-            let (before, rest) = trial.split_at_mut(k * m);
             if dirty {
                 self.dirty[k] = true;
+                let (before, rest) = trial.split_at_mut(k * m);
                 nodes.node(k, state.edits[k], before, &mut rest[..m]);
-            } else {
-                rest[..m].copy_from_slice(&columns[k * m..][..m]);
             }
         }
         let result = self.settled_both(state, &trial, fit);
+        for k in (node..nodes.len()).filter(|&k| self.dirty[k]) {
+            trial[k * m..][..m].copy_from_slice(&columns[k * m..][..m]);
+        }
         self.trial = trial;
         result
     }
