@@ -5,6 +5,7 @@
 mod support;
 
 use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::bound::Budget;
 use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::certificate::subject::Fineness;
 use dalembert_codegen::certify::choose::Frame;
@@ -20,6 +21,7 @@ const CLIMBS: usize = 6;
 
 /// Between a glance and a certificate.
 const FINENESS: Fineness = Fineness {
+    budget: Budget::GLANCE,
     boxes: 512,
     ..Fineness::GLANCE
 };
@@ -60,6 +62,7 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
         guesses,
         retries: 0,
         stages: 1,
+        budget: FINENESS.budget,
         ..Settings::default()
     };
     let tolerances = vec![tolerance; frame.scales.len()];
