@@ -48,13 +48,13 @@ fn bar(tolerance: f64, operations: usize) {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
 fn puma_at_five_percent() {
-    bar(5e-2, 85);
+    bar(5e-2, 77);
 }
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
 fn puma_at_one_percent() {
-    bar(1e-2, 120);
+    bar(1e-2, 117);
 }
 
 #[test]

@@ -332,6 +332,9 @@ impl<'a> Frame<'a> {
             if variant.within(tolerances).is_ok() && variant.is_definite() {
                 return Ok(variant);
             }
+            if watch.is_some_and(|watch| watch.is_over()) {
+                break;
+            }
         }
         if has_inertia(self.exact) {
             // Nothing may go. Is that the model's own fault?
@@ -437,7 +440,9 @@ impl Admitted {
 
 fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), Refusal> {
     let mut pairs = certificate.bounds.iter().zip(tolerances);
-    match pairs.position(|(bound, &tolerance)| bound.total() > tolerance) {
+    // No number is within nothing.
+    let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
+    match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
         None => Ok(()),
         Some(index) => Err(Refusal::Above {
             entry: certificate.emitted.entry(index),

@@ -11,13 +11,12 @@
 use std::fmt;
 
 use super::attack::{run, text};
-use super::certificate::subject::Fineness;
 use super::edits::Stage;
 use super::expand::expand;
 use super::grid;
 use super::input_box::InputBox;
 use super::interval::Interval;
-use super::sensitivity::Sensitivity;
+use super::sensitivity::rounding_with;
 use crate::emit::ScalarType;
 use crate::function::Quantity;
 use crate::graph::{Folding, Graph};
@@ -113,7 +112,7 @@ pub fn least_eigenvalue_with(
     }
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let costs = Sensitivity::of(program, limits, Fineness::GLANCE).rounding(scalar, sines);
+    let costs = rounding_with(program, scalar, sines, limits, 64);
     let unedited = Stage {
         program: program.clone(),
         edits: Vec::new(),

@@ -30,6 +30,7 @@ impl Distinct {
 
     /// The first of each value, of a list over all outputs.
     pub(super) fn pick<T: Clone>(&self, all: &[T]) -> Vec<T> {
+        debug_assert_eq!(all.len(), self.places.len());
         let firsts = self.firsts.iter();
         firsts
             .filter_map(|&index| all.get(index).cloned())
@@ -38,6 +39,7 @@ impl Distinct {
 
     /// What was found of each value, for every output.
     pub(super) fn spread<T: Clone>(&self, found: &[T]) -> Vec<T> {
+        debug_assert_eq!(found.len(), self.firsts.len());
         let places = self.places.iter();
         places
             .filter_map(|&place| found.get(place).cloned())

@@ -199,6 +199,10 @@ fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
                 *p * *q
             };
             multiply(*x, *y, coefficient, &mut terms)?;
+            // A pair is more than one term if it has sines in common.
+            if terms.len() > MOST_PRODUCTS {
+                return None;
+            }
         }
     }
     terms.sort_by_key(|term| term.0);

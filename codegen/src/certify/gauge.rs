@@ -64,6 +64,9 @@ pub(super) fn descend(
             gauges.insert(0, from.clone());
         }
         let mut looks = parallel(&gauges, |gauge| {
+            if descent.is_over() {
+                return None;
+            }
             let graph = portfolio::in_gauge(setting, function, gauge, tuned.form);
             let graph = simplify(&[graph], &[], Effort::Quick, &|_| true)?.graph;
             let program = program.with_graph(&graph);
@@ -94,8 +97,12 @@ struct Descent<'a> {
 }
 
 impl Descent<'_> {
+    fn is_over(&self) -> bool {
+        self.watch.is_some_and(|watch| watch.is_over())
+    }
+
     fn price(&self, program: &Program, (samples, share): (usize, f64)) -> u32 {
-        if self.watch.is_some_and(|watch| watch.is_over()) {
+        if self.is_over() {
             return u32::MAX;
         }
         let allowances: Vec<f64> = self.allowances.iter().map(|a| share * a).collect();

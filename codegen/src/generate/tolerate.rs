@@ -100,7 +100,9 @@ fn one(
         Effort::Thorough if watch.is_over() => (QUICK, Fineness::CERTIFY),
         Effort::Thorough => (thorough(request), Fineness::CERTIFY),
     };
-    let admitted = match kept(&frame, function, scalars, request)? {
+    // A plan's bounds are not found anew, but they are compared.
+    let kept = kept(&frame, function, scalars, request)?;
+    let admitted = match kept.filter(|kept| kept.within(&tolerances).is_ok()) {
         Some(kept) => kept,
         None => frame
             .choose(&tolerances, scalars, &settings, fineness)
@@ -126,10 +128,9 @@ fn one(
         }
         SinCos::Polynomial { .. } => {
             // What was left out may have used up what polynomials need.
-            let exact = || frame.unedited(scalars, fineness);
             let found = all(&admitted).map(|certificates| (admitted, certificates));
             let found = found.or_else(|_| {
-                let exact = exact();
+                let exact = frame.unedited(scalars, fineness);
                 all(&exact).map(|certificates| (exact, certificates))
             });
             let (admitted, certificates) = found.map_err(|why| {

@@ -99,7 +99,8 @@ impl Variant {
 }
 
 fn bound(words: &[&str]) -> Result<Split, String> {
-    let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
+    let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
+    let numbers = numbers.unwrap_or_default();
     match numbers.as_slice() {
         &[model, sincos, rounding] if numbers.iter().all(|x| *x >= 0.0) => Ok(Split {
             model,

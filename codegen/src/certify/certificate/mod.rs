@@ -326,11 +326,11 @@ impl Certificate {
         if fits { Ok(()) } else { Err(Refuted::Shape) }
     }
 
-    /// The claims must be shown anew, by the fine bound or, since a coarse one
-    /// may be the smaller by luck, by the coarse one.
+    /// The claims must be shown anew: by the coarse bound, as some were made, or
+    /// by the fine one.
     fn check_bounds(&self, subject: &Subject<'_>) -> Result<Vec<Split>, Refuted> {
         let mut found: Option<Vec<Split>> = None;
-        for fineness in [Fineness::CERTIFY, Fineness::GLANCE] {
+        for fineness in [Fineness::GLANCE, Fineness::CERTIFY] {
             let sensitivity = subject.sensitivity(fineness);
             let next = subject.bounds(self.scalar, &subject.model(fineness), &sensitivity);
             let best = match found {

@@ -5,7 +5,6 @@ use dalembert_model::scene::Scale;
 use super::{Certificate, Split};
 use crate::certify::bound::{Budget, magnitudes, relative};
 use crate::certify::definite::{has_inertia, least_eigenvalue_with};
-use crate::certify::distinct::Distinct;
 use crate::certify::edits::{Stage, difference};
 use crate::certify::input_box::InputBox;
 use crate::certify::sensitivity::Sensitivity;
@@ -72,15 +71,8 @@ impl Subject<'_> {
         if self.stages.iter().all(|stage| stage.edits.is_empty()) {
             return vec![0.0; self.scales.len()];
         }
-        let mut error = difference(self.stages);
-        // A sign does not matter to a magnitude; a scale does to the search.
-        let pairs = error.outputs.iter().zip(self.scales);
-        let keys = pairs.map(|(edge, scale)| Some((edge.node(), scale.to_bits())));
-        let distinct = Distinct::by(keys);
-        error.outputs = distinct.pick(&error.outputs);
-        let scales = distinct.pick(self.scales);
-        let found = magnitudes(&error, self.limits, &scales, 0.0, fineness.budget);
-        distinct.spread(&found)
+        let error = difference(self.stages);
+        magnitudes(&error, self.limits, self.scales, 0.0, fineness.budget)
     }
 
     /// Bounds by cause, relative to the scales, with the edits' and the

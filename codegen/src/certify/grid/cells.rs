@@ -32,7 +32,7 @@ impl Cells<'_> {
     }
 
     /// Puts an angle in; what takes about as long as a point counts as one.
-    fn fold(&mut self, level: usize, angle: f64) {
+    pub(super) fn fold(&mut self, level: usize, angle: f64) {
         let points = 1 + self.layout.terms(level) / TERMS;
         self.points = self.points.saturating_sub(points);
         self.layout.fold(level, angle, &mut self.buffers);
@@ -65,12 +65,13 @@ impl Cells<'_> {
             }
             None => (0.0, 2.0 * PI),
         };
+        let rounded = 4.0 * f64::EPSILON * (from.abs() + width);
         let half = 0.5 * width / count as f64;
         let middle = |k: usize| from + width * (k as f64 + 0.5) / count as f64;
         let mut cells: Vec<(f64, f64)> = (0..count).rev().map(|k| (middle(k), half)).collect();
         while let Some((angle, half)) = cells.pop() {
-            // Half widths are rounded; a little more covers that.
-            let reach = degree * half * (1.0 + 1e-12);
+            // Half widths and middles are rounded; a little more covers that.
+            let reach = degree * (half * (1.0 + 1e-12) + rounded);
             let enough = match part {
                 Some((_, whole)) => {
                     (bound - 0.5 * reach * reach * whole * (1.0 + 1e-12)).next_down()

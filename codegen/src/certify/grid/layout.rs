@@ -50,7 +50,9 @@ impl Layout {
                 slack += size;
                 continue;
             }
-            slack += (coefficient.radius() * most + SLACK * size) * (1.0 + 1e-9);
+            // Lengths of groups lose what is too small to be squared.
+            let tiny = f64::MIN_POSITIVE.sqrt() * most;
+            slack += (coefficient.radius() * most + SLACK * size + tiny) * (1.0 + 1e-9);
             terms.push((key, coefficient.mid()));
         }
         let degree = |joint: usize| {

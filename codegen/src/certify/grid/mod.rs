@@ -12,9 +12,9 @@
 //!   value over whole circles (Bernstein), and M ≤ m(c) + ½(d·δ)²·F.
 //!
 //! So M ≤ B is shown by showing m(c) ≤ B·cos(d·δ) for every cell, angle after
-//! angle; a cell for which that fails is cut in three. The first B that is
-//! tried is a value that T takes and a little more. For each point the rates
-//! are at their worst, monomial by monomial.
+//! angle; a cell for which that fails is cut in three. Every B that is tried is a
+//! value that T takes and a little more. For each point the rates are at their
+//! worst, monomial by monomial.
 //!
 //! What the arithmetic costs: coefficients are intervals, of which the points
 //! take the middle; their radii are added to each value, and so is
@@ -96,8 +96,8 @@ pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
     sliding
 }
 
-/// What a bound is for. The bounds that are tried do not depend on it: what was
-/// shown for one aim is shown again for another.
+/// What a bound is for. Over whole circles, the bounds that are tried do not
+/// depend on it: what was shown for one aim is shown again for another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Aim {
     /// As small as can be shown, but no smaller than this.
@@ -124,8 +124,13 @@ pub(super) fn magnitude(
     if !layout.part.contains(&true) {
         return Some(bound(&layout, limits, None, aim, closeness));
     }
+    // Of the circles only the size matters, for what lies between points.
     let (Aim::Least(goal) | Aim::Within(goal)) = aim;
-    let whole = bound(&layout, limits, None, Aim::Least(goal), closeness);
+    let rough = Closeness {
+        points: closeness.points / 16,
+        ..closeness
+    };
+    let whole = bound(&layout, limits, None, Aim::Least(goal), rough);
     let part = bound(&layout, limits, Some(whole), aim, closeness);
     Some(whole.min(part))
 }
@@ -141,7 +146,10 @@ fn bound(
     let points = closeness.points;
     let buffers = layout.buffers();
     let crude = layout.crude(0, &buffers[0]);
-    if points == 0 {
+    let enough = match aim {
+        Aim::Least(goal) | Aim::Within(goal) => crude <= goal,
+    };
+    if points == 0 || enough {
         return crude;
     }
     let mut cells = Cells {
@@ -171,7 +179,6 @@ fn bound(
             let enough = tries.iter().position(|&bound| bound >= goal);
             enough.unwrap_or(tries.len().saturating_sub(1))
         }
-        Aim::Within(most) if crude <= most => return crude,
         Aim::Within(most) => match tries.iter().rposition(|&bound| bound <= most) {
             Some(last) => last,
             None => return crude,
@@ -205,7 +212,7 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
     };
     let at = |angles: &[f64], cells: &mut Cells<'_>| {
         for (level, &angle) in angles.iter().enumerate() {
-            cells.layout.fold(level, angle, &mut cells.buffers);
+            cells.fold(level, angle);
         }
         cells.layout.value(&cells.buffers[count]) - cells.layout.slack
     };
@@ -220,7 +227,7 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
             .collect();
         let mut value = at(&angles, cells);
         let mut step = 0.7;
-        while step > 1e-3 {
+        while step > 1e-3 && cells.points > 0 {
             let mut moved = false;
             for level in 0..count {
                 let (low, high) = span(level, cells);

@@ -99,7 +99,8 @@ impl Search<'_> {
         let mut best: Option<Found> = None;
         for round in 0..self.settings.guesses + MORE {
             let enough = round >= self.settings.guesses || self.tally.is_over();
-            if best.is_some() && enough {
+            let over = round > 0 && self.tally.is_over();
+            if over || best.is_some() && enough {
                 break;
             }
             let so_far = best.as_ref().map(|found| &found.pruned.program);

@@ -14,6 +14,11 @@ use crate::schedule::Program;
 /// two of them are what counts.
 const CLOSE: f64 = 0.1;
 
+/// Polynomials that may have all their points; more share what these have, until
+/// it is too little to look at angles at all.
+const TOGETHER: usize = 2048;
+const FEWEST: usize = 64;
+
 /// Places to climb from.
 const STARTS: usize = 2;
 
@@ -42,8 +47,9 @@ impl Extremes {
         let gradient = Gradient::of(program);
         let graph = &gradient.graph;
         let sliding = grid::sliding(graph, limits.joints());
+        let each = points.min(TOGETHER * points / graph.outputs.len().max(1));
         let closeness = Closeness {
-            points,
+            points: if each < FEWEST { 0 } else { each },
             close: CLOSE,
             starts: STARTS,
         };

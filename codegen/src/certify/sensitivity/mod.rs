@@ -71,7 +71,18 @@ pub fn rounding(
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
-    intervals::rounding(program, scalar, &[], limits, boxes)
+    rounding_with(program, scalar, &[], limits, boxes)
+}
+
+/// The same with polynomials for sines, whose errors are as they are claimed.
+pub fn rounding_with(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<Rounding> {
+    intervals::rounding(program, scalar, sines, limits, boxes)
 }
 
 /// What every bound of a program's rounding over a box needs, whatever the
