@@ -1,5 +1,5 @@
 //! The largest magnitude of a graph's outputs over a box: written out as
-//! trigonometric polynomials and at a [`grid`]; if they are too large for that,
+//! trigonometric polynomials and at a grid (`grid`); if they are too large for that,
 //! by branch and bound.
 //!
 //! - `boxes`: branch and bound
