@@ -69,8 +69,11 @@ pub(crate) fn admitted(
         let admitted: Result<Vec<Admitted>, GenerateError> = programs.iter().map(admit).collect();
         match admitted {
             Ok(admitted) => return Ok(Some(admitted)),
-            Err(GenerateError::Tolerance(_, Refusal::Above { .. }) | GenerateError::SinCos(..))
-                if index < last => {}
+            // What rounding alone forbids, the wider scalar may do.
+            Err(
+                GenerateError::Tolerance(_, Refusal::Above { .. } | Refusal::Indefinite(_))
+                | GenerateError::SinCos(..),
+            ) if index < last => {}
             Err(error) => return Err(error),
         }
     }
