@@ -65,8 +65,12 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
         }
         rows.push(row);
     }
+    let over = match states {
+        1 => "1 random state".to_owned(),
+        _ => format!("{states} random states"),
+    };
     format!(
-        "\nthe worst errors inside the limits, in u (f64 2^-53, f32 2^-24), of this many states: {states}\n{}",
+        "\nworst rounding errors over {over} inside the limits, in u (f64 2^-53, f32 2^-24)\n{}",
         output::table(&rows, 0)
     )
 }
