@@ -15,7 +15,7 @@ use dalembert_model::scene::{Scale, Tolerance};
 use super::certificate::subject::{Fineness, Subject};
 use super::certificate::{Certificate, Refuted, Split};
 use super::definite::{Indefinite, has_inertia, least_eigenvalue};
-use super::edits::Stage;
+use super::edits::{Stage, has_edits};
 use super::gauge;
 use super::input_box::{InputBox, MissingLimit};
 use super::prune::{self, Settings};
@@ -422,9 +422,10 @@ impl Admitted {
 
     /// Whether D, if it is an output and was edited, is positive definite.
     pub fn is_definite(&self) -> bool {
-        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
         let certain = |certificate: &Certificate| certificate.lambda_min.is_some();
-        !edited || !has_inertia(&self.program) || self.certificates.iter().all(certain)
+        !has_edits(&self.stages)
+            || !has_inertia(&self.program)
+            || self.certificates.iter().all(certain)
     }
 
     /// Whether every E is within its output's tolerance.

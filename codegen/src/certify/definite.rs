@@ -113,11 +113,7 @@ pub fn least_eigenvalue_with(
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
     let costs = rounding_with(program, scalar, sines, limits, 64);
-    let unedited = Stage {
-        program: program.clone(),
-        edits: Vec::new(),
-    };
-    let graph = unedited.edited(Folding::Syntactic);
+    let graph = Stage::unedited(program.clone()).edited(Folding::Syntactic);
     let outputs = lower.iter().map(|&(i, j)| graph.outputs[entry(i, j)]);
     let graph = Graph {
         outputs: outputs.collect(),

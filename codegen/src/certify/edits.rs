@@ -73,6 +73,14 @@ impl std::fmt::Display for BadEdit {
 impl std::error::Error for BadEdit {}
 
 impl Stage {
+    /// A program as it is.
+    pub fn unedited(program: Program) -> Stage {
+        Stage {
+            program,
+            edits: Vec::new(),
+        }
+    }
+
     /// Checks that every replacement exists before its place.
     ///
     /// # Errors
@@ -126,6 +134,11 @@ impl Stage {
     pub fn function(&self) -> Function {
         self.program.function
     }
+}
+
+/// Whether anything was edited.
+pub fn has_edits(stages: &[Stage]) -> bool {
+    stages.iter().any(|stage| !stage.edits.is_empty())
 }
 
 /// The errors of all stages together: edited − exact, output by output. Each
@@ -292,7 +305,8 @@ impl<'a> Run<'a> {
     }
 }
 
-fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
+/// A step's operation on values.
+pub(super) fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
     match operation {
         Operation::Add => builder.add(a, b),
         Operation::Sub => builder.sub(a, b),

@@ -113,7 +113,8 @@ pub(super) fn visit(
     Some(())
 }
 
-const fn shift(joint: usize) -> usize {
+/// Where a joint's bits are in a key.
+pub(super) const fn shift(joint: usize) -> usize {
     16 + 5 * joint
 }
 

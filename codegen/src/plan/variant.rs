@@ -6,7 +6,7 @@ use super::parse::{results, step};
 use super::{Edited, Entry};
 use crate::certify::certificate::Split;
 use crate::certify::definite::has_inertia;
-use crate::certify::edits::{Edit, Stage};
+use crate::certify::edits::{Edit, Stage, has_edits};
 use crate::certify::json::read_edit;
 use crate::schedule::Program;
 
@@ -36,8 +36,7 @@ impl Variant {
 
     /// Whether it must be known that D is still positive definite.
     fn has_edited_inertia(&self) -> bool {
-        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
-        edited && has_inertia(&self.program)
+        has_edits(&self.stages) && has_inertia(&self.program)
     }
 
     /// Reads a line; the variant is whole with the last of its bounds.
@@ -99,26 +98,27 @@ impl Variant {
 }
 
 fn bound(words: &[&str]) -> Result<Split, String> {
-    let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
-    let numbers = numbers.unwrap_or_default();
-    match numbers.as_slice() {
-        &[model, sincos, rounding] if numbers.iter().all(|x| *x >= 0.0) => Ok(Split {
-            model,
-            sincos,
-            rounding,
-        }),
+    match numbers(words)[..] {
+        [model, sincos, rounding] if model >= 0.0 && sincos >= 0.0 && rounding >= 0.0 => {
+            Ok(Split {
+                model,
+                sincos,
+                rounding,
+            })
+        }
         _ => Err("expected three numbers of zero or more".into()),
     }
 }
 
 fn eigenvalue(words: &[&str]) -> Result<f64, String> {
-    match words
-        .iter()
-        .map(|word| word.parse::<f64>())
-        .collect::<Vec<_>>()
-        .as_slice()
-    {
-        [Ok(least)] if *least > 0.0 && least.is_finite() => Ok(*least),
+    match numbers(words)[..] {
+        [least] if least > 0.0 && least.is_finite() => Ok(least),
         _ => Err("expected one number above zero".into()),
     }
+}
+
+/// The words as numbers; none if one of them is no number.
+fn numbers(words: &[&str]) -> Vec<f64> {
+    let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
+    numbers.unwrap_or_default()
 }

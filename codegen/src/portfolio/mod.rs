@@ -253,9 +253,7 @@ pub fn tuned(
             watch.is_over()
         })
     };
-    let merged = |chain: &Chain<Exact>, form: Form| {
-        trace_chain(setting, function, chain, form, Folding::Semantic).0
-    };
+    let merged = |chain: &Chain<Exact>, form| merged(setting, function, chain, form);
     let helpers = [angle_sums(setting, Sums::Products)];
     // What the search makes of a gauge is not what the gauge costs at first.
     let glance = |chain: &Chain<Exact>, form: Form| match is_over() {
@@ -374,8 +372,16 @@ pub fn gauges(setting: &Setting, gauge: &Gauge<Exact>) -> Vec<Gauge<Exact>> {
 
 /// A function in a gauge and a form, merged by fingerprint.
 pub fn in_gauge(setting: &Setting, function: Function, gauge: &Gauge<Exact>, form: Form) -> Graph {
-    let chain = Chain::new(&skeleton(setting), gauge);
-    trace_chain(setting, function, &chain, form, Folding::Semantic).0
+    merged(
+        setting,
+        function,
+        &Chain::new(&skeleton(setting), gauge),
+        form,
+    )
+}
+
+fn merged(setting: &Setting, function: Function, chain: &Chain<Exact>, form: Form) -> Graph {
+    trace_chain(setting, function, chain, form, Folding::Semantic).0
 }
 
 /// The chain's own axes, each link's, those before each group of parallel

@@ -34,7 +34,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
 use super::definite::{has_inertia, least_eigenvalue_with};
-use super::edits::Stage;
+use super::edits::{Stage, has_edits};
 use super::input_box::InputBox;
 use super::ranges::{Finding, ranges_with};
 use super::scale;
@@ -152,16 +152,12 @@ impl Certificate {
     /// itself, as if that were the full model.
     #[must_use]
     pub fn of_rounding(&self) -> Certificate {
-        let own = Stage {
-            program: self.emitted.clone(),
-            edits: Vec::new(),
-        };
         let bounds = self.bounds.iter().map(|bound| Split {
             model: 0.0,
             ..*bound
         });
         Certificate {
-            stages: vec![own],
+            stages: vec![Stage::unedited(self.emitted.clone())],
             bounds: bounds.collect(),
             ..self.clone()
         }
@@ -288,8 +284,7 @@ impl Certificate {
 
     /// D, if it was edited, must be claimed to be positive definite, and be.
     fn check_definite(&self) -> Result<(), Refuted> {
-        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
-        if self.lambda_min.is_none() && !(edited && has_inertia(&self.emitted)) {
+        if self.lambda_min.is_none() && !(has_edits(&self.stages) && has_inertia(&self.emitted)) {
             return Ok(());
         }
         let claimed = self.lambda_min.unwrap_or(0.0);

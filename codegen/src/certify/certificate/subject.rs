@@ -5,7 +5,7 @@ use dalembert_model::scene::Scale;
 use super::{Certificate, Split};
 use crate::certify::bound::{Budget, magnitudes, relative};
 use crate::certify::definite::{has_inertia, least_eigenvalue_with};
-use crate::certify::edits::{Stage, difference};
+use crate::certify::edits::{Stage, difference, has_edits};
 use crate::certify::input_box::InputBox;
 use crate::certify::sensitivity::Sensitivity;
 use crate::emit::{MathPath, ScalarType, function};
@@ -68,7 +68,7 @@ impl Subject<'_> {
     /// The largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
     pub fn model(&self, fineness: Fineness) -> Vec<f64> {
-        if self.stages.iter().all(|stage| stage.edits.is_empty()) {
+        if !has_edits(self.stages) {
             return vec![0.0; self.scales.len()];
         }
         let error = difference(self.stages);
@@ -101,8 +101,7 @@ impl Subject<'_> {
     /// A lower bound of the least eigenvalue of S D S, if D is an output and
     /// something was edited; `None` as well if there is none above zero.
     pub fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
-        let edited = self.stages.iter().any(|stage| !stage.edits.is_empty());
-        if !edited || !has_inertia(self.emitted) {
+        if !has_edits(self.stages) || !has_inertia(self.emitted) {
             return None;
         }
         least_eigenvalue_with(self.emitted, scalar, self.sines(scalar), self.limits).ok()
@@ -111,10 +110,6 @@ impl Subject<'_> {
     /// The claim for a scalar with these bounds, whether they hold or not;
     /// nothing is claimed of the least eigenvalue.
     pub fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
-        let exact = Stage {
-            program: self.emitted.clone(),
-            edits: Vec::new(),
-        };
         Certificate {
             robot: self.setting.robot().name.clone(),
             input: input_hash(self.setting.robot()),
@@ -124,7 +119,7 @@ impl Subject<'_> {
             scales: self.scales.to_vec(),
             relative_to: self.relative_to,
             stages: match self.stages {
-                [] => vec![exact],
+                [] => vec![Stage::unedited(self.emitted.clone())],
                 stages => stages.to_vec(),
             },
             emitted: self.emitted.clone(),

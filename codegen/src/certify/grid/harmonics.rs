@@ -10,7 +10,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::certify::expand::{Key, Polynomial, powers};
+use crate::certify::expand::{Key, Polynomial, powers, shift};
 use crate::certify::interval::Interval;
 
 /// Of a key whose joints have multiples in place of powers: the multiple k of
@@ -29,10 +29,6 @@ pub(super) fn unphased(key: Key, joints: usize) -> Key {
 /// The bits of a joint in a key.
 pub(super) fn bits(joint: usize) -> Key {
     31u128 << shift(joint)
-}
-
-const fn shift(joint: usize) -> usize {
-    16 + 5 * joint
 }
 
 /// The polynomial in multiples of its angles: in each key a joint's power of

@@ -27,7 +27,7 @@ mod search;
 mod tally;
 
 use super::bound::Budget;
-use super::edits::Stage;
+use super::edits::{Stage, has_edits};
 use super::input_box::InputBox;
 use crate::schedule::Program;
 use crate::simplify::Effort;
@@ -167,10 +167,7 @@ pub fn watched(
     let mut best = match start {
         None => nothing.clone(),
         Some(start) => Pruned {
-            stages: vec![Stage {
-                program: program.clone(),
-                edits: Vec::new(),
-            }],
+            stages: vec![Stage::unedited(program.clone())],
             program: start.clone(),
             ..nothing.clone()
         },
@@ -197,8 +194,7 @@ pub fn watched(
             None => break,
         }
     }
-    let edited = best.stages.iter().any(|stage| !stage.edits.is_empty());
-    match edited && search::cost(&best.program) < search::cost(program) {
+    match has_edits(&best.stages) && search::cost(&best.program) < search::cost(program) {
         true => best,
         false => nothing,
     }

@@ -7,7 +7,7 @@ use super::tally::Tally;
 use super::{Pruned, Settings};
 use crate::certify::bound;
 use crate::certify::definite::{has_inertia, least_eigenvalue};
-use crate::certify::edits::{Stage, difference};
+use crate::certify::edits::{Stage, difference, has_edits};
 use crate::certify::input_box::InputBox;
 use crate::certify::interval::Interval;
 use crate::certify::sample;
@@ -77,8 +77,7 @@ impl Search<'_> {
 
     /// The cheapest variant found, if it is cheaper than what was there.
     pub(super) fn run(&self, positions: &mut Vec<Vec<f64>>, random: &mut Random) -> Option<Pruned> {
-        let edited = self.base.stages.iter().any(|stage| !stage.edits.is_empty());
-        if self.tally.is_over() && edited {
+        if self.tally.is_over() && has_edits(&self.base.stages) {
             return None;
         }
         // Outputs that use up their allowance are dear.

@@ -3,6 +3,7 @@
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
+use crate::certify::edits::operate;
 use crate::graph::builder::Value;
 use crate::graph::{Builder, Edge, Folding, Graph, Input};
 use crate::schedule::{Operand, Operation, Program};
@@ -32,11 +33,7 @@ impl Gradient {
         for step in &program.steps {
             let x = read(&mut builder, &values, &step.left);
             let y = read(&mut builder, &values, &step.right);
-            values.push(match step.operation {
-                Operation::Add => builder.add(&x, &y),
-                Operation::Sub => builder.sub(&x, &y),
-                Operation::Mul => builder.mul(&x, &y),
-            });
+            values.push(operate(&mut builder, step.operation, &x, &y));
         }
         let outputs = program.outputs.iter();
         let adjoints: Vec<_> = outputs

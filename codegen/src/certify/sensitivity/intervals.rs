@@ -27,17 +27,13 @@ use crate::sincos::proof::Errors;
 pub(super) fn rounding(
     program: &Program,
     scalar: ScalarType,
-    sines: &[AngleKernel],
+    constants: &Constants,
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
     let mut worst = vec![Rounding::default(); program.outputs.len()];
-    let constants = Constants::of(program, scalar, sines);
     for sub in sub_boxes(program, limits, boxes) {
-        for (worst, here) in worst
-            .iter_mut()
-            .zip(over(program, scalar, &constants, &sub))
-        {
+        for (worst, here) in worst.iter_mut().zip(over(program, scalar, constants, &sub)) {
             *worst = worst.max(here);
         }
     }

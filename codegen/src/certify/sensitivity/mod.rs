@@ -82,7 +82,8 @@ pub fn rounding_with(
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
-    intervals::rounding(program, scalar, sines, limits, boxes)
+    let constants = Constants::of(program, scalar, sines);
+    intervals::rounding(program, scalar, &constants, limits, boxes)
 }
 
 /// What every bound of a program's rounding over a box needs, whatever the
@@ -129,11 +130,12 @@ impl Sensitivity {
     /// they are claimed; angles that are not among them are libm's.
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
         let (program, limits) = (&self.program, &self.limits);
-        let coarse = intervals::rounding(program, scalar, sines, limits, self.fineness.boxes);
+        let constants = Constants::of(program, scalar, sines);
+        let boxes = self.fineness.boxes;
+        let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
         let Some(extremes) = &self.extremes else {
             return self.distinct.spread(&coarse);
         };
-        let constants = Constants::of(program, scalar, sines);
         let fine = magnitudes::rounding(program, scalar, &constants, limits, extremes);
         let pairs = coarse.into_iter().zip(fine);
         let least: Vec<Rounding> = pairs.map(|(a, b)| a.min(b)).collect();

@@ -6,12 +6,6 @@ use crate::certify::prune::columns::Nodes;
 use crate::certify::prune::fit::Fit;
 
 impl Greedy<'_> {
-    /// The worst sampled error against its allowance.
-    pub(in crate::certify::prune) fn worst(&self, state: &State) -> f64 {
-        let columns = state.nodes.run(&state.edits);
-        self.potential(&self.errors(&state.nodes, &columns)).1
-    }
-
     /// The worst sampled error of each output against its allowance.
     pub(in crate::certify::prune) fn relative(&self, state: &State) -> Vec<f64> {
         let errors = self.errors(&state.nodes, &state.nodes.run(&state.edits));

@@ -130,8 +130,9 @@ impl<'a> Greedy<'a> {
                 let node = ranked[best].node;
                 let kept = state.nodes.ops.clone();
                 state.edits[node] = Some(ranked[best].value);
-                let fresh = self.fit(state, &state.nodes.run(&state.edits));
-                columns = self.correct(state, &fresh);
+                let edited = state.nodes.run(&state.edits);
+                let fresh = self.fit(state, &edited);
+                columns = self.correct(state, edited, &fresh);
                 if self.potential(&self.errors(&state.nodes, &columns)).1 > 1.0 {
                     // Constants cannot make up for it as hoped.
                     state.edits[node] = None;

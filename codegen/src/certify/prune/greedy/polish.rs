@@ -11,25 +11,24 @@ impl Greedy<'_> {
             return;
         }
         self.price(state);
-        let mut best = (self.worst(state), state.nodes.ops.clone());
+        let mut columns = state.nodes.run(&state.edits);
+        let worst = self.potential(&self.errors(&state.nodes, &columns)).1;
+        let mut best = (worst, state.nodes.ops.clone());
         for _ in 0..rounds {
-            let columns = state.nodes.run(&state.edits);
             let fit = self.fit(state, &columns);
-            self.correct(state, &fit);
-            let worst = self.worst(state);
+            columns = self.correct(state, columns, &fit);
+            let errors = self.errors(&state.nodes, &columns);
+            let worst = self.potential(&errors).1;
             if worst < best.0 {
                 best = (worst, state.nodes.ops.clone());
             }
-            self.reweigh(state);
+            self.reweigh(state, &errors, worst);
         }
         state.nodes.ops = best.1;
     }
 
     /// Rows with large errors count more next time (Lawson).
-    fn reweigh(&mut self, state: &State) {
-        let columns = state.nodes.run(&state.edits);
-        let errors = self.errors(&state.nodes, &columns);
-        let (_, worst) = self.potential(&errors);
+    fn reweigh(&mut self, state: &State, errors: &[f64], worst: f64) {
         if worst <= 0.0 {
             return;
         }
@@ -71,9 +70,14 @@ impl Greedy<'_> {
         })
     }
 
-    /// Changes constants against the errors of the edits; the new columns.
-    pub(super) fn correct(&self, state: &mut State, fit: &Option<Fit>) -> Vec<f64> {
-        let columns = state.nodes.run(&state.edits);
+    /// Changes constants against the errors of the edits; the new columns from
+    /// the present ones.
+    pub(super) fn correct(
+        &self,
+        state: &mut State,
+        columns: Vec<f64>,
+        fit: &Option<Fit>,
+    ) -> Vec<f64> {
         let Some(fit) = fit else { return columns };
         let mut errors = self.errors(&state.nodes, &columns);
         let before = self.potential(&errors).1;
