@@ -81,15 +81,7 @@ pub(in crate::certify) fn least_eigenvalue(
     let accept =
         |values: &[f64], bound: f64| exceeds(matrix(values), n, (most - bound).next_up() + lost);
     let whole = layout.part.contains(&true).then_some(2.0 * most);
-    let mut cells = Cells {
-        layout: &layout,
-        buffers: layout.buffers(),
-        accept: &accept,
-        crude: false,
-        whole,
-        ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
-        points,
-    };
+    let mut cells = Cells::new(&layout, limits, whole, &accept);
     let seen = sampled(&mut cells, &matrix, n, most);
     for part in PARTS {
         cells.points = points;
@@ -112,9 +104,9 @@ fn sampled(cells: &mut Cells<'_>, matrix: &dyn Fn(&[f64]) -> Vec<f64>, n: usize,
                 None => (0.0, 2.0 * std::f64::consts::PI),
             };
             let angle = low + width * random.unit();
-            cells.layout.fold(level, angle, &mut cells.buffers);
+            cells.place(level, angle);
         }
-        let here = matrix(&cells.buffers[last]);
+        let here = matrix(cells.values(last));
         while least > 1e-12 * most && !exceeds(here.clone(), n, least) {
             least *= 0.97;
         }

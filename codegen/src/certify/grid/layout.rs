@@ -9,6 +9,12 @@ use crate::certify::expand::Key;
 use crate::certify::input_box::InputBox;
 use crate::certify::interval::Interval;
 
+/// Angles that are put in side by side.
+pub(super) const LANES: usize = 8;
+
+/// Multiples of an angle up to the 15th: their cosines and sines, and 1.
+const BASES: usize = 32;
+
 /// Trigonometric polynomials in multiples of their angles, angle after angle.
 pub(super) struct Layout {
     pub joints: Vec<usize>,
@@ -16,8 +22,9 @@ pub(super) struct Layout {
     /// Of each joint: the multiples that occur, and whether of the sine.
     bases: Vec<Vec<(u32, bool)>>,
     pub coefficients: Vec<f64>,
-    /// Of each joint: (from, base, to), and how many values come out.
-    folds: Vec<(Vec<[u32; 3]>, usize)>,
+    /// Of each joint: (base, to) of each value that goes in, and how many come
+    /// out.
+    folds: Vec<(Vec<[u32; 2]>, usize)>,
     /// Of each joint: values that go in and differ by sine and cosine alone,
     /// one after the other: where they end, and how large their rates are.
     groups: Vec<Vec<(u32, f64)>>,
@@ -90,14 +97,14 @@ impl Layout {
             after.dedup();
             let places: BTreeMap<Key, u32> = after.iter().copied().zip(0..).collect();
             let mut fold = Vec::new();
-            for (from, &key) in terms.iter().enumerate() {
+            for &key in &terms {
                 let of = multiple(key, joint);
                 let base = bases[k].iter().position(|&b| b == of);
                 let base = base.unwrap_or_else(|| {
                     bases[k].push(of);
                     bases[k].len() - 1
                 });
-                fold.push([from as u32, base as u32, places[&rest(key)]]);
+                fold.push([base as u32, places[&rest(key)]]);
             }
             terms = after;
             folds.push((fold, terms.len()));
@@ -120,16 +127,12 @@ impl Layout {
         }
     }
 
-    /// How many values go into a joint.
-    pub(super) fn terms(&self, level: usize) -> usize {
-        self.folds[level].0.len()
-    }
-
-    /// Room for the values before and after each joint.
-    pub(super) fn buffers(&self) -> Vec<Vec<f64>> {
-        let mut buffers: Vec<Vec<f64>> = vec![self.coefficients.clone()];
-        buffers.extend(self.folds.iter().map(|(_, len)| vec![0.0; *len]));
-        buffers
+    /// How many values there are before a joint, or after the last one.
+    pub(super) fn len(&self, level: usize) -> usize {
+        match level.checked_sub(1) {
+            None => self.coefficients.len(),
+            Some(before) => self.folds[before].1,
+        }
     }
 
     /// A bound without looking at angles: each group's is the length of its
@@ -149,23 +152,50 @@ impl Layout {
         sum * (1.0 + 1e-9)
     }
 
-    /// Puts an angle into the values before a joint.
-    pub(super) fn fold(&self, level: usize, angle: f64, buffers: &mut [Vec<f64>]) {
-        let (sin, cos) = libm::sincos(angle);
-        let mut multiples = [(0.0, 1.0); 16];
-        for k in 1..=(self.degrees[level] as usize).min(15) {
-            let (s, c) = multiples[k - 1];
-            multiples[k] = (s * cos + c * sin, c * cos - s * sin);
+    /// Puts angles into the values before a joint: a column of values each joins
+    /// those in `after`.
+    pub(super) fn fold(&self, level: usize, angles: &[f64], before: &[f64], after: &mut Vec<f64>) {
+        for angles in angles.chunks(LANES) {
+            match angles.len() {
+                1 => self.columns::<1>(level, angles, before, after),
+                2..=4 => self.columns::<4>(level, angles, before, after),
+                _ => self.columns::<LANES>(level, angles, before, after),
+            }
         }
-        let mut row = [0.0; 32];
-        for (value, &(k, sine)) in row.iter_mut().zip(&self.bases[level]) {
-            let (s, c) = multiples[k as usize];
-            *value = if sine { s } else { c };
+    }
+
+    /// Up to W angles side by side: each sum is the one that an angle by itself
+    /// would have.
+    fn columns<const W: usize>(
+        &self,
+        level: usize,
+        angles: &[f64],
+        before: &[f64],
+        after: &mut Vec<f64>,
+    ) {
+        let mut rows = [[0.0; W]; BASES];
+        for (lane, &angle) in angles.iter().enumerate() {
+            let (sin, cos) = libm::sincos(angle);
+            let mut multiples = [(0.0, 1.0); 16];
+            for k in 1..=(self.degrees[level] as usize).min(15) {
+                let (s, c) = multiples[k - 1];
+                multiples[k] = (s * cos + c * sin, c * cos - s * sin);
+            }
+            for (row, &(k, sine)) in rows.iter_mut().zip(&self.bases[level]) {
+                let (s, c) = multiples[k as usize];
+                row[lane] = if sine { s } else { c };
+            }
         }
-        let (from, rest) = buffers.split_at_mut(level + 1);
-        rest[0].fill(0.0);
-        for &[x, base, to] in &self.folds[level].0 {
-            rest[0][to as usize] += from[level][x as usize] * row[base as usize];
+        let (fold, len) = &self.folds[level];
+        let mut sums = vec![[0.0; W]; *len];
+        for (&x, &[base, to]) in before.iter().zip(fold) {
+            let row = &rows[base as usize % BASES];
+            for (sum, value) in sums[to as usize].iter_mut().zip(row) {
+                *sum += x * value;
+            }
+        }
+        for lane in 0..angles.len() {
+            after.extend(sums.iter().map(|sums| sums[lane]));
         }
     }
 

@@ -144,23 +144,17 @@ fn bound(
     closeness: Closeness,
 ) -> f64 {
     let points = closeness.points;
-    let buffers = layout.buffers();
-    let crude = layout.crude(0, &buffers[0]);
+    let crude = layout.crude(0, &layout.coefficients);
     let enough = match aim {
         Aim::Least(goal) | Aim::Within(goal) => crude <= goal,
     };
     if points == 0 || enough {
         return crude;
     }
-    let mut cells = Cells {
-        layout,
-        buffers,
-        accept: &|values, bound| layout.value(values) <= bound,
-        crude: true,
-        whole,
-        ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
-        points,
-    };
+    let accept = |values: &[f64], bound| layout.value(values) <= bound;
+    let mut cells = Cells::new(layout, limits, whole, &accept);
+    cells.crude = true;
+    cells.points = points;
     let least = climb(&mut cells, closeness.starts);
     let mut tries = Vec::new();
     let mut more = closeness.close;
@@ -210,11 +204,16 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
         Some((range, _)) => (range.low(), range.high()),
         None => (0.0, 2.0 * PI),
     };
-    let at = |angles: &[f64], cells: &mut Cells<'_>| {
+    // The first angles of which the values are still there need not be put in;
+    // they count all the same: points say where a climb ends, not how it is done.
+    let at = |angles: &[f64], known: usize, cells: &mut Cells<'_>| {
         for (level, &angle) in angles.iter().enumerate() {
-            cells.fold(level, angle);
+            cells.charge(level);
+            if level >= known {
+                cells.place(level, angle);
+            }
         }
-        cells.layout.value(&cells.buffers[count]) - cells.layout.slack
+        cells.layout.value(cells.values(count)) - cells.layout.slack
     };
     let mut best = 0.0;
     let mut random = Random::new(0x9d1d);
@@ -225,7 +224,7 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
                 low + (high - low) * random.unit()
             })
             .collect();
-        let mut value = at(&angles, cells);
+        let (mut value, mut known) = (at(&angles, 0, cells), count);
         let mut step = 0.7;
         while step > 1e-3 && cells.points > 0 {
             let mut moved = false;
@@ -237,11 +236,11 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
                         Some(_) => (old + sign * step).clamp(low, high),
                         None => old + sign * step,
                     };
-                    let next = at(&angles, cells);
+                    let next = at(&angles, known.min(level), cells);
                     if next > value {
-                        (value, moved) = (next, true);
+                        (value, moved, known) = (next, true, count);
                     } else {
-                        angles[level] = old;
+                        (angles[level], known) = (old, level);
                     }
                 }
             }
