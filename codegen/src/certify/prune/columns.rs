@@ -20,6 +20,16 @@ pub(super) enum Value {
     Known(f64),
 }
 
+impl Value {
+    /// Whether it is the same node, zero too, or another constant too.
+    pub(super) fn is_like(&self, other: &Value) -> bool {
+        match (self, other) {
+            (Value::Known(a), Value::Known(b)) => (*a == 0.0) == (*b == 0.0),
+            _ => self == other,
+        }
+    }
+}
+
 /// One operation on nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Op {

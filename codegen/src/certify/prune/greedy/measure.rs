@@ -3,7 +3,22 @@
 
 use super::{Greedy, State, TINY};
 use crate::certify::prune::columns::Nodes;
-use crate::certify::prune::fit::Fit;
+use crate::certify::prune::fit::{Fit, Trial};
+
+/// How large errors are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Potential {
+    /// Σ price·error/allowance.
+    pub sum: f64,
+    /// The worst error/allowance.
+    pub worst: f64,
+}
+
+/// An edited program whose constants are to be corrected.
+pub(super) struct Attempt {
+    pub potential: Potential,
+    trial: Option<Trial>,
+}
 
 impl Greedy<'_> {
     /// The worst sampled error of each output against its allowance.
@@ -21,33 +36,48 @@ impl Greedy<'_> {
             .collect()
     }
 
-    pub(super) fn settled(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> f64 {
-        self.settled_both(state, columns, fit).0
+    /// The potential after constants are corrected.
+    pub(super) fn settled(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Potential {
+        let mut attempts = [self.attempt(state, columns, fit)];
+        self.make_up(fit, &mut attempts);
+        attempts[0].potential
     }
 
-    /// The potential after constants are corrected.
-    pub(super) fn settled_both(
-        &self,
-        state: &State,
-        columns: &[f64],
-        fit: &Option<Fit>,
-    ) -> (f64, f64) {
+    /// What is to be settled: the program that was priced last.
+    pub(super) fn attempt(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Attempt {
         let mut errors = self.errors(&state.nodes, columns);
-        if let Some(fit) = fit {
-            let plain = self.potential(&errors);
+        let potential = self.potential(&errors);
+        let trial = fit.as_ref().map(|fit| {
             for (error, weight) in errors.iter_mut().zip(&self.weights) {
                 *error *= weight;
             }
             let live = self.scratch.live();
             let inputs = state.nodes.inputs.len();
-            fit.project(&mut errors, |op| !live[inputs + op]);
+            Trial {
+                errors,
+                gone: fit.of_ops(|op| !live[inputs + op]),
+            }
+        });
+        Attempt { potential, trial }
+    }
+
+    /// Corrects constants where that is better.
+    pub(super) fn make_up(&self, fit: &Option<Fit>, attempts: &mut [Attempt]) {
+        let Some(fit) = fit else { return };
+        let mut trials: Vec<&mut Trial> = attempts.iter_mut().flat_map(|a| &mut a.trial).collect();
+        fit.settle(&mut trials);
+        for Attempt { potential, trial } in attempts {
+            let Some(Trial { errors, .. }) = trial else {
+                continue;
+            };
             for (error, weight) in errors.iter_mut().zip(&self.weights) {
                 *error /= weight;
             }
-            let settled = self.potential(&errors);
-            return if plain.1 < settled.1 { plain } else { settled };
+            let settled = self.potential(errors);
+            if settled.worst <= potential.worst {
+                *potential = settled;
+            }
         }
-        self.potential(&errors)
     }
 
     /// Output after output, position after position: monomials.
@@ -60,8 +90,8 @@ impl Greedy<'_> {
         errors
     }
 
-    /// Σ price·error/allowance, and the worst error/allowance.
-    pub(super) fn potential(&self, errors: &[f64]) -> (f64, f64) {
+    /// How large errors are, against allowances.
+    pub(super) fn potential(&self, errors: &[f64]) -> Potential {
         let m = errors.len() / self.allowances.len();
         let (mut sum, mut worst) = (0.0, 0.0f64);
         let outputs = self.allowances.iter().zip(&self.prices);
@@ -76,6 +106,6 @@ impl Greedy<'_> {
             sum += price * relative;
             worst = worst.max(relative);
         }
-        (sum, worst)
+        Potential { sum, worst }
     }
 }

@@ -38,6 +38,8 @@ pub(super) struct Greedy<'a> {
     scratch: Scratch,
     trial: Vec<f64>,
     dirty: Vec<bool>,
+    /// What cannot stand in each node's place.
+    hopeless: Vec<Vec<Value>>,
     /// What an output's error weighs in the ranking.
     prices: Vec<f64>,
     /// Whether constants are corrected.
@@ -86,6 +88,7 @@ impl<'a> Greedy<'a> {
             scratch: Scratch::default(),
             trial: vec![0.0; nodes.len() * m],
             dirty: Vec::new(),
+            hopeless: vec![Vec::new(); nodes.len()],
             prices,
             refit: settings.refit,
             alike: settings.alike,
@@ -111,29 +114,32 @@ impl<'a> Greedy<'a> {
             let mut taken = 0;
             while taken < FRESH {
                 self.mirror(&columns);
-                let before = self.settled(state, &columns, &fit);
+                let before = self.settled(state, &columns, &fit).sum;
                 let paid = self.price(state);
                 let live = self.scratch.live().to_vec();
                 ranked
                     .retain(|c| state.edits[c.node].is_none() && live[c.node] && !refused[c.node]);
-                let mut best: Option<usize> = None;
-                for k in 0..ranked.len().min(AGAIN) {
-                    let (node, value) = (ranked[k].node, ranked[k].value);
-                    let score = self.score(state, &columns, &fit, (node, value), (before, paid));
-                    ranked[k].score =
+                let count = AGAIN.min(ranked.len());
+                let first = &mut ranked[..count];
+                let again: Vec<_> = first.iter().map(|c| (c.node, c.value)).collect();
+                let scores = self.scores(state, &columns, &fit, &again, (before, paid));
+                let mut best: Option<Ranked> = None;
+                for (candidate, score) in first.iter_mut().zip(scores) {
+                    candidate.score =
                         score.unwrap_or(f64::INFINITY) * (1.0 + noise * random.unit());
-                    if ranked[k].score < best.map_or(f64::INFINITY, |b| ranked[b].score) {
-                        best = Some(k);
+                    if candidate.score < best.map_or(f64::INFINITY, |best| best.score) {
+                        best = Some(*candidate);
                     }
                 }
-                let Some(best) = best else { break };
-                let node = ranked[best].node;
+                let Some(Ranked { node, value, .. }) = best else {
+                    break;
+                };
                 let kept = state.nodes.ops.clone();
-                state.edits[node] = Some(ranked[best].value);
+                state.edits[node] = Some(value);
                 let edited = state.nodes.run(&state.edits);
                 let fresh = self.fit(state, &edited);
                 columns = self.correct(state, edited, &fresh);
-                if self.potential(&self.errors(&state.nodes, &columns)).1 > 1.0 {
+                if self.potential(&self.errors(&state.nodes, &columns)).worst > 1.0 {
                     // Constants cannot make up for it as hoped.
                     state.edits[node] = None;
                     state.nodes.ops = kept;

@@ -12,13 +12,13 @@ impl Greedy<'_> {
         }
         self.price(state);
         let mut columns = state.nodes.run(&state.edits);
-        let worst = self.potential(&self.errors(&state.nodes, &columns)).1;
+        let worst = self.potential(&self.errors(&state.nodes, &columns)).worst;
         let mut best = (worst, state.nodes.ops.clone());
         for _ in 0..rounds {
             let fit = self.fit(state, &columns);
             columns = self.correct(state, columns, &fit);
             let errors = self.errors(&state.nodes, &columns);
-            let worst = self.potential(&errors).1;
+            let worst = self.potential(&errors).worst;
             if worst < best.0 {
                 best = (worst, state.nodes.ops.clone());
             }
@@ -80,7 +80,7 @@ impl Greedy<'_> {
     ) -> Vec<f64> {
         let Some(fit) = fit else { return columns };
         let mut errors = self.errors(&state.nodes, &columns);
-        let before = self.potential(&errors).1;
+        let before = self.potential(&errors).worst;
         for (error, weight) in errors.iter_mut().zip(&self.weights) {
             *error *= weight;
         }
@@ -93,7 +93,7 @@ impl Greedy<'_> {
             }
         }
         let after = state.nodes.run(&state.edits);
-        let worst = self.potential(&self.errors(&state.nodes, &after)).1;
+        let worst = self.potential(&self.errors(&state.nodes, &after)).worst;
         if worst < before || worst <= 1.0 && before <= 1.0 {
             return after;
         }

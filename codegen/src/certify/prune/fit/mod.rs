@@ -1,0 +1,220 @@
+//! Constants corrected for what was left out: least squares.
+//!
+//! A constant may take any value at no cost. To first order the outputs'
+//! errors at the samples are E + J·δ with δ the changes of the constants and
+//! J from [`adjoints`]. With Cholesky's factor of JᵀJ, what no change of
+//! constants takes away from E costs two products with J: quick enough to rank
+//! every candidate by, above all if candidates share them.
+//!
+//! - this file: J, and what the constants leave
+//! - `adjoints`: reverse differentiation, sample by sample
+//! - `products`: J with many errors side by side
+
+mod adjoints;
+mod products;
+
+use super::columns::{Nodes, Value};
+use super::motions::Motions;
+use crate::schedule::Operation;
+use adjoints::adjoints;
+pub(super) use products::{LANES, dot};
+use products::{gram, subtract, transposed};
+
+/// What a change of a constant by itself weighs, against errors in units of
+/// their allowance: changes that are large and undo each other go wrong
+/// where J changes with them. It also keeps JᵀJ far from singular.
+const INERTIA: f64 = 3.0;
+
+/// What the constants can change.
+pub(super) struct Fit {
+    /// Which constant each column of J belongs to: op, and whether it is the
+    /// right operand.
+    places: Vec<(usize, bool)>,
+    /// J, weighted, without what the other columns can do by themselves.
+    columns: Vec<Vec<f64>>,
+    /// R of JᵀJ + inertia = RᵀR, column by column.
+    factor: Vec<Vec<f64>>,
+}
+
+/// Weighted errors, and what constants leave of them.
+pub(super) struct Trial {
+    pub errors: Vec<f64>,
+    /// The columns of constants that cannot change.
+    pub gone: Vec<usize>,
+}
+
+impl Fit {
+    /// From the columns of a program under edits; `weights` of rows.
+    pub(super) fn new(
+        nodes: &Nodes,
+        edits: &[Option<Value>],
+        live: &[bool],
+        columns: &[f64],
+        motions: &Motions,
+        weights: &[f64],
+    ) -> Fit {
+        let mut all = Vec::new();
+        let adjoints = adjoints(nodes, edits, columns);
+        let (m, inputs) = (nodes.samples, nodes.inputs.len());
+        let (stride, outputs) = (nodes.len() * m, nodes.outputs.len());
+        for (index, op) in nodes.ops.iter().enumerate() {
+            let node = inputs + index;
+            if !live[node] || edits[node].is_some() {
+                continue;
+            }
+            let (right, other, constant) = match (op.left, op.right) {
+                (Value::Known(c), Value::Node(other, _)) => (false, other as usize, c),
+                (Value::Node(other, _), Value::Known(c)) => (true, other as usize, c),
+                _ => continue,
+            };
+            let minus = op.operation == Operation::Sub && right;
+            let mut column = vec![0.0; outputs * m];
+            for output in 0..outputs {
+                let adjoint = &adjoints[output * stride + node * m..][..m];
+                let out = &mut column[output * m..][..m];
+                let factor = &columns[other * m..][..m];
+                for ((out, adjoint), factor) in out.iter_mut().zip(adjoint).zip(factor) {
+                    *out = match op.operation {
+                        Operation::Mul => adjoint * factor,
+                        _ if minus => -adjoint,
+                        _ => *adjoint,
+                    };
+                }
+            }
+            motions.monomials(&mut column);
+            for (x, w) in column.iter_mut().zip(weights) {
+                *x *= w;
+            }
+            let inertia = INERTIA / constant.abs().max(1e-9);
+            all.push(((index, right), column, inertia));
+        }
+        Fit::of(all)
+    }
+
+    /// From J's columns and the inertia of each.
+    fn of(all: Vec<((usize, bool), Vec<f64>, f64)>) -> Fit {
+        let mut fit = Fit {
+            places: Vec::new(),
+            columns: Vec::new(),
+            factor: Vec::new(),
+        };
+        let mut kept: Vec<usize> = Vec::new();
+        let columns: Vec<&[f64]> = all.iter().map(|(_, column, _)| &column[..]).collect();
+        let mut gram = gram(&columns);
+        for (row, (_, _, inertia)) in gram.iter_mut().zip(&all) {
+            if let Some(diagonal) = row.last_mut() {
+                *diagonal += inertia * inertia;
+            }
+        }
+        for (index, row) in gram.iter().enumerate() {
+            let mut entries: Vec<f64> = Vec::with_capacity(kept.len() + 1);
+            for (column, &other) in fit.factor.iter().zip(&kept) {
+                let known = dot(&entries, &column[..entries.len()]);
+                entries.push((row[other] - known) / column[entries.len()]);
+            }
+            let left = row[index] - dot(&entries, &entries);
+            if left > 1e-12 * row[index] {
+                entries.push(left.sqrt());
+                fit.factor.push(entries);
+                kept.push(index);
+            }
+        }
+        for (index, (place, column, _)) in all.into_iter().enumerate() {
+            if kept.binary_search(&index).is_ok() {
+                fit.places.push(place);
+                fit.columns.push(column);
+            }
+        }
+        fit
+    }
+
+    /// The columns of the constants of some operations.
+    pub(super) fn of_ops(&self, which: impl Fn(usize) -> bool) -> Vec<usize> {
+        let places = self.places.iter().enumerate();
+        let of = places.filter(|(_, (op, _))| which(*op));
+        of.map(|(column, _)| column).collect()
+    }
+
+    /// Takes away what constants can take away.
+    pub(super) fn settle(&self, trials: &mut [&mut Trial]) {
+        for trials in trials.chunks_mut(LANES) {
+            let rows = trials.first().map_or(0, |trial| trial.errors.len());
+            let mut errors = vec![[0.0; LANES]; rows];
+            for (lane, trial) in trials.iter().enumerate() {
+                for (row, x) in errors.iter_mut().zip(&trial.errors) {
+                    row[lane] = *x;
+                }
+            }
+            let products = transposed(&self.columns, &errors);
+            let mut changes = vec![[0.0; LANES]; products.len()];
+            for (lane, trial) in trials.iter().enumerate() {
+                let products = products.iter().map(|y| y[lane]).collect();
+                let least = self.without(self.solve(products), &trial.gone);
+                for (row, x) in changes.iter_mut().zip(least) {
+                    row[lane] = x;
+                }
+            }
+            subtract(&self.columns, &changes, &mut errors);
+            for (lane, trial) in trials.iter_mut().enumerate() {
+                for (x, row) in trial.errors.iter_mut().zip(&errors) {
+                    *x = row[lane];
+                }
+            }
+        }
+    }
+
+    /// The changes of constants that do so, none gone.
+    pub(super) fn changes(&self, errors: &[f64]) -> Vec<((usize, bool), f64)> {
+        let products = self.columns.iter().map(|column| dot(column, errors));
+        let least = self.solve(products.collect());
+        let places = self.places.iter().copied();
+        places.zip(least.iter().map(|x| -x)).collect()
+    }
+
+    /// (JᵀJ + inertia)⁻¹ y.
+    fn solve(&self, mut y: Vec<f64>) -> Vec<f64> {
+        // Rᵀ z = y, then R x = z.
+        for (k, column) in self.factor.iter().enumerate() {
+            y[k] = (y[k] - dot(&column[..k], &y[..k])) / column[k];
+        }
+        for (k, column) in self.factor.iter().enumerate().rev() {
+            let x = y[k] / column[k];
+            add(&mut y[..k], -x, column);
+            y[k] = x;
+        }
+        y
+    }
+
+    /// The least squares if some changes are zero, from those if none is: with S
+    /// the inverse of JᵀJ + inertia and G what is gone, x − S_G (S_GG)⁻¹ x_G.
+    fn without(&self, mut x: Vec<f64>, gone: &[usize]) -> Vec<f64> {
+        // Gauss's elimination: a pivot is one at its own column, and zero at
+        // those before.
+        let mut pivots: Vec<(usize, Vec<f64>)> = Vec::new();
+        for &column in gone {
+            let mut unit = vec![0.0; self.columns.len()];
+            unit[column] = 1.0;
+            let mut pivot = self.solve(unit);
+            for (other, before) in &pivots {
+                let part = pivot[*other];
+                add(&mut pivot, -part, before);
+                pivot[*other] = 0.0;
+            }
+            let size = pivot[column];
+            if size > 0.0 {
+                pivot.iter_mut().for_each(|x| *x /= size);
+                let part = x[column];
+                add(&mut x, -part, &pivot);
+                pivots.push((column, pivot));
+            }
+            x[column] = 0.0;
+        }
+        x
+    }
+}
+
+fn add(a: &mut [f64], by: f64, b: &[f64]) {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += by * b;
+    }
+}
