@@ -15,7 +15,7 @@ use dalembert_codegen::plan::SceneKey;
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::proof::Errors;
 use dalembert_model::read::Reading;
-use dalembert_model::scene::Scale;
+use dalembert_model::scene::{Scale, Scene};
 use serde_json::Value;
 
 use crate::args::CertifyArgs;
@@ -26,31 +26,40 @@ use crate::{input, output};
 /// The largest certificate that is read.
 const MOST_BYTES: u64 = 64 << 20;
 
+/// Characters of a field that a message shows.
+const MOST_SHOWN: usize = 160;
+
 /// Runs the subcommand.
 pub fn run(args: &CertifyArgs) -> Outcome {
     let reading = input::reading(&args.robot)?;
     let certificates = read(&args.certificate)?;
-    for certificate in &certificates {
-        one(args, &reading, certificate)?;
+    for (certificate, json) in &certificates {
+        one(args, &reading, certificate, json)?;
     }
     Ok(())
 }
 
-fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outcome {
+fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate, json: &Value) -> Outcome {
     let name = args.certificate.display();
     let own = certificate.scene.as_ref().map(|scene| &scene.name);
     let scene = args.scene.as_ref().or(own);
     let scene = scene.map(|scene| input::scene(&args.robot, reading, scene));
     let scene = scene.transpose()?;
+    // What `tradeoff` finds for other tolerances is about the scene without its.
+    let bare = scene.map(Scene::without_tolerance);
+    let is_bare = certificate.scene == bare.as_ref().map(SceneKey::of);
+    let scene = if is_bare { bare.as_ref() } else { scene };
     let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
     let checked = certificate
         .check_in(&setting)
         .map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
+    complete(certificate, json).map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
     let of = scene.map_or_else(String::new, |scene| format!(" in scene {}", scene.name));
     let mut text = format!(
         "{name} holds for `{}` in {} of {}{of}\n  {}\n",
         certificate.emitted.function, certificate.scalar, reading.robot.name, checked.proof
     );
+    text += &over(certificate);
     for finding in &checked.findings {
         text += &format!("warning: {finding}\n");
     }
@@ -84,7 +93,7 @@ fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outc
 
 /// Reads certificates: one, or a list. Nothing in them is trusted: [`Certificate::check`] does
 /// the rest.
-fn read(path: &Path) -> Result<Vec<Certificate>, Failure> {
+fn read(path: &Path) -> Result<Vec<(Certificate, Value)>, Failure> {
     let name = path.display();
     let fail = |why: String| Failure::Input(format!("error: {name}: {why}"));
     let size = fs::metadata(path).map_err(|error| fail(error.to_string()))?;
@@ -101,8 +110,88 @@ fn read(path: &Path) -> Result<Vec<Certificate>, Failure> {
     if all.is_empty() {
         return Err(fail("there is no certificate in it".into()));
     }
-    let read: Result<Vec<Certificate>, String> = all.iter().map(parse).collect();
+    let read = all.iter().map(|json| Ok((parse(json)?, json.clone())));
+    let read: Result<Vec<_>, String> = read.collect();
     read.map_err(fail)
+}
+
+/// Whether every field is what it is to be: those that follow from others, like
+/// E, and those that every certificate has alike.
+fn complete(certificate: &Certificate, json: &Value) -> Result<(), String> {
+    let again = serde_json::from_str::<Value>(&certificate.to_json());
+    let again = again.map_err(|error| error.to_string())?;
+    let empty = serde_json::Map::new();
+    let (given, again) = (
+        json.as_object().unwrap_or(&empty),
+        again.as_object().unwrap_or(&empty),
+    );
+    for key in again.keys().chain(given.keys()) {
+        if key == "method" && given.get(key).is_some_and(Value::is_string) {
+            // How its maker found the bounds; here they were found anew.
+            continue;
+        }
+        match (given.get(key), again.get(key)) {
+            (Some(given), Some(again)) if alike(given, again) => {}
+            (Some(given), Some(again)) => {
+                return Err(format!(
+                    "`{key}` is {}; from the rest of the certificate follows {}",
+                    shown(given),
+                    shown(again)
+                ));
+            }
+            (None, _) => return Err(format!("`{key}` is missing")),
+            (_, None) => return Err(format!("`{key}` is none of a certificate's fields")),
+        }
+    }
+    Ok(())
+}
+
+/// Numbers by their values: 0 is 0.0.
+fn alike(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b))
+        }
+        (Value::Object(a), Value::Object(b)) => {
+            let same = |(key, a): (&String, &Value)| b.get(key).is_some_and(|b| alike(a, b));
+            a.len() == b.len() && a.iter().all(same)
+        }
+        _ => a == b,
+    }
+}
+
+/// A value, or the beginning of it.
+fn shown(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(MOST_SHOWN) {
+        None => text,
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}
+
+/// The box, inside which everything holds.
+fn over(certificate: &Certificate) -> String {
+    let InputBox {
+        position,
+        velocity,
+        acceleration,
+    } = &certificate.limits;
+    let mut rows = vec![["over", "q", "qd", "qdd"].map(str::to_owned).to_vec()];
+    let range = |x: &Interval| format!("{} .. {}", inward(x.low(), true), inward(x.high(), false));
+    for (joint, ((q, qd), qdd)) in (1..).zip(position.iter().zip(velocity).zip(acceleration)) {
+        let name = format!("joint {joint}");
+        rows.push(vec![name, range(q), range(qd), range(qdd)]);
+    }
+    output::table(&rows, 0)
+}
+
+/// With six decimals at most, towards zero width.
+fn inward(x: f64, up: bool) -> String {
+    let scaled = x * 1e6;
+    let rounded = if up { scaled.ceil() } else { scaled.floor() };
+    // A zero without a sign.
+    format!("{}", rounded / 1e6 + 0.0)
 }
 
 /// What is claimed of an angle's polynomials.

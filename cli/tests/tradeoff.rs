@@ -6,6 +6,7 @@ mod support;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use dalembert_codegen::certify::json::text_hash;
 use serde_json::Value;
 use support::{robot, run, temporary};
 
@@ -111,7 +112,7 @@ fn a_scene_with_a_tolerance() {
 }
 
 /// By hand: a bound made smaller, a scale made larger, a box made smaller, an
-/// edit forgotten. The sampler sees the first one too, by itself.
+/// edit forgotten, another function's text.
 #[test]
 fn certificates_made_better_by_hand_are_caught() {
     let (folder, arm) = arm("certificates");
@@ -147,6 +148,23 @@ fn certificates_made_better_by_hand_are_caught() {
         ("acceleration", honest["velocity"].clone(), "box is smaller"),
         ("scene_hash", "0".into(), "another scene"),
         ("input", "0".into(), "another robot"),
+        ("robot", "another".into(), "another robot"),
+        // A larger claim is true, but not within the scene's tolerance.
+        (
+            "model",
+            half("model", 100.0).into(),
+            "the scene allows 9.99",
+        ),
+        // What follows from the rest, or is the same of all.
+        ("total", half("total", 0.5).into(), "`total` is"),
+        ("function", "gravity".into(), "`function` is \"gravity\""),
+        (
+            "assumptions",
+            Vec::<Value>::new().into(),
+            "`assumptions` is []",
+        ),
+        ("method", 1.into(), "`method` is"),
+        ("proved_by", "me".into(), "none of a certificate's fields"),
     ] {
         let ran = with(key, value);
         assert_eq!(ran.code, 1, "{key}: {}", ran.err);
@@ -160,6 +178,26 @@ fn certificates_made_better_by_hand_are_caught() {
         "{}",
         ran.err
     );
+    // The function alone, under its own head: what the certificate is about.
+    let text = honest["text"].as_str().unwrap();
+    for (was, is) in [
+        ("(q: ", "(qd: "),
+        ("f64; 3]", "f32; 3]"),
+        ("#[must_use]", "#[cfg(any())]"),
+        ("#[must_use]", "fn more() {}\n#[must_use]"),
+        ("\n}\n", "\n}\nfn more() {}\n"),
+    ] {
+        let lie = text.replacen(was, is, 1);
+        assert_ne!(lie, text, "{was}");
+        let mut other = honest.clone();
+        other["text_hash"] = text_hash(&lie).into();
+        other["text"] = lie.into();
+        let file = path(&folder, "lie.json");
+        fs::write(&file, other.to_string()).unwrap();
+        let ran = run(&["certify", &file, "--robot", &arm]);
+        assert_eq!(ran.code, 1, "{was}: {}", ran.err);
+        assert!(ran.err.contains("the printed text"), "{was}: {}", ran.err);
+    }
     // Not what a certificate looks like.
     for (key, value, why) in [
         ("model", Value::from(vec!["a"]), "no number"),
@@ -187,6 +225,33 @@ fn certificates_made_better_by_hand_are_caught() {
             ran.err
         );
     }
+}
+
+/// The first torque of an arm that stands upright needs nothing against gravity:
+/// T is zero, which the code meets, since zero is what it returns.
+#[test]
+fn an_output_that_is_zero_is_exact() {
+    let folder = temporary("upright");
+    let file = path(&folder, "arm.toml");
+    let puma = fs::read_to_string(robot("puma560")).unwrap();
+    let scene = r#"
+[scene.hold]
+outputs = ["gravity"]
+tolerance = { value = 1e-2, relative_to = "range" }
+"#;
+    fs::write(&file, format!("{puma}{scene}")).unwrap();
+    let certificate = path(&folder, "hold.json");
+    let generate = ["generate", &file, "--scene", "hold", "--certificate"];
+    let ran = run(&[&generate[..], &[&certificate]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let claimed = json(&certificate);
+    assert_eq!(
+        (&claimed["scale"][0], &claimed["total"][0]),
+        (&0.0.into(), &0.0.into())
+    );
+    assert!(claimed["total"][1].as_f64().unwrap() > 0.0);
+    let ran = run(&["certify", &certificate, "--robot", &file]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
 }
 
 #[test]

@@ -40,7 +40,9 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let scene = scene.map(|name| input::scene(&args.robot, &reading, name));
     let scene = scene.transpose()?;
     let tolerances = tolerances(args)?;
-    let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
+    // Its own tolerance is one of many here.
+    let bare = scene.map(Scene::without_tolerance);
+    let setting = Setting::of(&reading.robot, bare.as_ref()).map_err(GenerateError::Scene)?;
     let exact = exact(args, &reading, scene)?;
     let relative_to = relative_to(args, scene);
     let frame = Frame::new(&setting, &exact, relative_to).map_err(|refusal| {
@@ -149,11 +151,8 @@ fn exact(
     let first = scene.and_then(|scene| scene.outputs.first().copied());
     let first = first.map_or(Function::InverseDynamics, Function::from);
     let mut plan = kept(&args.robot)?;
-    // The same scene with nothing given up: what tolerances are applied to.
-    let bare = scene.map(|scene| Scene {
-        tolerance: None,
-        ..scene.clone()
-    });
+    // What tolerances are applied to.
+    let bare = scene.map(Scene::without_tolerance);
     if let (Some(plan), Some(scene), Some(bare)) = (&mut plan, scene, &bare) {
         for entry in &mut plan.entries {
             if entry.scene == Some(SceneKey::of(scene)) {

@@ -9,7 +9,6 @@ use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;
 
-use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::scene::{Scale, Tolerance};
 
 use super::certificate::subject::{Fineness, Subject};
@@ -180,32 +179,9 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// The tolerance of each output: that of its joint, for an entry of D the
-    /// smaller of its two joints'.
+    /// The tolerance of each output.
     pub fn tolerances(&self, tolerance: &Tolerance) -> Vec<f64> {
-        let rows = &self.exact.rows;
-        // Down: nothing is allowed that the decimal does not allow.
-        let of = |joint: usize| {
-            let value = tolerance.of(joint).map(f64::nearest_rational);
-            value.map_or(0.0, |value| {
-                let above = Rational::from_float(value)
-                    .is_some_and(|exact| tolerance.of(joint).is_some_and(|wanted| exact > *wanted));
-                if above { value.next_down() } else { value }
-            })
-        };
-        let mut all = Vec::new();
-        for quantity in self.exact.function.quantities() {
-            for index in 0..quantity.len(rows.len()) {
-                let mut rest = index;
-                let digits = (0..quantity.rank()).map(|_| {
-                    let joint = rows[rest % rows.len()];
-                    rest /= rows.len();
-                    of(joint)
-                });
-                all.push(digits.fold(f64::INFINITY, f64::min));
-            }
-        }
-        all
+        scale::tolerances(self.exact, tolerance)
     }
 
     /// What bounds of a program's rounding need: found once for the scalars, the

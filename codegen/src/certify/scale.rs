@@ -1,7 +1,8 @@
-//! T: what errors are relative to.
+//! T: what errors are relative to, and how large they may be against it.
 
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Limits, Robot};
+use dalembert_model::scene::Tolerance;
 
 use super::attack::{run, text};
 use super::input_box::{InputBox, MissingLimit};
@@ -56,6 +57,34 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, MissingLim
         }
     }
     Ok(scales)
+}
+
+/// The tolerance of each output: that of its joint, for an entry of D the
+/// smaller of its two joints'.
+pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
+    let rows = &program.rows;
+    // Down: nothing is allowed that the decimal does not allow.
+    let of = |joint: usize| {
+        let value = tolerance.of(joint).map(f64::nearest_rational);
+        value.map_or(0.0, |value| {
+            let above = Rational::from_float(value)
+                .is_some_and(|exact| tolerance.of(joint).is_some_and(|wanted| exact > *wanted));
+            if above { value.next_down() } else { value }
+        })
+    };
+    let mut all = Vec::new();
+    for quantity in program.function.quantities() {
+        for index in 0..quantity.len(rows.len()) {
+            let mut rest = index;
+            let digits = (0..quantity.rank()).map(|_| {
+                let joint = rows[rest % rows.len()];
+                rest /= rows.len();
+                of(joint)
+            });
+            all.push(digits.fold(f64::INFINITY, f64::min));
+        }
+    }
+    all
 }
 
 /// The largest magnitude of each output at actual states: a lower bound of

@@ -169,6 +169,15 @@ impl Scene {
         locks.find(|(at, _)| *at == joint).map(|(_, q)| q)
     }
 
+    /// The same scene with nothing given up.
+    #[must_use]
+    pub fn without_tolerance(&self) -> Scene {
+        Scene {
+            tolerance: None,
+            ..self.clone()
+        }
+    }
+
     /// The joints whose torques are wanted, of a robot of n joints.
     pub fn rows(&self, n: usize) -> Vec<usize> {
         match &self.joints {

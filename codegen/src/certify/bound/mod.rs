@@ -128,8 +128,28 @@ mod tests {
     use super::*;
     use crate::certify::interval::Interval;
     use crate::graph::builder::Value;
-    use crate::graph::{Builder, Folding, Input};
+    use crate::graph::{AngleSum, Builder, Folding, Input};
     use dalembert_model::number::{Exact, Rational};
+
+    /// A rate that is always zero: its terms are nothing, not the least double.
+    #[test]
+    fn what_never_moves_is_bounded_by_nothing() {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let rate = builder.input(Input::Velocity(0));
+        let cosine = builder.input(Input::Cos(AngleSum::joint(0)));
+        let load = builder.mul(&rate, &cosine);
+        let graph = builder.finish(&[load]);
+        let mut limits = InputBox {
+            position: vec![Interval::symmetric(1.0)],
+            velocity: vec![Interval::ZERO],
+            acceleration: vec![Interval::symmetric(30.0)],
+        };
+        let bound = |limits: &InputBox| magnitudes(&graph, limits, &[1.0], 0.0, Budget::GLANCE)[0];
+        assert_eq!(bound(&limits), 0.0);
+        // Nor is there a step from one subnormal to the next.
+        limits.velocity = vec![Interval::symmetric(5e-324)];
+        assert!(bound(&limits) < 1e-150);
+    }
 
     /// What is left out may be a rate alone, with no angle to cut: 4e-5·q̈₁.
     #[test]

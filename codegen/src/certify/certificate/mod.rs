@@ -7,12 +7,12 @@
 //!
 //! 1. the exact program equals the equations of motion (prime field); with a
 //!    scene, those of the full robot with the scene's values in their places,
-//!    and the box is the scene's or larger;
+//!    the box is the scene's or larger, and E within its tolerance;
 //! 2. each stage's edits apply, and what they give equals the next stage's
 //!    program, the last one the emitted program (prime field, other points
 //!    than any search uses);
-//! 3. the printed text, read back, is the emitted program, every literal
-//!    rounded once; sines that it computes by polynomials are proved again
+//! 3. the printed text, read back, is the emitted program and nothing else,
+//!    under its own signature, every literal rounded once; sines that it computes by polynomials are proved again
 //!    from the literals, over the angles' ranges in the box;
 //! 4. the error of the edits ([`difference`](super::edits::difference)), of sines and cosines and of
 //!    rounding ([`sensitivity`](super::sensitivity)) are bounded anew, and the
@@ -218,15 +218,16 @@ impl Certificate {
         if self.scene != setting.scene().map(SceneKey::of) {
             return Err(Refuted::Scene);
         }
-        if self.input != input_hash(setting.robot()) {
+        if self.input != input_hash(setting.robot()) || self.robot != setting.robot().name {
             return Err(Refuted::Robot);
         }
         self.check_shape(setting.robot())?;
         self.check_box(setting)?;
         self.check_scales(setting)?;
+        self.check_tolerance(setting)?;
         let proof = prove_in(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
         self.check_edits()?;
-        let text = TextProgram::parse(&self.text, self.emitted.function, self.scalar)
+        let text = TextProgram::parse_alone(&self.text, &self.emitted, self.scalar)
             .map_err(|error| Refuted::Text(error.to_string()))?;
         text.matches_with(&self.emitted, self.scalar, &self.sines)
             .map_err(Refuted::Text)?;
@@ -249,7 +250,13 @@ impl Certificate {
     /// Each polynomial's errors are proved again, from its literals and over
     /// all values that its angle takes.
     fn check_sines(&self) -> Result<(), Refuted> {
-        for sine in &self.sines {
+        for (index, sine) in self.sines.iter().enumerate() {
+            let trig = &self.emitted.trig;
+            let is_read = trig.iter().any(|trig| trig.angle == sine.angle);
+            let mut before = self.sines[..index].iter();
+            if !is_read || before.any(|before| before.angle == sine.angle) {
+                return Err(Refuted::Shape);
+            }
             let angle = sincos::angle_name(sine.angle);
             let whole = sincos::range_of(sine.angle, &self.limits.position, self.scalar);
             let found = prove(&sine.kernel, self.scalar, sine.range);
@@ -367,6 +374,27 @@ impl Certificate {
         match whole {
             Ok(whole) if self.limits.holds(&whole) => Ok(()),
             _ => Err(Refuted::Box),
+        }
+    }
+
+    /// A claim about a scene with a tolerance is that it is met.
+    fn check_tolerance(&self, setting: &Setting) -> Result<(), Refuted> {
+        let scene = setting.scene();
+        let Some(tolerance) = scene.and_then(|scene| scene.tolerance.as_ref()) else {
+            return Ok(());
+        };
+        let allowed = scale::tolerances(&self.emitted, tolerance);
+        let alike = self.relative_to == Some(tolerance.relative_to);
+        let mut pairs = self.bounds.iter().zip(&allowed);
+        // No number is within nothing.
+        let within = |bound: &Split, allowed: f64| alike && bound.total() <= allowed;
+        match pairs.position(|(bound, &allowed)| !within(bound, allowed)) {
+            None => Ok(()),
+            Some(index) => Err(Refuted::Tolerance {
+                entry: self.emitted.entry(index),
+                allowed: (allowed[index], tolerance.relative_to),
+                claimed: (self.bounds[index].total(), self.relative_to),
+            }),
         }
     }
 

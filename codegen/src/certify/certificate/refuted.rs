@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use dalembert_model::scene::Scale;
+
 use super::split::Split;
 use crate::certify::definite::Indefinite;
 use crate::certify::edits::BadEdit;
@@ -22,6 +24,16 @@ pub enum Refuted {
     Scale {
         /// The output's name.
         entry: String,
+    },
+    /// It claims more of an output than its scene's tolerance allows, or
+    /// against another scale.
+    Tolerance {
+        /// The output's name.
+        entry: String,
+        /// What the scene allows, and relative to what.
+        allowed: (f64, Scale),
+        /// What is claimed, and relative to what.
+        claimed: (f64, Option<Scale>),
     },
     /// A list has not as many entries as there are outputs or joints.
     Shape,
@@ -80,6 +92,20 @@ impl fmt::Display for Refuted {
             Refuted::Box => f.write_str("the box is smaller than the scene's"),
             Refuted::Scale { entry } => {
                 write!(f, "T of {entry} is larger than what it is said to be")
+            }
+            Refuted::Tolerance {
+                entry,
+                allowed,
+                claimed,
+            } => {
+                let of = claimed.1.map_or("scales of its own", |scale| scale.word());
+                write!(
+                    f,
+                    "{entry}: claimed {:e} relative to {of}; the scene allows {:e} relative to {}",
+                    claimed.0,
+                    allowed.0,
+                    allowed.1.word()
+                )
             }
             Refuted::Shape => f.write_str("a list is not as long as it should be"),
             Refuted::Exact(disproof) => write!(f, "the exact program: {disproof}"),

@@ -52,6 +52,9 @@ impl Layout {
         let mut terms: Vec<(Key, f64)> = Vec::new();
         for &(key, coefficient) in polynomial {
             let most = range(key).magnitude();
+            if most == 0.0 {
+                continue;
+            }
             let size = (coefficient.magnitude() * most).next_up();
             if size <= least {
                 slack += size;

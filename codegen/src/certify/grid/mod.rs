@@ -53,6 +53,9 @@ const SLACK: f64 = 1e-13;
 /// higher.
 const NEGLIGIBLE: f64 = 1e-8;
 
+/// The least bound that is tried, against the one without angles.
+const LEAST: f64 = 1e-15;
+
 /// The largest relative step from a bound that could not be shown to the next.
 const MOST_STEP: f64 = 0.15;
 
@@ -158,8 +161,10 @@ fn bound(
     let least = climb(&mut cells, closeness.starts);
     let mut tries = Vec::new();
     let mut more = closeness.close;
-    let mut next = least * (1.0 + more) + 2.0 * layout.slack;
-    while 0.0 < next && next < crude {
+    // From so far below the crude bound that no smaller one matters, and a step
+    // up is one.
+    let mut next = (least * (1.0 + more) + 2.0 * layout.slack).max(LEAST * crude);
+    while f64::MIN_POSITIVE < next && next < crude {
         tries.push(next);
         more = (2.0 * more).min(MOST_STEP);
         next *= 1.0 + more;

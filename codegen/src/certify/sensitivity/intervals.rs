@@ -85,6 +85,11 @@ impl Constants {
 fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
     let exact = Interval::exact(constant);
     let rounded = Interval::point(scalar.round(constant));
+    if exact == rounded {
+        // Outward, the difference would be the least subnormal: too much for an
+        // output that must be exact.
+        return (exact, 0.0);
+    }
     (exact.hull(rounded), (exact - rounded).magnitude())
 }
 

@@ -14,6 +14,7 @@ mod sines;
 use std::fmt;
 
 use crate::emit::ScalarType;
+use crate::emit::function::signature;
 use crate::function::Function;
 use crate::graph::{AngleSum, Counts, Input};
 use crate::schedule::{Operand, Operation, Program};
@@ -93,17 +94,27 @@ impl TextProgram {
         scalar: ScalarType,
     ) -> Result<TextProgram, TextError> {
         let head = format!("pub fn {}(", function.name());
-        let mut lines = module
-            .lines()
-            .enumerate()
-            .map(|(i, line)| (i + 1, line.trim()));
-        if !lines.any(|(_, line)| line.starts_with(&head)) {
+        let lines: Vec<&str> = module.lines().map(str::trim).collect();
+        let Some(first) = lines.iter().position(|line| line.starts_with(&head)) else {
             let message = format!("there is no function `{function}`");
             return Err(TextError { line: 1, message });
-        }
+        };
+        let read = TextProgram::read(&lines[first + 1..], function, scalar);
+        read.map(|(program, _)| program).map_err(|error| TextError {
+            line: error.line + first + 1,
+            ..error
+        })
+    }
+
+    /// Reads the lines after the signature; the program and how many they are.
+    fn read(
+        lines: &[&str],
+        function: Function,
+        scalar: ScalarType,
+    ) -> Result<(TextProgram, usize), TextError> {
         let mut reader = Reader::new(scalar);
         let mut tail = String::new();
-        for (number, line) in lines {
+        for (number, &line) in (1..).zip(lines) {
             let at = |message| TextError {
                 line: number,
                 message,
@@ -118,7 +129,8 @@ impl TextProgram {
                 Some(_) => return Err(at("a statement after the result".into())),
                 None if line == "}" && result::is_complete(&tail) => {
                     let items = result::items(&tail, function).map_err(at)?;
-                    return reader.finish(&items).map_err(at);
+                    let program = reader.finish(&items).map_err(at)?;
+                    return Ok((program, number));
                 }
                 None => {
                     tail.push_str(line);
@@ -127,7 +139,41 @@ impl TextProgram {
             }
         }
         let message = format!("`{function}` does not end");
-        Err(TextError { line: 1, message })
+        Err(TextError { line: 0, message })
+    }
+
+    /// Reads a text that is this function by itself: the program's signature in
+    /// this scalar, nothing but documentation above it, nothing below it.
+    pub fn parse_alone(
+        text: &str,
+        program: &Program,
+        scalar: ScalarType,
+    ) -> Result<TextProgram, TextError> {
+        let head = format!("{} {{", signature(program, scalar));
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        let error = |index: usize, message: String| TextError {
+            line: index + 1,
+            message,
+        };
+        let is_doc = |line: &str| line.starts_with("///") || line == "#[must_use]";
+        let first = lines.iter().position(|line| !is_doc(line)).unwrap_or(0);
+        match lines.get(first) {
+            Some(line) if *line == head => {}
+            line => {
+                let line = line.copied().unwrap_or_default();
+                return Err(error(first, format!("`{head}` expected, not `{line}`")));
+            }
+        }
+        let (program, end) = TextProgram::read(&lines[first + 1..], program.function, scalar)
+            .map_err(|error| TextError {
+                line: error.line + first + 1,
+                ..error
+            })?;
+        let after = first + 1 + end;
+        match lines[after..].iter().position(|line| !line.is_empty()) {
+            None => Ok(program),
+            Some(more) => Err(error(after + more, "something after the function".into())),
+        }
     }
 
     /// Compares with the program and libm's sines: every operation, and every
