@@ -162,11 +162,11 @@ fn thorough(request: &Request) -> Settings {
 
 /// For who waits: seconds for a six-joint arm.
 const QUICK: Settings = Settings {
-    samples: 16,
-    guesses: 5,
+    samples: 24,
+    guesses: 4,
     retries: 0,
-    stages: 1,
-    alike: 0,
+    stages: 3,
+    alike: 2,
     sweeps: 0,
     budget: Fineness::GLANCE.budget,
     effort: Effort::Quick,
