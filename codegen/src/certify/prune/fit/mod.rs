@@ -218,3 +218,40 @@ fn add(a: &mut [f64], by: f64, b: &[f64]) {
         *a += by * b;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simplify::random::Random;
+
+    /// A constant that is gone is as one that never was.
+    #[test]
+    fn what_is_gone_cannot_help() {
+        let mut random = Random::new(7);
+        let rows = 40 * LANES;
+        let mut column = || (0..rows).map(|_| random.unit() - 0.5).collect::<Vec<f64>>();
+        let mut errors = column();
+        let mut columns: Vec<_> = (0..6).map(|k| ((k, false), column(), 0.1)).collect();
+        for (_, column, _) in &columns {
+            add(&mut errors, 0.5, column);
+        }
+        // One that another one can do by itself, almost.
+        columns[5].1 = columns[2].1.iter().map(|x| x + 1e-3).collect();
+        let left = |fit: &Fit, gone: &[usize]| {
+            let (errors, gone) = (errors.clone(), gone.to_vec());
+            let mut trial = Trial { errors, gone };
+            fit.settle(&mut [&mut trial]);
+            trial.errors
+        };
+        let all = Fit::of(columns.clone());
+        let gone = all.of_ops(|op| op == 1 || op == 2);
+        columns.retain(|((op, _), ..)| *op != 1 && *op != 2);
+        let fewer = left(&Fit::of(columns), &[]);
+        for (x, y) in left(&all, &gone).iter().zip(&fewer) {
+            assert!((x - y).abs() < 1e-9, "{x} {y}");
+        }
+        let size = |errors: &[f64]| dot(errors, errors);
+        let none = size(&left(&all, &[]));
+        assert!(none < 0.9 * size(&fewer) && size(&fewer) < 0.9 * size(&errors));
+    }
+}
