@@ -75,7 +75,7 @@ pub struct Choice {
     pub sincos: SinCos,
     /// The largest error of each sine and cosine by polynomials [default: 1e-6,
     /// or what a scene's tolerance admits]
-    #[arg(long, value_name = "ERROR", value_parser = error_parser())]
+    #[arg(long, value_name = "ERROR", value_parser = error_parser(), allow_hyphen_values = true)]
     pub sincos_error: Option<f64>,
 }
 
@@ -125,7 +125,7 @@ pub struct GenerateArgs {
     pub save_plan: bool,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
-    #[arg(long, value_name = "N", value_parser = states_parser())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
     pub states: Option<usize>,
     #[command(flatten)]
     pub choice: Choice,
@@ -182,7 +182,7 @@ pub struct ExplainArgs {
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
     /// States that errors are measured in
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = states_parser())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 1000, value_parser = states_parser())]
     pub states: usize,
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
@@ -205,7 +205,13 @@ pub struct StressArgs {
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// States of each category
-    #[arg(long, value_name = "N", default_value_t = 50)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 50
+    )]
     pub states: usize,
     /// Measure chains of 1 to 60 joints instead of a robot
     #[arg(long, conflicts_with = "robot")]
@@ -224,10 +230,22 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
     /// Also run the code at this many states and look for an error above E
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 0
+    )]
     pub samples: usize,
     /// Climbs from there to the largest error of each output
-    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 8
+    )]
     pub climbs: usize,
 }
 
@@ -249,16 +267,28 @@ pub struct TradeoffArgs {
     #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
     pub relative_to: Option<String>,
     /// Tolerances, separated by commas [default: 1e-12 to 1e-1]
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance_parser(), allow_hyphen_values = true)]
     pub tolerances: Vec<f64>,
     /// Write table, chart and certificates to this folder
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// States at which each variant is run
-    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    /// States at which each variant is run; with 0 nothing is observed
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 10_000
+    )]
     pub samples: usize,
     /// Climbs from there to the largest error of each output
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 4
+    )]
     pub climbs: usize,
     /// Compile the variants and measure how long a call takes, as a ratio to
     /// the exact f64 variant in the same run; needs cargo
@@ -279,7 +309,9 @@ pub struct Table3Args {
     pub json: bool,
 }
 
-// Clap lists the names and suggests the nearest for a slip.
+// Clap lists the names and suggests the nearest for a slip. Numbers may begin
+// with a hyphen, or clap would take a negative one for an option that it does
+// not know: what a number should be is ours to say.
 
 fn function_parser() -> impl TypedValueParser<Value = Function> {
     let names = PossibleValuesParser::new(Function::ALL.map(Function::name));
@@ -308,9 +340,23 @@ fn error_parser() -> impl TypedValueParser<Value = f64> {
     })
 }
 
+fn tolerance_parser() -> impl TypedValueParser<Value = f64> {
+    clap::builder::StringValueParser::new().try_map(|text| {
+        text.parse::<f64>()
+            .map_err(|_| "a tolerance is a number above zero, such as 1e-3")
+    })
+}
+
+fn count_parser() -> impl TypedValueParser<Value = usize> {
+    clap::builder::StringValueParser::new().try_map(|text| {
+        text.parse::<usize>()
+            .map_err(|_| "a whole number, 0 or more")
+    })
+}
+
 fn states_parser() -> impl TypedValueParser<Value = usize> {
-    let most = dalembert_codegen::explain::errors::MOST_STATES as u64;
-    clap::value_parser!(u64)
+    let most = dalembert_codegen::explain::errors::MOST_STATES as i64;
+    clap::value_parser!(i64)
         .range(1..=most)
         .map(|states| states as usize)
 }

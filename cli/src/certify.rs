@@ -1,6 +1,5 @@
 //! `dalembert certify`: a certificate checked again, part by part.
 
-use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::certify::attack::attack;
@@ -96,11 +95,7 @@ fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate, json: &
 fn read(path: &Path) -> Result<Vec<(Certificate, Value)>, Failure> {
     let name = path.display();
     let fail = |why: String| Failure::Input(format!("error: {name}: {why}"));
-    let size = fs::metadata(path).map_err(|error| fail(error.to_string()))?;
-    if size.len() > MOST_BYTES {
-        return Err(fail("the file is too long".into()));
-    }
-    let bytes = fs::read(path).map_err(|error| fail(error.to_string()))?;
+    let bytes = input::bytes(path, MOST_BYTES)?;
     let json: Value = serde_json::from_slice(&bytes).map_err(|error| {
         let (line, column) = (error.line(), error.column());
         Failure::Input(format!("error: {error}\n --> {name}:{line}:{column}"))

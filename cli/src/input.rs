@@ -56,7 +56,7 @@ pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Sc
 /// Reads a robot file; its warnings and notes go to standard error.
 pub fn reading(path: &Path) -> Result<Reading, Failure> {
     // One byte more than allowed: the reader says that it is too long.
-    let bytes = bytes(path, read::MAX_BYTES as u64 + 1)?;
+    let bytes = first(path, read::MAX_BYTES as u64 + 1)?;
     let source = String::from_utf8_lossy(&bytes);
     let name = path.display().to_string();
     match read::parse_bytes(&bytes, &read::Options::default()) {
@@ -153,7 +153,24 @@ fn vector(value: &Value, key: &str, len: usize) -> Result<Option<Vec<f64>>, Stri
     Ok(Some(numbers))
 }
 
-fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+/// A whole file.
+///
+/// # Errors
+/// It is longer than `most`; a device may have no end.
+pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+    let bytes = first(path, most + 1)?;
+    if bytes.len() as u64 > most {
+        return Err(Failure::Input(format!(
+            "error: `{}` is longer than {} MiB, the most that is read",
+            path.display(),
+            most >> 20
+        )));
+    }
+    Ok(bytes)
+}
+
+/// The first bytes of a file.
+pub fn first(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let read = File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes));
     read.map_err(|error| {

@@ -102,11 +102,54 @@ fn wrong_words_on_the_command_line() {
         (vec!["generate", &puma, "--check"], "--output"),
         (vec!["generat", &puma], "'generate'"),
         (vec!["generate"], "<ROBOT>"),
+        (
+            vec!["generate", &puma, "--sincos-error", "-1"],
+            "a number above 0 and below 1",
+        ),
+        (
+            vec!["tradeoff", &puma, "--tolerances", "-1"],
+            "a number above zero, not -1",
+        ),
+        (
+            vec!["tradeoff", &puma, "--tolerances", "-1e-3,0.1"],
+            "a number above zero, not -0.001",
+        ),
+        (
+            vec!["tradeoff", &puma, "--tolerances", "1%"],
+            "a number above zero, such as 1e-3",
+        ),
+        (vec!["generate", &puma, "--states", "-1"], "1..=10000"),
+        (
+            vec!["tradeoff", &puma, "--samples", "-1"],
+            "a whole number, 0 or more",
+        ),
         (vec![], "Usage"),
     ] {
         let ran = run(&arguments);
         assert_eq!(ran.code, 2, "{arguments:?}");
         assert!(ran.err.contains(hint), "{arguments:?}: {}", ran.err);
+    }
+}
+
+/// A device has no length to look at before it is read.
+#[cfg(unix)]
+#[test]
+fn inputs_without_end() {
+    let puma = robot("puma560");
+    for (arguments, words) in [
+        (
+            vec!["certify", "/dev/zero", "--robot", &puma],
+            "longer than 64 MiB",
+        ),
+        (
+            vec!["certify", "/dev/null", "--robot", "/dev/zero"],
+            "a robot file has at most",
+        ),
+        (vec!["count", "/dev/zero"], "a robot file has at most"),
+    ] {
+        let ran = run(&arguments);
+        assert_eq!(ran.code, 2, "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(words), "{arguments:?}: {}", ran.err);
     }
 }
 

@@ -415,6 +415,38 @@ fn a_tradeoff_with_table_chart_and_certificates() {
     );
 }
 
+/// Where nothing is run nothing was observed, not even zero.
+#[test]
+fn nothing_is_observed_at_no_states() {
+    let (folder, arm) = arm("unobserved");
+    let output = path(&folder, "out");
+    let ran = run(&[
+        "tradeoff",
+        &arm,
+        "--scene",
+        "any",
+        "--tolerances",
+        "0.1",
+        "--samples",
+        "0",
+        "-o",
+        &output,
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    for (column, head) in rows[0].iter().enumerate() {
+        if head.contains("observed") {
+            assert!(rows[1..].iter().all(|row| row[column].is_empty()), "{csv}");
+        }
+    }
+    for line in ran.out.lines().skip(1) {
+        assert!(line.split_whitespace().any(|cell| cell == "–"), "{line}");
+    }
+    let svg = fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap();
+    assert!(!svg.contains("observed"), "{svg}");
+}
+
 /// The variants compile, run, and are compared with the exact one. What comes
 /// out depends on the machine: only that it is there is tested.
 #[test]

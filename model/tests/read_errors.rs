@@ -76,6 +76,7 @@ const ROWS: &[Row] = &[
     ("mass = 2", "mass = +-5", "not a decimal number", "0.5"),
     ("mass = 2", "mass = 99999999999999999999", "is not a number that TOML can hold", "1e30"),
     ("mass = 2", "mass = \"1/0\"", "denominator zero", ""),
+    ("mass = 2", "mass = \"2 kg\"", "expected a number, found the string `2 kg`", "SI units"),
     ("mass = 2", "mass = \"pi\"", "expected a number", "no angle"),
     ("mass = 2", "mass = 2 kg", "expected newline, found an identifier", ""),
     ("a = 0.5", "a = half", "`half` is neither a number nor a quoted string", "in quotes"),
@@ -95,7 +96,7 @@ const ROWS: &[Row] = &[
     ("com = [0, 0.1, 0]", "com = [0, 0.1]", "expected an array of 3", "com ="),
     ("com = [0, 0.1, 0]", "com = { x = 1 }", "expected an array of 3, found a table", ""),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1, 1]", "expected 6 numbers or 3 rows of 3, found an array of 3", "Ixx"),
-    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, [2], 3, 4, 5, 6]", "expected a number, found an array of 1", ""),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, [2], 3, 4, 5, 6]", "expected a number, found an array of 1", "SI units"),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [[1,0,0],[0,1],[0,0,1]]", "expected an array of 3, found an array of 2", ""),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [[1,0,0.1],[0,1,0],[0.2,0,1]]", "row 1, column 3 is not row 3, column 1", "same number"),
     // Limits.

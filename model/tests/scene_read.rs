@@ -212,6 +212,23 @@ fn mistakes() {
         (2, "scalar = \"f46\"", "did you mean \"f64\"?"),
         (2, "locks = { 1 = 0 }", "did you mean `lock`?"),
         (2, "gravity = [0, 0]", "an array of 3"),
+        (
+            2,
+            "tolerance = { value = \"1%\", relative_to = \"range\" }",
+            "0.01 for 1%",
+        ),
+        (
+            2,
+            "tolerance = { value = [0.1, \"a\", 0.1], relative_to = \"range\" }",
+            "0.01 for 1%",
+        ),
+        (2, "lock = { boom = \"0.1m\" }", "write metres as a number"),
+        (2, "lock = { wrist = \"0.1rad\" }", "write radians"),
+        (
+            2,
+            "payload = { mass = \"1kg\", com = [0, 0, 0] }",
+            "in SI units",
+        ),
     ] {
         let source = format!("{ROBOT}[scene.bad]\n{text}\n");
         let before = ROBOT.lines().count();

@@ -21,9 +21,10 @@ pub struct Point {
     /// Zero for the exact program.
     pub tolerance: f64,
     pub certificate: Certificate,
-    /// The largest E of an output, and the largest error that was seen.
+    /// The largest E of an output, and the largest error that was seen if it
+    /// was run at any state.
     pub certified: f64,
-    pub observed: f64,
+    pub observed: Option<f64>,
     /// What operations and sines cost by themselves, the same way: the code
     /// against its own program in double precision. Nothing in double.
     pub rounding: f64,
@@ -182,7 +183,7 @@ impl<'a> Ladder<'a> {
         let mut rounding_observed = None;
         if certificate.scalar == ScalarType::F32 {
             let (observed, other) = self.attacked(&own)?;
-            rounding_observed = Some(observed);
+            rounding_observed = observed;
             violation = violation.or(other);
         }
         Ok(Point {
@@ -199,10 +200,14 @@ impl<'a> Ladder<'a> {
     }
 
     /// The largest error that is seen, and one above E.
-    fn attacked(&self, certificate: &Certificate) -> Result<(f64, Option<String>), Failure> {
+    fn attacked(
+        &self,
+        certificate: &Certificate,
+    ) -> Result<(Option<f64>, Option<String>), Failure> {
         let attack = attack(certificate, self.args.samples, self.args.climbs, 1)
             .map_err(|error| Failure::Check(format!("error: {error}")))?;
-        let observed = attack.observed.iter().copied().fold(0.0, f64::max);
+        let largest = || attack.observed.iter().copied().fold(0.0, f64::max);
+        let observed = (attack.states > 0).then(largest);
         let violation = attack.violation.map(|(index, state)| {
             format!(
                 "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",

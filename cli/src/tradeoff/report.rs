@@ -38,6 +38,11 @@ pub fn mark(points: &mut [Point]) {
 /// The rows, for people or for programs, which get more digits and columns.
 fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     let digits = if all { 6 } else { 2 };
+    // What was not observed is no zero.
+    let none = if all { "" } else { "–" };
+    let observed = |error: Option<f64>| {
+        error.map_or_else(|| none.to_owned(), |error| format!("{error:.digits$e}"))
+    };
     let mut head = vec![
         "tolerance",
         "scalar",
@@ -77,12 +82,11 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
             counts.trig_add.to_string(),
             point.edits().to_string(),
             format!("{:.digits$e}", point.certified),
-            format!("{:.digits$e}", point.observed),
+            observed(point.observed),
         ];
         if all {
             row.push(format!("{:.digits$e}", point.rounding));
-            let seen = point.rounding_observed;
-            row.push(seen.map_or_else(String::new, |seen| format!("{seen:.digits$e}")));
+            row.push(observed(point.rounding_observed));
         }
         if let Some(time) = point.time {
             row.push(format!("{:.1}", time.nanoseconds));

@@ -213,7 +213,7 @@ impl Fields<'_, '_, '_, '_, '_> {
                 .cx
                 .array(value, help, |cx, item| cx.angle(item).map(Position::Angle)),
             JointKind::Prismatic => self.cx.array(value, help, |cx, item| {
-                cx.number(item).map(Position::Length)
+                cx.length(item).map(Position::Length)
             }),
         };
         let read = read?;

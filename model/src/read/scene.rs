@@ -264,7 +264,7 @@ impl Reader<'_, '_, '_> {
     /// An angle or a length, as the joint has it.
     fn position(&mut self, joint: usize, value: &Value) -> Option<Position> {
         match self.robot.joints.get(joint).map(|joint| joint.kind) {
-            Some(JointKind::Prismatic) => self.cx.number(value).map(Position::Length),
+            Some(JointKind::Prismatic) => self.cx.length(value).map(Position::Length),
             _ => self.cx.angle(value).map(Position::Angle),
         }
     }
@@ -319,7 +319,7 @@ impl Reader<'_, '_, '_> {
                 reader.cx.array::<_, 2>(item, help, |cx, end| {
                     match reader.robot.joints.get(joint) {
                         Some(j) if j.kind == JointKind::Prismatic => {
-                            cx.number(end).map(Position::Length)
+                            cx.length(end).map(Position::Length)
                         }
                         _ => cx.angle(end).map(Position::Angle),
                     }
@@ -369,13 +369,13 @@ impl Reader<'_, '_, '_> {
                 let mut read = Vec::new();
                 for (index, item) in items.iter().enumerate() {
                     self.mark(Part::Tolerance(index), item);
-                    read.push(self.cx.number(item));
+                    read.push(self.cx.part(item));
                 }
                 read.into_iter().collect::<Option<Vec<_>>>()
             }
             None => {
                 self.mark(Part::Tolerance(0), value);
-                self.cx.number(value).map(|one| [one].into())
+                self.cx.part(value).map(|one| [one].into())
             }
         };
         Some(Tolerance {

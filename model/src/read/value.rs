@@ -54,6 +54,30 @@ impl<'s> Context<'s, '_> {
 
     /// A number, exact; `"1/3"` too.
     pub(super) fn number(&mut self, value: &Value) -> Option<Rational> {
+        self.number_of(
+            value,
+            "write the number alone, in SI units, or a fraction such as \"1/3\"",
+        )
+    }
+
+    /// A length, m.
+    pub(super) fn length(&mut self, value: &Value) -> Option<Rational> {
+        self.number_of(
+            value,
+            "write metres as a number alone, or a fraction such as \"1/3\"",
+        )
+    }
+
+    /// A part of something, without unit.
+    pub(super) fn part(&mut self, value: &Value) -> Option<Rational> {
+        self.number_of(
+            value,
+            "write the part as a number, 0.01 for 1%, or a fraction such as \"1/100\"",
+        )
+    }
+
+    /// A number; `help` is for what is none.
+    fn number_of(&mut self, value: &Value, help: &str) -> Option<Rational> {
         let parsed = match value.as_ref() {
             ValueInner::Integer(_) | ValueInner::Float(_) => parse_decimal(self.literal(value)),
             ValueInner::String(text) if text.contains('/') && !text.contains("pi") => {
@@ -68,7 +92,7 @@ impl<'s> Context<'s, '_> {
                 return None;
             }
             _ => {
-                self.wanted(value, "a number", "");
+                self.wanted(value, "a number", help);
                 return None;
             }
         };
