@@ -56,7 +56,9 @@ pub struct Choice {
     /// The scalar [default: both]
     #[arg(long, value_name = "TYPE", value_parser = scalar_parser())]
     pub scalar: Option<ScalarType>,
-    /// How long to search for fewer operations
+    /// How long to search for fewer operations. Ctrl-C ends a thorough search
+    /// early: what it has until then is taken, or what a quick search finds
+    /// where that is cheaper; a second Ctrl-C gives up
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
     /// `operations` takes the cheapest program even if it costs digits
@@ -109,18 +111,22 @@ impl Choice {
 pub struct GenerateArgs {
     /// The robot file
     pub robot: PathBuf,
-    /// Write the code to this file [default: standard output]
+    /// Write the code to this file [default: standard output]; a link is
+    /// followed, a device or pipe written into
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with FILE and exit with 1 if it differs
     #[arg(long, requires = "output")]
     pub check: bool,
     /// With a scene that has a tolerance: write its certificates (JSON) to this
-    /// file [default: beside the output, as NAME.certificate.json]
+    /// file [default: beside the output, as NAME.certificate.json, unless that
+    /// is a device or pipe]
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<PathBuf>,
     /// Search anew and keep the programs in a plan beside the robot file:
-    /// every later run, macro and build script replays them
+    /// every later run, macro and build script replays them. After a search
+    /// that was ended early, a kept program stays unless that found a cheaper
+    /// one
     #[arg(long, conflicts_with = "check")]
     pub save_plan: bool,
     /// Measure errors at this many states inside the robot's limits [default:

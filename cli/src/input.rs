@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use dalembert_codegen::function::Quantity;
@@ -56,7 +56,7 @@ pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Sc
 /// Reads a robot file; its warnings and notes go to standard error.
 pub fn reading(path: &Path) -> Result<Reading, Failure> {
     // One byte more than allowed: the reader says that it is too long.
-    let bytes = first(path, read::MAX_BYTES as u64 + 1)?;
+    let bytes = begin(path, read::MAX_BYTES as u64 + 1)?;
     let source = String::from_utf8_lossy(&bytes);
     let name = path.display().to_string();
     match read::parse_bytes(&bytes, &read::Options::default()) {
@@ -156,9 +156,9 @@ fn vector(value: &Value, key: &str, len: usize) -> Result<Option<Vec<f64>>, Stri
 /// A whole file.
 ///
 /// # Errors
-/// It is longer than `most`; a device may have no end.
+/// It cannot be read, or is longer than `most`.
 pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
-    let bytes = first(path, most + 1)?;
+    let bytes = begin(path, most + 1)?;
     if bytes.len() as u64 > most {
         return Err(Failure::Input(format!(
             "error: `{}` is longer than {} MiB, the most that is read",
@@ -169,15 +169,19 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// The first bytes of a file.
-pub fn first(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
-    let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes));
-    read.map_err(|error| {
+fn begin(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+    first(path, most).map_err(|error| {
         Failure::Input(format!(
             "error: `{}` cannot be read: {error}",
             path.display()
         ))
-    })?;
+    })
+}
+
+/// The first bytes of a file: no more are read, since a device may have no
+/// end.
+pub fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

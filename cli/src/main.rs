@@ -13,7 +13,8 @@
 //! - [`plot`]: charts as SVG
 //! - [`input`]: robot and state files
 //! - [`progress`]: a long search watched, and ended early
-//! - [`output`]: standard output, files, tables
+//! - [`files`]: files that are written: checked first, all or none
+//! - [`output`]: standard output, tables
 //! - [`outcome`]: exit codes
 #![forbid(unsafe_code)]
 
@@ -22,6 +23,7 @@ mod certify;
 mod count;
 mod couplings;
 mod explain;
+mod files;
 mod generate;
 mod input;
 mod outcome;

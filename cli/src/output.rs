@@ -1,8 +1,6 @@
-//! Standard output, files and tables.
+//! Standard output and tables.
 
-use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
 
 use crate::outcome::Failure;
 
@@ -28,31 +26,6 @@ pub fn note(text: &str) {
     let mut err = io::stderr().lock();
     // There is nowhere left to complain to.
     let _ = writeln!(err, "{}", text.trim_end());
-}
-
-/// Writes a file as a whole or not at all: under another name in the same
-/// folder first, then renamed.
-pub fn write_file(path: &Path, text: &str) -> Result<(), Failure> {
-    let fail = |error: io::Error| {
-        Failure::Input(format!(
-            "error: `{}` cannot be written: {error}",
-            path.display()
-        ))
-    };
-    let Some(name) = path.file_name() else {
-        return Err(fail(io::ErrorKind::IsADirectory.into()));
-    };
-    if path.is_dir() {
-        return Err(fail(io::ErrorKind::IsADirectory.into()));
-    }
-    let mut temporary = name.to_os_string();
-    temporary.push(format!(".{}.part", std::process::id()));
-    let temporary = path.with_file_name(temporary);
-    let written = fs::write(&temporary, text).and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|error| {
-        let _ = fs::remove_file(&temporary);
-        fail(error)
-    })
 }
 
 /// Lays out rows in columns: the first to the left, the others to the right

@@ -25,6 +25,8 @@ pub struct Session(Option<Arc<Terminal>>);
 struct Terminal {
     bar: ProgressBar,
     stop: AtomicBool,
+    /// Nothing is left to be ended.
+    over: AtomicBool,
 }
 
 /// Watches the searches of a request if they may take long: thorough ones, and
@@ -36,8 +38,11 @@ pub fn watch(request: &mut Request) -> Session {
         return Session(None);
     }
     let bar = bar(1);
-    let stop = AtomicBool::new(false);
-    let terminal = Arc::new(Terminal { bar, stop });
+    let terminal = Arc::new(Terminal {
+        bar,
+        stop: AtomicBool::new(false),
+        over: AtomicBool::new(false),
+    });
     if thorough {
         let heard = terminal.clone();
         // Without a handler Ctrl-C ends the process, as ever.
@@ -128,9 +133,11 @@ fn bar(length: u64) -> ProgressBar {
 }
 
 impl Terminal {
-    /// The first time asks for an end, the second time is one.
+    /// The first time asks for an end, the second time is one; what comes
+    /// after the search has no end but that.
     fn interrupt(&self) {
-        if self.stop.swap(true, Ordering::Relaxed) {
+        let over = self.over.load(Ordering::Relaxed);
+        if self.stop.swap(true, Ordering::Relaxed) || over {
             self.bar.finish_and_clear();
             process::exit(INTERRUPTED);
         }
@@ -164,9 +171,10 @@ impl Observer for Terminal {
 impl Drop for Session {
     fn drop(&mut self) {
         let Some(terminal) = &self.0 else { return };
+        terminal.over.store(true, Ordering::Relaxed);
         terminal.bar.finish_and_clear();
         if terminal.stop() {
-            output::note("the search was ended early: these are the best programs until then");
+            output::note("the search was ended early: more might be found");
         }
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! The library reads no clock and no signal: whoever waits brings an
 //! [`Observer`]. It is told what was reached, and it may ask for an end; the
-//! search then finishes its round and the best program so far goes on to be
-//! proved like any other. As long as nobody asks, watching changes nothing.
+//! search then finishes its round and the best program so far, if the quick
+//! search has none cheaper, goes on to be proved like any other. As long as
+//! nobody asks, watching changes nothing.
 
 use std::fmt;
 use std::sync::Arc;
@@ -78,6 +79,11 @@ impl Watch {
     /// With an observer.
     pub fn by(observer: Arc<dyn Observer>) -> Watch {
         Watch(Some(observer))
+    }
+
+    /// Whether the observer wants an end.
+    pub fn is_over(&self) -> bool {
+        self.0.as_deref().is_some_and(Observer::stop)
     }
 
     /// The watch over the search for one function.

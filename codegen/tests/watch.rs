@@ -7,6 +7,7 @@ use std::sync::Mutex;
 
 use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::early::price;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
@@ -131,6 +132,50 @@ fn a_tolerance_is_watched() {
     assert!(bounds.clone().count() > 0 && bounds.clone().all(|bound| bound.total() <= 0.3));
     assert!(ended.functions[0].counts.operations() >= generated.functions[0].counts.operations());
 }
+
+/// Whenever the end is asked for, it is no worse than not to have begun: no
+/// function is dearer than by the quick search, which leaves something out.
+#[test]
+fn an_early_end_is_no_worse_than_the_quick_search() {
+    let reading = support::reading_with("planar3r", PICK);
+    let run = |effort, until| {
+        let seen = Mutex::default();
+        let watch = Watch::by(Arc::new(Clerk { until, seen }));
+        let request = Request {
+            effort,
+            watch,
+            ..Request::default()
+        };
+        let request = request.in_scene(&reading.scenes[0], false, false);
+        generate(&reading.robot, &request).unwrap()
+    };
+    let quick = run(Effort::Quick, None);
+    assert!(!quick.ended);
+    let left_out = quick.functions[0].admitted.as_ref().unwrap();
+    assert!(!left_out.stages.is_empty());
+    for until in [Part::Formulations, Part::EGraph] {
+        let ended = run(Effort::Thorough, Some(until));
+        assert!(ended.ended);
+        let admitted = ended.functions[0].admitted.as_ref().unwrap();
+        assert!(!admitted.stages.is_empty(), "{until}");
+        for (ended, quick) in ended.functions.iter().zip(&quick.functions) {
+            let (ours, theirs) = (ended.counts, quick.counts);
+            assert!(
+                price(&ended.program) <= price(&quick.program),
+                "{until}: {ours}, quick: {theirs}"
+            );
+        }
+    }
+}
+
+const PICK: &str = r#"
+[scene.pick]
+outputs = ["inverse_dynamics"]
+lock = { 1 = 0 }
+box = { velocity = [1, 1, 1], acceleration = [1, 2, 2] }
+tolerance = { value = 0.1, relative_to = "range" }
+scalar = "f64"
+"#;
 
 /// A hash of the request, which build scripts take, must not see who watches.
 #[test]

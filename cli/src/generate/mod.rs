@@ -1,29 +1,30 @@
 //! `dalembert generate`: Rust source, written, printed or compared.
 //!
-//! - this file: code, certificates and plan, each in its file
+//! - this file: code and certificates
+//! - [`files`]: what goes where, and what is there already
+//! - [`keep`]: the plan
 //! - [`report`]: what a person wants to know about the code
 
+mod files;
+mod keep;
 pub mod report;
 
-use std::fs;
-use std::path::Path;
-
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::explain::errors::{MOST_STATES, affordable_states};
-use dalembert_codegen::generate::{GenerateError, Generated, GeneratedFunction, Request, generate};
-use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
+use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::schedule::Program;
 use dalembert_codegen::simplify::Effort;
 use dalembert_model::robot::Robot;
 
 use crate::args::GenerateArgs;
 use crate::outcome::{Failure, Outcome};
 use crate::{input, output, progress};
+use files::Files;
 
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    // Before the work: what cannot be written is no news after it.
+    let files = Files::of(args, &request)?;
     let kept = request.plan.take_if(|_| args.save_plan);
     // A comparison with what a whole search gives needs a whole search.
     let session = (!args.check).then(|| progress::watch(&mut request));
@@ -35,52 +36,14 @@ pub fn run(args: &GenerateArgs) -> Outcome {
         Effort::Thorough => MOST_STATES,
     });
     output::note(&report::text(&robot, &request, &generated, states));
-    if args.save_plan {
-        save_plan(args, &robot, &request, &generated, kept)?;
-    }
-    let beside = args
-        .output
-        .as_ref()
-        .map(|file| file.with_extension("certificate.json"));
-    let beside = args.certificate.clone().or(beside);
-    match (beside, certificates) {
-        (Some(file), Some(text)) => put(args, &file, &text)?,
-        (Some(_), None) if args.certificate.is_some() => {
-            return Err(Failure::Input(
-                "error: there is nothing to certify: --certificate is for a scene with a tolerance"
-                    .into(),
-            ));
-        }
-        _ => {}
-    }
-    match &args.output {
-        None => output::print(&generated.text),
-        Some(file) => put(args, file, &generated.text),
-    }
-}
-
-/// Writes a file, or compares it.
-fn put(args: &GenerateArgs, file: &Path, text: &str) -> Outcome {
-    let name = file.display();
-    if !args.check {
-        output::write_file(file, text)?;
-        output::note(&format!("\nwrote {name}"));
-        return Ok(());
-    }
-    match fs::read(file) {
-        Ok(bytes) if bytes == text.as_bytes() => {
-            output::note(&format!("\n{name} is up to date"));
-            Ok(())
-        }
-        Ok(bytes) => {
-            let line = first_difference(&bytes, text);
-            Err(Failure::Check(format!(
-                "\nerror: {name}:{line}: the file is not what would be generated; run without --check to write it"
-            )))
-        }
-        Err(error) => Err(Failure::Check(format!(
-            "\nerror: {name} cannot be compared: {error}"
-        ))),
+    let plan = args.save_plan.then(|| {
+        let (plan, notes) = keep::plan(&robot, &request, &generated, kept);
+        notes.iter().for_each(|note| output::note(note));
+        plan.write()
+    });
+    match args.check {
+        true => files.compare(&generated.text, certificates.as_deref()),
+        false => files.write(&generated.text, certificates.as_deref(), plan.as_deref()),
     }
 }
 
@@ -109,70 +72,4 @@ fn certificates(
         [one] => Some(one.clone()),
         all => Some(format!("[{}]\n", all.join(", ").replace("\n, ", ",\n"))),
     })
-}
-
-/// Keeps the programs; those of other requests for the same robot stay.
-fn save_plan(
-    args: &GenerateArgs,
-    robot: &Robot,
-    request: &Request,
-    generated: &Generated,
-    kept: Option<Plan>,
-) -> Result<(), Failure> {
-    let input = plan::input_hash(robot);
-    let mut plan = kept.filter(|plan| plan.input == input).unwrap_or(Plan {
-        robot: robot.name.clone(),
-        input,
-        entries: Vec::new(),
-    });
-    for function in &generated.functions {
-        for scalar in scalars(request, function) {
-            plan.insert(Entry {
-                start: request.start,
-                scalar,
-                source: function.source,
-                stages: function.stages.clone(),
-                scene: request.scene.as_ref().map(SceneKey::of),
-                program: exact(function).clone(),
-                edited: function.admitted.as_ref().and_then(|admitted| {
-                    let claim = admitted.libm.iter().find(|claim| claim.scalar == scalar)?;
-                    Some(Edited {
-                        stages: admitted.stages.clone(),
-                        program: admitted.program.clone(),
-                        bounds: claim.bounds.clone(),
-                        lambda_min: claim.lambda_min,
-                    })
-                }),
-            });
-        }
-    }
-    let path = plan::file::path(&args.robot);
-    output::write_file(&path, &plan.write())?;
-    output::note(&format!("\nkept the programs in {}", path.display()));
-    Ok(())
-}
-
-/// The scalars that a function was emitted in.
-fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
-    match &function.admitted {
-        None => request.scalars.clone(),
-        Some(admitted) => admitted.certificates.iter().map(|c| c.scalar).collect(),
-    }
-}
-
-/// The proved program: what a tolerance was applied to.
-fn exact(function: &GeneratedFunction) -> &Program {
-    let admitted = function.admitted.as_ref();
-    let first = admitted.and_then(|admitted| admitted.stages.first());
-    first.map_or(&function.program, |stage| &stage.program)
-}
-
-/// The first line, from one, in which a file differs from a text.
-fn first_difference(bytes: &[u8], text: &str) -> usize {
-    let same = bytes
-        .iter()
-        .zip(text.as_bytes())
-        .take_while(|(a, b)| a == b)
-        .filter(|(byte, _)| **byte == b'\n');
-    same.count() + 1
 }

@@ -26,7 +26,7 @@ pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usi
     text += &stages(generated);
     for function in &generated.functions {
         if let Some(admitted) = &function.admitted {
-            text += &tolerance(admitted);
+            text += &tolerance(admitted, generated.ended);
         }
     }
     text += "\nproved: with exact constants, every function\n";
@@ -76,7 +76,7 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
 }
 
 /// What a tolerance admitted: E by cause, and what was left out.
-fn tolerance(admitted: &Admitted) -> String {
+fn tolerance(admitted: &Admitted, ended: bool) -> String {
     let mut text = String::new();
     for certificate in &admitted.certificates {
         let function = certificate.emitted.function;
@@ -85,7 +85,12 @@ fn tolerance(admitted: &Admitted) -> String {
     }
     let left_out = omissions(&admitted.stages);
     if left_out.is_empty() {
-        text += "nothing was left out: no omission was found within the tolerance\n";
+        text += match ended {
+            false => "nothing was left out: no omission was found within the tolerance\n",
+            true => {
+                "nothing was left out: the search was ended early, and the quick one found no omission within the tolerance\n"
+            }
+        };
         return text;
     }
     text += "\nleft out, and what putting it back costs\n";

@@ -9,6 +9,7 @@ use dalembert_codegen::stress::growth::{Growth, JOINTS, measure};
 use serde_json::json;
 
 use crate::args::StressArgs;
+use crate::files::folder::Folder;
 use crate::outcome::Outcome;
 use crate::output;
 use crate::plot::curves::Chart;
@@ -19,8 +20,13 @@ struct Line {
     compile: Option<Duration>,
 }
 
+const CHART: &str = "growth.svg";
+
 /// Runs `dalembert stress --growth`.
 pub fn run(args: &StressArgs) -> Outcome {
+    let output = args.output.as_deref();
+    let output = output.map(|folder| Folder::at(folder, &[CHART], None));
+    let output = output.transpose()?;
     let mut lines = Vec::new();
     for n in JOINTS {
         output::note(&format!("… {n} joints"));
@@ -46,8 +52,8 @@ pub fn run(args: &StressArgs) -> Outcome {
     } else {
         output::print(&text(&lines))?;
     }
-    if let Some(folder) = &args.output {
-        output::write_file(&folder.join("growth.svg"), &chart(&lines).svg())?;
+    if let Some(folder) = output {
+        folder.write(&[(CHART.to_owned(), chart(&lines).svg())])?;
     }
     Ok(())
 }

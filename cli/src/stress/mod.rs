@@ -5,9 +5,6 @@
 
 mod growth;
 
-use std::fs;
-use std::path::Path;
-
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::stress::category::{Criterion, NORMWISE, PER_JOINT};
 use dalembert_codegen::stress::report::{self, Options, Row, Verdict};
@@ -16,18 +13,20 @@ use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 
 use crate::args::StressArgs;
+use crate::files::folder::Folder;
 use crate::outcome::{Failure, Outcome};
 use crate::plot::curves::Chart;
 use crate::{input, output};
 
 /// Runs the subcommand.
 pub fn run(args: &StressArgs) -> Outcome {
-    if let Some(folder) = &args.output {
-        make(folder)?;
-    }
     let Some(file) = &args.robot else {
         return growth::run(args);
     };
+    let names = Axis::ALL.map(file_name);
+    let output = args.output.as_deref();
+    let output = output.map(|folder| Folder::at(folder, &names, Some(file)));
+    let output = output.transpose()?;
     let robot = input::robot(file)?;
     let options = Options {
         states: args.states.max(1),
@@ -40,11 +39,12 @@ pub fn run(args: &StressArgs) -> Outcome {
     } else {
         output::print(&text(&robot, &rows))?;
     }
-    if let Some(folder) = &args.output {
+    if let Some(folder) = output {
         output::note("… charts");
-        for (name, chart) in charts(&robot, &sweep::run(&robot, &options)?) {
-            output::write_file(&folder.join(name), &chart.svg())?;
-        }
+        let charts = charts(&robot, &sweep::run(&robot, &options)?);
+        let files = charts.into_iter();
+        let files: Vec<_> = files.map(|(name, c)| (name.to_owned(), c.svg())).collect();
+        folder.write(&files)?;
     }
     match rows
         .iter()
@@ -57,13 +57,6 @@ pub fn run(args: &StressArgs) -> Outcome {
             rows.len()
         ))),
     }
-}
-
-fn make(folder: &Path) -> Outcome {
-    fs::create_dir_all(folder).map_err(|error| {
-        let folder = folder.display();
-        Failure::Input(format!("error: `{folder}` cannot be made: {error}"))
-    })
 }
 
 fn word(verdict: Verdict) -> &'static str {
@@ -166,12 +159,20 @@ fn json(robot: &Robot, rows: &[Row]) -> Value {
     })
 }
 
+fn file_name(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Angle => "angles.svg",
+        Axis::Velocity => "velocities.svg",
+        Axis::MassRatio => "mass_ratio.svg",
+    }
+}
+
 fn charts(robot: &Robot, curves: &[Curve]) -> Vec<(&'static str, Chart)> {
     let chart = |axis: Axis| {
-        let (file, x) = match axis {
-            Axis::Angle => ("angles.svg", "bound of |q|, rad"),
-            Axis::Velocity => ("velocities.svg", "|q̇| over its limit"),
-            Axis::MassRatio => ("mass_ratio.svg", "masses of the last link over the first's"),
+        let x = match axis {
+            Axis::Angle => "bound of |q|, rad",
+            Axis::Velocity => "|q̇| over its limit",
+            Axis::MassRatio => "masses of the last link over the first's",
         };
         let curves = curves.iter().filter(|curve| curve.axis == axis);
         let chart = Chart {
@@ -183,7 +184,7 @@ fn charts(robot: &Robot, curves: &[Curve]) -> Vec<(&'static str, Chart)> {
                 .map(|c| (format!("{} {}", c.subject, c.scalar), c.points.clone()))
                 .collect(),
         };
-        (file, chart)
+        (file_name(axis), chart)
     };
     Axis::ALL.map(chart).to_vec()
 }

@@ -168,7 +168,9 @@ impl Folder {
     }
 
     fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
-        crate::output::write_file(&self.0.join(name), text)
+        let path = self.0.join(name);
+        let fail = |error| Failure::Input(format!("error: `{}`: {error}", path.display()));
+        fs::write(&path, text).map_err(fail)
     }
 }
 

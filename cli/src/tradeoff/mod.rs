@@ -11,7 +11,6 @@ mod ladder;
 mod measure;
 mod report;
 
-use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::certify::choose::Frame;
@@ -25,6 +24,7 @@ use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 
 use crate::args::TradeoffArgs;
+use crate::files::folder::Folder;
 use crate::outcome::{Failure, Outcome};
 use crate::progress::{self, Steps};
 use crate::{input, output};
@@ -33,6 +33,11 @@ use ladder::{Ladder, Point};
 /// Tolerances unless others are asked for; zero is always there.
 const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
 
+/// What is written.
+const CSV: &str = "tradeoff.csv";
+const SVG: &str = "tradeoff.svg";
+const CERTIFICATES: &str = "certificates";
+
 /// Runs the subcommand.
 pub fn run(args: &TradeoffArgs) -> Outcome {
     let reading = input::reading(&args.robot)?;
@@ -40,6 +45,16 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let scene = scene.map(|name| input::scene(&args.robot, &reading, name));
     let scene = scene.transpose()?;
     let tolerances = tolerances(args)?;
+    // Before the work: a folder that cannot be is no news an hour later.
+    let output = match &args.output {
+        None => None,
+        Some(folder) => {
+            let output = Folder::at(folder, &[CSV, SVG], Some(&args.robot))?;
+            Folder::at(&folder.join(CERTIFICATES), &[], None)?;
+            Some(output)
+        }
+    };
+    let compiler = args.measure.then(measure::Compiler::find).transpose()?;
     // Its own tolerance is one of many here.
     let bare = scene.map(Scene::without_tolerance);
     let setting = Setting::of(&reading.robot, bare.as_ref()).map_err(GenerateError::Scene)?;
@@ -55,12 +70,6 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let steps = Steps::new(2 * (1 + tolerances.len()));
     let watch = steps.watch();
     let frame = frame.watched(watch.over(exact.function));
-    if let Some(folder) = &args.output {
-        // Before the work: a folder that cannot be is no news an hour later.
-        fs::create_dir_all(folder)
-            .map_err(|error| Failure::Input(format!("error: `{}`: {error}", folder.display())))?;
-    }
-    let compiler = args.measure.then(measure::Compiler::find).transpose()?;
     let mut points = Ladder::new(args, &frame, &steps).climb(&tolerances)?;
     drop(steps);
     if let Some(compiler) = compiler {
@@ -68,9 +77,10 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     }
     report::mark(&mut points);
     output::print(&report::table(&points))?;
-    if let Some(folder) = &args.output {
+    if let Some(folder) = &output {
         let chart = chart(&reading, scene, exact.function, relative_to, &points);
-        write(folder, &chart, &points)?;
+        folder.write(&files(chart, &points))?;
+        output::note(&format!("wrote {}", folder.path().display()));
     }
     let violated = points.iter().filter_map(|point| {
         let why = point.violation.as_ref()?;
@@ -83,18 +93,14 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     }
 }
 
-fn write(folder: &Path, chart: &str, points: &[Point]) -> Outcome {
-    output::write_file(&folder.join("tradeoff.csv"), &report::csv(points))?;
-    output::write_file(&folder.join("tradeoff.svg"), chart)?;
-    let certificates = folder.join("certificates");
-    fs::create_dir_all(&certificates)
-        .map_err(|error| Failure::Input(format!("error: `{}`: {error}", certificates.display())))?;
-    for point in points {
-        let text = point.certificate.to_json();
-        output::write_file(&certificates.join(point.file()), &text)?;
-    }
-    output::note(&format!("wrote {}", folder.display()));
-    Ok(())
+/// The table, the chart and the certificates, by name.
+fn files(chart: String, points: &[Point]) -> Vec<(String, String)> {
+    let mut files = vec![(CSV.into(), report::csv(points)), (SVG.into(), chart)];
+    files.extend(points.iter().map(|point| {
+        let name = format!("{CERTIFICATES}/{}", point.file());
+        (name, point.certificate.to_json())
+    }));
+    files
 }
 
 /// Ascending, each once.

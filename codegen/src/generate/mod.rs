@@ -3,9 +3,11 @@
 //! - [`request`], [`start`]: what somebody wants, and from which formulation
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
+//! - [`early`]: a search that was ended early, and what programs are compared by
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated
 
+pub mod early;
 pub mod error;
 mod range;
 pub mod request;
@@ -24,7 +26,7 @@ use crate::plan;
 use crate::portfolio::Source;
 use crate::scene::Setting;
 use crate::schedule::Program;
-use crate::simplify::Stage;
+use crate::simplify::{Effort, Stage};
 use crate::sincos::{self, AngleKernel, SinCos, Sines};
 use crate::verify::exact::{Proof, prove_in};
 use crate::verify::floating::Emitted;
@@ -88,6 +90,9 @@ pub struct Generated {
     pub emitted: Vec<Emitted>,
     /// What a user should know, such as constants that round to subnormals.
     pub warnings: Vec<String>,
+    /// Whether the observer wanted an end before a thorough search was through:
+    /// no function is dearer than the quick search's, but more might be found.
+    pub ended: bool,
 }
 
 /// The most numbers a function may return: beyond, the code that returns
@@ -106,13 +111,11 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         return Err(GenerateError::StalePlan { robot });
     }
     let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
-    let mut functions = Vec::new();
-    for function in Function::ALL {
-        if request.functions.contains(&function) {
-            functions.push(one(&setting, function, request)?);
-        }
+    let (mut functions, scalars) = all(&setting, request)?;
+    let ended = request.effort == Effort::Thorough && request.watch.is_over();
+    if ended {
+        early::no_dearer_than_quick(&setting, request, &mut functions, &scalars);
     }
-    let scalars = tolerate(&setting, &mut functions, request)?;
     for generated in &mut functions {
         if generated.sines.is_empty() {
             generated.sines = sines(&setting, generated, &scalars, request)?;
@@ -147,7 +150,24 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         text,
         emitted,
         warnings,
+        ended,
     })
+}
+
+/// Every function's program, with what a tolerance leaves of it, and the
+/// scalars to emit.
+fn all(
+    setting: &Setting,
+    request: &Request,
+) -> Result<(Vec<GeneratedFunction>, Vec<ScalarType>), GenerateError> {
+    let mut functions = Vec::new();
+    for function in Function::ALL {
+        if request.functions.contains(&function) {
+            functions.push(one(setting, function, request)?);
+        }
+    }
+    let scalars = tolerate(setting, &mut functions, request)?;
+    Ok((functions, scalars))
 }
 
 fn one(

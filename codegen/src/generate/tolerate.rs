@@ -95,12 +95,14 @@ fn one(
     }
     let watch = request.watch.over(function);
     let frame = Frame::new(setting, program, tolerance.relative_to).map_err(fail)?;
-    let frame = frame.watched(watch);
+    // Who wants an end before a function's turn gets the quick search for it,
+    // which nobody ends: it would leave out nothing.
+    let over = watch.is_over();
+    let frame = if over { frame } else { frame.watched(watch) };
     let tolerances = frame.tolerances(tolerance);
     let (settings, fineness) = match request.effort {
         Effort::Quick => (QUICK, Fineness::GLANCE),
-        // Who wants an end before a function's turn gets the quick search for it.
-        Effort::Thorough if watch.is_over() => (QUICK, Fineness::CERTIFY),
+        Effort::Thorough if over => (QUICK, Fineness::CERTIFY),
         Effort::Thorough => (thorough(request), Fineness::CERTIFY),
     };
     // A plan's bounds are not found anew, but they are compared.

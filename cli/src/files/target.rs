@@ -1,0 +1,151 @@
+//! Where an output goes.
+
+use std::fs::{self, Metadata, OpenOptions};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::write::Unfinished;
+use super::{parent, unwritable};
+use crate::outcome::{Failure, Outcome};
+
+/// Where an output goes.
+#[derive(Debug)]
+pub struct Target {
+    /// As the user calls it.
+    pub name: PathBuf,
+    pub(super) place: Place,
+}
+
+/// What is there.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Standard output.
+    Standard,
+    /// A file that is there or will be, links followed: replaced as a whole.
+    File(PathBuf),
+    /// A device or a pipe: written into, so that it stays what it is.
+    Stream(PathBuf),
+}
+
+/// Links that are followed.
+const MOST_LINKS: usize = 40;
+
+/// Where a process finds what it has open.
+const OPEN: [&str; 2] = ["/dev/fd", "/proc/self/fd"];
+
+impl Target {
+    /// Standard output.
+    pub fn standard() -> Target {
+        Target {
+            name: "standard output".into(),
+            place: Place::Standard,
+        }
+    }
+
+    /// Finds out where a path leads.
+    ///
+    /// # Errors
+    /// To a folder, or nowhere.
+    pub fn at(path: &Path) -> Result<Target, Failure> {
+        let place = place(path).map_err(|error| unwritable(path, said(path, &error)))?;
+        let name = path.to_owned();
+        Ok(Target { name, place })
+    }
+
+    /// Tries whether it can be written, and leaves nothing behind.
+    ///
+    /// # Errors
+    /// It cannot.
+    pub fn check(&self) -> Outcome {
+        let tried = match &self.place {
+            Place::Standard => Ok(()),
+            Place::File(path) => Unfinished::beside(path).map(drop),
+            Place::Stream(path) => enter(path),
+        };
+        tried.map_err(|error| unwritable(&self.name, error))
+    }
+
+    /// The file, unless it is a device or a pipe.
+    pub fn file(&self) -> Option<&Path> {
+        match &self.place {
+            Place::File(path) => Some(path),
+            Place::Standard | Place::Stream(_) => None,
+        }
+    }
+}
+
+fn place(path: &Path) -> io::Result<Place> {
+    if path.to_string_lossy().ends_with(std::path::is_separator) {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        // A file that is open may have no name, or is to be written on, not anew.
+        if let Some(number) = OPEN.iter().find_map(|open| path.strip_prefix(open).ok()) {
+            return match number == Path::new("1") {
+                true => Ok(Place::Standard),
+                false => fs::metadata(&path).map(|_| Place::Stream(path)),
+            };
+        }
+        if let Ok(to) = fs::read_link(&path) {
+            path = parent(&path).join(to);
+            continue;
+        }
+        return match fs::metadata(&path) {
+            Ok(found) if found.is_file() => fs::canonicalize(&path).map(Place::File),
+            Ok(found) => stream(&found).map(|()| Place::Stream(path)),
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                let name = path.file_name().ok_or(ErrorKind::IsADirectory)?;
+                Ok(Place::File(fs::canonicalize(parent(&path))?.join(name)))
+            }
+            Err(error) => Err(error),
+        };
+    }
+    Err(io::Error::other("its links go round in circles"))
+}
+
+/// Whether what is no file can be written into.
+fn stream(found: &Metadata) -> io::Result<()> {
+    if found.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let kind = found.file_type();
+        if kind.is_block_device() {
+            return Err(io::Error::other("it is a disk"));
+        }
+        if kind.is_socket() {
+            return Err(io::Error::other("a socket has no name to write to"));
+        }
+    }
+    Ok(())
+}
+
+/// A pipe is not opened: that waits for its reader.
+fn enter(path: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if fs::metadata(path)?.file_type().is_fifo() {
+            return Ok(());
+        }
+    }
+    OpenOptions::new().append(true).open(path).map(drop)
+}
+
+/// What is wrong, and the likely fix.
+fn said(path: &Path, error: &io::Error) -> String {
+    let folder = parent(path);
+    match error.kind() {
+        ErrorKind::IsADirectory => {
+            "it is a folder\n  = help: give the name of a file in it".to_owned()
+        }
+        ErrorKind::NotFound if !folder.exists() => format!(
+            "there is no folder `{}`\n  = help: make it first",
+            folder.display()
+        ),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,216 @@
+//! What a run writes: looked at before its work, never over something else,
+//! all of it or nothing.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use support::{Ran, robot, run, temporary};
+
+const SCENE: &str = r#"
+[scene.hold]
+outputs = ["gravity"]
+tolerance = { value = 0.3, relative_to = "range" }
+scalar = "f64"
+"#;
+
+/// A folder with a robot file.
+fn arm(name: &str) -> (PathBuf, String) {
+    let folder = temporary(name);
+    let file = folder.join("arm.toml");
+    let planar = fs::read_to_string(robot("planar2r")).unwrap();
+    fs::write(&file, format!("{planar}{SCENE}")).unwrap();
+    let name = file.to_str().unwrap().to_owned();
+    (folder, name)
+}
+
+fn hold(arm: &str, arguments: &[&str]) -> Ran {
+    run(&[&["generate", arm, "--scene", "hold"][..], arguments].concat())
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
+}
+
+/// Refused with these words before anything was searched for: there is no
+/// report, and the folder is as it was.
+fn refused(ran: &Ran, words: &str, folder: &Path, before: &[String]) {
+    assert_eq!(ran.code, 2, "{words}: {}", ran.err);
+    assert!(ran.err.contains(words), "{words}: {}", ran.err);
+    assert!(!ran.err.contains("joints, input"), "{words}: {}", ran.err);
+    assert!(ran.out.is_empty());
+    assert_eq!(names(folder), before, "{words}");
+}
+
+#[test]
+fn folders_and_missing_ones_are_no_targets() {
+    let (folder, arm) = arm("targets");
+    fs::create_dir_all(folder.join("out")).unwrap();
+    fs::create_dir_all(folder.join("code.certificate.json")).unwrap();
+    let before = names(&folder);
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    for (arguments, words) in [
+        (vec!["-o", &*path("out")], "it is a folder"),
+        (vec!["-o", &*path("new/")], "it is a folder"),
+        (vec!["-o", &*path("none/code.rs")], "there is no folder"),
+        // The certificate beside the code.
+        (
+            vec!["-o", &*path("code.rs")],
+            "code.certificate.json` cannot be written",
+        ),
+        (
+            vec!["-o", &*path("a.rs"), "--certificate", &*path("out")],
+            "it is a folder",
+        ),
+        (
+            vec!["-o", &*path("a.rs"), "--certificate", &*path("none/a.json")],
+            "there is no folder",
+        ),
+    ] {
+        refused(&hold(&arm, &arguments), words, &folder, &before);
+    }
+    // Where nothing is to be certified.
+    let gravity = ["generate", &arm, "--outputs", "gravity"];
+    let ran = run(&[&gravity[..], &["--certificate", &path("a.json")]].concat());
+    refused(&ran, "nothing to certify", &folder, &before);
+}
+
+#[test]
+fn nothing_is_written_over_an_input_or_another_output() {
+    let (folder, arm) = arm("distinct");
+    fs::write(folder.join("arm.plan"), "").unwrap();
+    let gravity = |arguments: &[&str]| {
+        let generate = ["generate", &arm, "--outputs", "gravity", "--no-plan"];
+        run(&[&generate[..], arguments].concat())
+    };
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("arm.toml", folder.join("link.toml")).unwrap();
+    #[cfg(not(unix))]
+    fs::write(folder.join("link.toml"), "").unwrap();
+    let before = names(&folder);
+    let source = fs::read_to_string(&arm).unwrap();
+    let over = "--output would be written over the robot file";
+    refused(&gravity(&["-o", &arm]), over, &folder, &before);
+    let dotted = path("../distinct/arm.toml");
+    refused(&gravity(&["-o", &dotted]), over, &folder, &before);
+    if cfg!(unix) {
+        refused(
+            &gravity(&["-o", &path("link.toml")]),
+            over,
+            &folder,
+            &before,
+        );
+    }
+    let over = "over the plan beside the robot file";
+    refused(&gravity(&["-o", &path("arm.plan")]), over, &folder, &before);
+    fs::remove_file(folder.join("arm.plan")).unwrap();
+    let before = names(&folder);
+    // There is none, but the next run would read it.
+    refused(&gravity(&["-o", &path("arm.plan")]), over, &folder, &before);
+    let same = gravity(&["-o", &path("arm.plan"), "--save-plan"]);
+    let words = "--output and --save-plan would be the same file";
+    refused(&same, words, &folder, &before);
+    let certificate = hold(&arm, &["--certificate", &arm]);
+    let words = "--certificate would be written over the robot file";
+    refused(&certificate, words, &folder, &before);
+    let code = path("same.rs");
+    let same = hold(&arm, &["-o", &code, "--certificate", &code]);
+    let words = "--output and --certificate would be the same file";
+    refused(&same, words, &folder, &before);
+    assert_eq!(fs::read_to_string(&arm).unwrap(), source);
+}
+
+/// A link keeps leading where it leads, to a file that is there or not; the
+/// certificate is beside the link.
+#[cfg(unix)]
+#[test]
+fn links_are_followed() {
+    use std::os::unix::fs::symlink;
+    let (folder, arm) = arm("links");
+    fs::create_dir_all(folder.join("far")).unwrap();
+    fs::write(folder.join("far/old.rs"), "old").unwrap();
+    for (link, target) in [("there.rs", "far/old.rs"), ("not.rs", "far/new.rs")] {
+        symlink(target, folder.join(link)).unwrap();
+        let ran = hold(&arm, &["-o", folder.join(link).to_str().unwrap()]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        assert_eq!(fs::read_link(folder.join(link)).unwrap(), Path::new(target));
+        let text = fs::read_to_string(folder.join(target)).unwrap();
+        assert!(text.contains("pub mod planar2r_hold"), "{text}");
+    }
+    assert_eq!(names(&folder.join("far")), ["new.rs", "old.rs"]);
+    assert!(names(&folder).contains(&"there.certificate.json".to_owned()));
+    symlink("circle.rs", folder.join("circle.rs")).unwrap();
+    let before = names(&folder);
+    let ran = hold(&arm, &["-o", folder.join("circle.rs").to_str().unwrap()]);
+    refused(&ran, "circles", &folder, &before);
+}
+
+/// A pipe stays one, with the code in it and no certificate beside it.
+#[cfg(unix)]
+#[test]
+fn pipes_are_written_into() {
+    use std::os::unix::fs::FileTypeExt;
+    let (folder, arm) = arm("pipes");
+    let pipe = folder.join("pipe.rs");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let before = names(&folder);
+    let name = pipe.to_str().unwrap();
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read_to_string(pipe).unwrap()
+    });
+    let ran = hold(&arm, &["-o", name]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(reader.join().unwrap().contains("pub mod planar2r_hold"));
+    assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
+    assert_eq!(names(&folder), before);
+}
+
+/// Like no name at all, also where it has been sent to a file: what is in that
+/// stays.
+#[cfg(unix)]
+#[test]
+fn standard_output_by_its_name() {
+    let (folder, arm) = arm("standard");
+    let before = names(&folder);
+    let plain = hold(&arm, &[]);
+    let named = hold(&arm, &["-o", "/dev/stdout"]);
+    assert_eq!(named.code, 0, "{}", named.err);
+    assert!(named.out == plain.out && !plain.out.is_empty());
+    assert_eq!(names(&folder), before);
+
+    let log = folder.join("log");
+    fs::write(&log, "before\n").unwrap();
+    let open = fs::OpenOptions::new().append(true).open(&log).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dalembert"));
+    let command = command.args(["generate", &arm, "--scene", "hold", "-o", "/dev/stdout"]);
+    assert!(command.stdout(open).output().unwrap().status.success());
+    let text = fs::read_to_string(&log).unwrap();
+    assert_eq!(text, format!("before\n{}", plain.out));
+}
+
+/// A folder is made when there is something to put into it.
+#[test]
+fn folders_are_made_at_the_end() {
+    let (folder, arm) = arm("folders");
+    let before = names(&folder);
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let tradeoff = |output: &str| run(&["tradeoff", &arm, "-o", output]);
+    // The robot has no limits: said after the folder was looked at.
+    let ran = tradeoff(&path("new/deep"));
+    refused(&ran, "has no limit", &folder, &before);
+    let ran = tradeoff(&path("arm.toml/deep"));
+    refused(&ran, "arm.toml` is no folder", &folder, &before);
+    let ran = run(&["stress", &arm, "-o", &arm]);
+    refused(&ran, "is no folder", &folder, &before);
+    fs::create_dir_all(folder.join("full/tradeoff.csv")).unwrap();
+    let before = names(&folder);
+    refused(&tradeoff(&path("full")), "it is a folder", &folder, &before);
+}

@@ -1,0 +1,53 @@
+//! A search that was ended early: what it has until then may be less than what
+//! the quick search gives, which takes seconds and which whoever wants an end
+//! could have had at once. So that one is run as well, function by function the
+//! cheaper program stays, and an early end is never worse than no patience.
+
+use super::{GeneratedFunction, Request, all};
+use crate::emit::ScalarType;
+use crate::scene::Setting;
+use crate::schedule::{Operation, Program};
+use crate::simplify::{CostModel, Effort};
+use crate::watch::Watch;
+
+/// Puts the quick search's functions in the place of dearer ones.
+pub(super) fn no_dearer_than_quick(
+    setting: &Setting,
+    request: &Request,
+    functions: &mut [GeneratedFunction],
+    scalars: &[ScalarType],
+) {
+    let quick = Request {
+        effort: Effort::Quick,
+        watch: Watch::default(),
+        ..request.clone()
+    };
+    // Where it finds nothing, what is there already stays.
+    let Ok((quick, theirs)) = all(setting, &quick) else {
+        return;
+    };
+    if theirs != scalars {
+        // Its bounds are coarser: it may have needed a wider scalar.
+        return;
+    }
+    for (function, quick) in functions.iter_mut().zip(quick) {
+        if price(&quick.program) < price(&function.program) {
+            *function = quick;
+        }
+    }
+}
+
+/// What programs are compared by, in hundredths of an operation: operations,
+/// and what sines and cosines are worth to the search.
+pub fn price(program: &Program) -> u64 {
+    let model = CostModel::OPERATIONS;
+    let steps = program.steps.iter().map(|step| match step.operation {
+        Operation::Mul => model.mul,
+        Operation::Add | Operation::Sub => model.add,
+    });
+    let angles = program.trig.iter().map(|trig| {
+        let forming = trig.angle.additions() as u64 * model.add;
+        forming + model.angle(trig.angle)
+    });
+    steps.sum::<u64>() + angles.sum::<u64>()
+}
