@@ -114,10 +114,12 @@ fn stream(found: &Metadata) -> io::Result<()> {
         use std::os::unix::fs::FileTypeExt;
         let kind = found.file_type();
         if kind.is_block_device() {
-            return Err(io::Error::other("it is a disk"));
+            return Err(io::Error::other("it is a disk, not a file"));
         }
         if kind.is_socket() {
-            return Err(io::Error::other("a socket has no name to write to"));
+            return Err(io::Error::other(
+                "it is a socket, not a file\n  = help: pipe standard output into what talks to it",
+            ));
         }
     }
     Ok(())

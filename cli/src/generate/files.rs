@@ -51,10 +51,21 @@ impl Files {
             certificates,
             plan,
         };
-        if !args.check {
-            files.check(args, &path)?;
+        match args.check {
+            true => files.comparable()?,
+            false => files.check(args, &path)?,
         }
         Ok(files)
+    }
+
+    fn comparable(&self) -> Outcome {
+        match self.code.file() {
+            Some(_) => Ok(()),
+            None => Err(Failure::Input(format!(
+                "error: `{}` is no file that --check could compare",
+                self.code.name.display()
+            ))),
+        }
     }
 
     fn check(&self, args: &GenerateArgs, plan: &Path) -> Outcome {
