@@ -57,8 +57,8 @@ pub struct Choice {
     #[arg(long, value_name = "TYPE", value_parser = scalar_parser())]
     pub scalar: Option<ScalarType>,
     /// How long to search for fewer operations. Ctrl-C ends a thorough search
-    /// early: what it has until then is taken, or what a quick search finds
-    /// where that is cheaper; a second Ctrl-C gives up
+    /// early, except for --check: what it has until then is taken, or what a
+    /// quick search finds where that is cheaper; a second Ctrl-C gives up
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
     /// `operations` takes the cheapest program even if it costs digits

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use crate::args::VerifyArgs;
 use crate::generate::report;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output, sines};
+use crate::{input, output, progress, sines};
 
 /// A measured error and its bound.
 struct Check {
@@ -52,13 +52,15 @@ const CLIMBS: usize = 2;
 
 /// Runs the subcommand.
 pub fn run(args: &VerifyArgs) -> Outcome {
-    let (robot, request) = input::robot_and_request(&args.robot, &args.choice)?;
+    let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     let given = match &args.states {
         Some(file) => input::states(file, robot.joints.len())?,
         None => Vec::new(),
     };
+    let session = progress::watch(&mut request);
     // What cannot be proved is not generated: this ends with the reason.
     let generated = generate(&robot, &request)?;
+    drop(session);
     let setting = Setting::of(&robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let states = seeded(setting.robot(), STATES, SEED);
     let runtime = Runtime::in_setting(setting);
