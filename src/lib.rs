@@ -96,10 +96,93 @@ pub use dalembert_model::read;
 ///   `lagrange_euler` and keeps the cheapest; naming one tries that only.
 /// - `effort: quick;` or `thorough`, which takes minutes and finds a few
 ///   operations less.
-/// - `sincos: auto;` takes polynomials for sines where a scene's tolerance
-///   admits them; `polynomial` takes them always, over the joints' limits,
-///   with `sincos_error: 1e-9;` or 1e-6; `libm` never.
+/// - `sincos: auto;` takes polynomials for sines and cosines where a scene's
+///   tolerance admits them, else libm; `libm` takes it always. `polynomial`
+///   takes polynomials over the joints' limits, or the scene's box; outside
+///   they are wrong.
+/// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for
+///   `sincos: polynomial;` alone. The default is `1e-6`; in a scene with a
+///   tolerance that decides, and no error is given.
+/// - `scene: NAME;` generates only what that scene of the robot needs, or
+///   `scene: NAME { … };` what is said here. Then `outputs` and `scalar` may
+///   be left out: they are the scene's.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
+///
+/// # Scenes
+///
+/// What a robot is used for, so that nothing else is computed. A scene stands
+/// in the robot file (`[scene.NAME]`), in the robot's block (`scene NAME { … }`)
+/// or in the clause, with the same keys. All of them may be left out:
+///
+/// ```
+/// dalembert::dynamics! {
+///     /// An arm that picks, in a vertical plane.
+///     mod arm {
+///         convention: standard;
+///         gravity: [0, -9.81, 0];
+///         joint {
+///             name: shoulder, kind: revolute, a: 0.5, mass: 2, com: [-0.25, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0],
+///             limits: { position: [-2.2, 2.2], velocity: 3, acceleration: 20, torque: 60 },
+///         }
+///         joint {
+///             name: elbow, kind: revolute, a: 0.4, mass: 1, com: [-0.2, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0],
+///             limits: { position: [-2.2, 2.2], velocity: 3, acceleration: 20, torque: 30 },
+///         }
+///         joint {
+///             name: wrist, kind: revolute, a: 0.1, mass: 0.2, com: [0, 0, 0], inertia: [0, 0, 0, 0, 0, 0],
+///             limits: { position: [-2.2, 2.2], velocity: 3, acceleration: 20, torque: 5 },
+///         }
+///     }
+///     scene: pick {
+///         outputs: [inverse_dynamics],
+///         // Torques wanted, by number from 1 or by name: all that are not locked, if left out.
+///         joints: [1, elbow],
+///         // Joints that stay where they are.
+///         lock: { wrist: pi/6 },
+///         // Instead of the robot's.
+///         gravity: [0, -9.81, 0],
+///         // These terms and their argument are gone; or acceleration: zero.
+///         velocity: zero,
+///         // What the last link carries, in its frame; a point without `inertia`.
+///         payload: { mass: 0.5, com: [0, 0, 0.05], inertia: [0.01, 0.01, 0.01, 0, 0, 0] },
+///         // Where bounds hold: an entry a joint. What is left out is the joints' limits.
+///         box: { position: [[-1, 1], [0, 2], [0, 1]], acceleration: [5, 10, 10] },
+///         // Of the actuators' torque limits, or `range`: of a torque that the model attains
+///         // in the box, at or just below its largest. A value, or a list of them, one a joint.
+///         tolerance: { value: 1e-2, relative_to: actuator },
+///         // Without it, the cheapest that the tolerance admits.
+///         scalar: f64,
+///     };
+/// }
+/// let (q, qdd) = ([0.3, 0.5, 0.0], [1.0, 2.0, 0.0]);
+/// let tau: [f64; 2] = arm::inverse_dynamics(&q, &qdd);
+/// # // The wrist and its load are one body with the forearm: at 0.4 + 0.1 (cos, sin)(pi/6) m.
+/// # let (a1, a2) = (0.3f64, 0.3f64 + 0.5);
+/// # let (turn, l) = (std::f64::consts::PI / 6.0, [0.5, 0.4, 0.1]);
+/// # let (a3, [w1, w2]) = (a2 + turn, [1.0, 3.0]);
+/// # let at = |m: f64, i: f64, l2: f64, l3: f64| {
+/// #     // A body at l1, l2, l3 along the links: torques about both joints, without velocities.
+/// #     let x = [l[0] * a1.cos(), l2 * a2.cos() + l3 * a3.cos()];
+/// #     let y = [l[0] * a1.sin(), l2 * a2.sin() + l3 * a3.sin()];
+/// #     let acc = [-(y[0] * w1 + y[1] * w2), x[0] * w1 + x[1] * w2 + 9.81];
+/// #     let turning = |x: f64, y: f64| m * (x * acc[1] - y * acc[0]) + i * w2;
+/// #     [turning(x[0] + x[1], y[0] + y[1]), turning(x[1], y[1])]
+/// # };
+/// # let bodies = [at(1.0, 0.1, 0.2, 0.0), at(0.2, 0.0, 0.4, 0.1), at(0.5, 0.01, 0.4, 0.1)];
+/// # let upper = 2.0 * 0.25 * (9.81 * a1.cos() + 0.25) + 0.1;
+/// # let sum = |k: usize| bodies.iter().map(|body| body[k]).sum::<f64>();
+/// # let exact = [upper + sum(0), sum(1)];
+/// # for ((tau, exact), limit) in tau.iter().zip(exact).zip([60.0, 30.0]) {
+/// #     assert!((tau - exact).abs() <= 1e-2 * limit, "{tau} {exact}");
+/// # }
+/// ```
+///
+/// Arguments keep an entry for every joint, results are over `joints`. With a
+/// tolerance each function's documentation has its certificate: how far it is
+/// from the full model at most, in the box. A box that a joint never reaches is
+/// an error, one that goes beyond its limits is taken as it stands. To find
+/// what a tolerance admits takes longer than other clauses: keep it in a plan
+/// with the command (`generate --scene NAME --save-plan`).
 #[cfg(feature = "macros")]
 pub use dalembert_macros::dynamics;
 

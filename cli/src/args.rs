@@ -267,9 +267,9 @@ pub struct TradeoffArgs {
     /// The function [default: the scene's first, or inverse_dynamics]
     #[arg(long, value_name = "NAME", value_parser = function_parser())]
     pub function: Option<Function>,
-    /// What errors are relative to: `actuator` torque limits, or `range`, the
-    /// model's own largest torques in the box [default: the scene's, or
-    /// actuator]
+    /// What errors are relative to: `actuator` torque limits, or `range`, a
+    /// torque that the model attains in the box, at or just below its largest
+    /// [default: the scene's, or actuator]
     #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
     pub relative_to: Option<String>,
     /// Tolerances, separated by commas [default: 1e-12 to 1e-1]

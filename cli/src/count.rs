@@ -13,17 +13,22 @@ use crate::{input, output, progress};
 /// Runs the subcommand.
 pub fn run(args: &CountArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
-    // Both scalars run the same program: one is enough to count it, and a
-    // constant that f32 cannot hold is no reason not to.
-    request.scalars.retain(|&scalar| scalar == ScalarType::F64);
-    if request.scalars.is_empty() {
-        request.scalars = vec![ScalarType::F32];
+    let scene = request.scene.as_ref();
+    if scene.is_none_or(|scene| scene.tolerance.is_none()) {
+        // Both scalars run the same program: one is enough to count it, and a
+        // constant that f32 cannot hold is no reason not to. What a tolerance
+        // admits depends on the scalar.
+        request.scalars.retain(|&scalar| scalar == ScalarType::F64);
+        if request.scalars.is_empty() {
+            request.scalars = vec![ScalarType::F32];
+        }
     }
     let session = progress::watch(&mut request);
     let generated = generate(&robot, &request)?;
     drop(session);
     if args.json {
-        let scalar = request.scalars.first().copied();
+        // The first that was emitted.
+        let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
         let of = |f: &GeneratedFunction| counts(&scalar.map_or(f.counts, |s| f.counts_in(s)));
         let functions = generated.functions.iter();
         let functions: Map<String, Value> =

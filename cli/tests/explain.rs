@@ -72,6 +72,54 @@ fn a_scene() {
     assert!(ran.err.contains("did you mean `still`?"), "{}", ran.err);
 }
 
+/// With a tolerance the last row is what `generate` writes and `count` counts:
+/// its scalar, its polynomials.
+#[test]
+fn a_tolerance() {
+    let folder = temporary("explain_tolerance");
+    let file = folder.join("arm.toml");
+    let scene = "\n[scene.rough]\noutputs = [\"gravity\"]\nlock = { 3 = 0 }\n\
+                 tolerance = { value = 1e-2, relative_to = \"range\" }\n";
+    let source = std::fs::read_to_string(robot("planar3r")).unwrap() + scene;
+    std::fs::write(&file, source).unwrap();
+    let arm = file.to_str().unwrap();
+    let explain = ["explain", arm, "--scene", "rough", "--states", "5"];
+    let ran = run(&[&explain[..], &["--json"]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    let rows = json["functions"]["gravity"]["rows"].as_array().unwrap();
+    let last = rows.last().unwrap();
+    assert_eq!(last["scalar"], "f32");
+    let count = run(&["count", arm, "--scene", "rough", "--json"]);
+    assert_eq!(count.code, 0, "{}", count.err);
+    let count: Value = serde_json::from_str(&count.out).unwrap();
+    let generated = run(&["generate", arm, "--scene", "rough"]);
+    assert_eq!(generated.code, 0, "{}", generated.err);
+    let counted = &count["functions"]["gravity"];
+    let of = |key: &str| {
+        assert_eq!(last[key], counted[key], "{key}");
+        last[key].as_u64().unwrap()
+    };
+    assert!(of("trig_mul") > 0);
+    let line = format!(
+        "{} mul, {} add, {} sincos, {} trig_mul, {} trig_add.",
+        of("mul"),
+        of("add"),
+        of("sincos"),
+        of("trig_mul"),
+        of("trig_add")
+    );
+    assert!(generated.out.contains(&line), "{line}\n{}", generated.out);
+    let ran = run(&explain);
+    assert_eq!(ran.out.matches("what is generated").count(), 1);
+    assert!(
+        ran.out
+            .contains("what the tolerance admits, in f32: what is generated"),
+        "{}",
+        ran.out
+    );
+}
+
 #[test]
 fn states_have_bounds() {
     for states in ["0", "10001", "many"] {

@@ -65,7 +65,7 @@ fn a_scene_with_a_tolerance() {
     let text = fs::read_to_string(&output).unwrap();
     for part in [
         "pub mod planar3r_pick {",
-        "T is the model's own largest value",
+        "T of an output is a size that it attains in the box",
         "| output | T | E | left out | sin/cos | rounding |",
         "| joint | q | q̇ | q̈ |",
         "Left out, and the operations that each would bring back:",

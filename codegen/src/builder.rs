@@ -20,6 +20,21 @@
 //! ```text
 //! include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
 //! ```
+//!
+//! A scene of the robot file brings its locked joints, payload, box, tolerance,
+//! outputs and scalar; sines may be polynomials:
+//!
+//! ```no_run
+//! # use dalembert_codegen::builder::{BuildError, Generator};
+//! # use dalembert_codegen::sincos::SinCos;
+//! # fn main() -> Result<(), BuildError> {
+//! Generator::new()
+//!     .robot("robots/puma560.toml")
+//!     .scene("pick")
+//!     .sincos(SinCos::Polynomial { error: None })
+//!     .write_to_out_dir("puma560_pick.rs")
+//! # }
+//! ```
 
 mod error;
 mod output;
@@ -102,7 +117,9 @@ impl Generator {
     /// Only what a scene of the robot file needs: locked joints, rates that
     /// are zero and joints that nobody asks for are gone from the code. Its
     /// outputs and scalar count where none were chosen here, and the module is
-    /// called `ROBOT_SCENE`.
+    /// called `ROBOT_SCENE`. If it has a tolerance, the cheapest code found
+    /// that is certified to stay within it: in each scalar that was chosen, or
+    /// else in the cheapest that it admits.
     #[must_use]
     pub fn scene(mut self, name: impl Into<String>) -> Self {
         self.scene = Some(name.into());
@@ -125,8 +142,10 @@ impl Generator {
         self
     }
 
-    /// Where sines come from. Polynomials over the joints'
-    /// limits are faster and need no libm.
+    /// Where sines come from. Polynomials over the joints' limits, or the
+    /// scene's box, are faster and need no libm; their largest error is
+    /// [`SinCos::ERROR`] unless one is given. A scene's tolerance decides on it
+    /// by itself: there, giving one is an error.
     #[must_use]
     pub fn sincos(mut self, sincos: SinCos) -> Self {
         self.request.sincos = sincos;

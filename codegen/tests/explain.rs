@@ -3,13 +3,16 @@
 
 mod support;
 
+use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::explain::parameters::{Fate, Parameter, Together};
 use dalembert_codegen::explain::steps::{Code, Step};
-use dalembert_codegen::explain::{Explanation, explain};
+use dalembert_codegen::explain::{Explanation, explain, explain_all};
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Request;
+use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::verify::exact::{prove, prove_in};
+use dalembert_model::number::Rational;
+use dalembert_model::scene::Scale;
 
 fn of(name: &str, function: Function) -> Explanation {
     explain(&support::robot(name), function, &Request::default()).unwrap()
@@ -68,6 +71,48 @@ fn a_scene_is_explained() {
             "{exact:?}"
         );
         assert!(last.normwise > 1e6);
+    }
+}
+
+/// The last rows are what is generated, in its scalar and with its sines: all
+/// functions in the same one, though gravity alone could do with the other.
+#[test]
+fn the_last_row_is_what_is_generated() {
+    // At such accelerations f32 is off by a thousandth of the limits.
+    let scene = "\n[scene.move]\nbox = { velocity = [1, 1, 1], acceleration = [1e6, 1e6, 1e6] }\n\
+                 tolerance = { value = 1e-5, relative_to = \"range\" }\n";
+    let mut reading = support::reading_with("planar3r", scene);
+    for joint in &mut reading.robot.joints {
+        joint.limits.torque = Some(Rational::from_integer(100.into()));
+    }
+    let tolerance = reading.scenes[0].tolerance.as_mut().unwrap();
+    tolerance.relative_to = Scale::Actuator;
+    let torques = [Function::Gravity, Function::InverseDynamics];
+    for (functions, scalar) in [
+        (&torques[..1], ScalarType::F32),
+        (&torques[..], ScalarType::F64),
+    ] {
+        let request = Request {
+            functions: functions.to_vec(),
+            ..Request::default()
+        };
+        let request = request.in_scene(&reading.scenes[0], true, false);
+        let explained = explain_all(&reading.robot, &request).unwrap();
+        let generated = generate(&reading.robot, &request).unwrap();
+        assert_eq!(explained.len(), functions.len());
+        for explanation in explained {
+            let mut all = generated.functions.iter();
+            let function = all.find(|f| f.function == explanation.function).unwrap();
+            let last = explanation.rows.last().unwrap();
+            let Code::Emitted(text, of) = &last.code else {
+                panic!("{:?}", last.step)
+            };
+            assert_eq!(*of, scalar, "{}", function.function);
+            assert_eq!(last.counts, function.counts_in(scalar));
+            let mut emitted = generated.emitted.iter();
+            let emitted = emitted.find(|e| e.function == function.function).unwrap();
+            assert_eq!((**text).clone(), emitted.text);
+        }
     }
 }
 

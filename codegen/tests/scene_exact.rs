@@ -324,12 +324,14 @@ fn plans_tell_scenes_apart() {
         ..scene
     });
     let stale = generate(&robot, &wanted).map(|generated| generated.text);
+    let stale = stale.expect_err("the plan is of the scene as it was");
     assert_eq!(
         stale,
-        Err(GenerateError::StalePlan {
-            robot: "test".into()
-        })
+        GenerateError::StaleScene {
+            scene: "test".into()
+        }
     );
+    assert!(stale.to_string().contains("the scene `test`"), "{stale}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::read::{Options, parse};
-use dalembert_model::robot::Position;
+use dalembert_model::robot::{Position, Severity};
 use dalembert_model::scene::{Float, Output, Scale, Scene, write};
 
 const ROBOT: &str = r#"
@@ -176,6 +176,16 @@ fn mistakes() {
         (2, "box = { velocity = [1, -1, 1] }", "the range is empty"),
         (
             2,
+            "box = { position = [[-1, 1], [0, 0.1], [5, 6]] }",
+            "joint 3 (wrist) is never in this range: its limits are -2 to 2",
+        ),
+        (
+            2,
+            "box = { position = [[-1, 1], [-2, -0.6], [0, 1]] }",
+            "joint 2 (boom) is never in this range: its limits are -0.5 to 0.5",
+        ),
+        (
+            2,
             "box = { velocity = [1, 1] }",
             "2 entries, but the robot has 3 joints",
         ),
@@ -266,6 +276,105 @@ fn a_bound_needs_a_box() {
         "outputs = [\"gravity\"]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
     ] {
         assert!(parse(good).is_ok(), "{good}");
+    }
+}
+
+/// A limit of zero is one, but nothing can be relative to it: said where it
+/// stands. To be at rest is a range.
+#[test]
+fn a_limit_of_zero() {
+    let still = ROBOT.replace("torque = 80", "torque = 0").replace(
+        "acceleration = 10, torque = 5 }",
+        "acceleration = 0, torque = 5 }",
+    );
+    let read = |text: &str| {
+        let source = format!("{still}[scene.a]\n{text}\n");
+        parse(&source, &Options::default()).map_err(|errors| {
+            let lines: Vec<usize> = errors.0.iter().map(|error| error.line).collect();
+            (lines, errors.to_string())
+        })
+    };
+    let actuator = "tolerance = { value = 1e-3, relative_to = \"actuator\" }";
+    let line = |words: &str| 1 + still.lines().position(|l| l.contains(words)).unwrap();
+    let (lines, shown) = read(actuator).unwrap_err();
+    assert_eq!(lines, [line("torque = 0")], "{shown}");
+    assert!(
+        shown.contains("the torque limit of joint 2 (boom) is 0"),
+        "{shown}"
+    );
+    // T of D divides by the acceleration, unless nothing of that joint is asked for.
+    let inertia = format!("outputs = [\"inertia\"]\n{actuator}\n");
+    let (lines, shown) = read(&format!("{inertia}joints = [1, 3]")).unwrap_err();
+    assert_eq!(lines, [line("acceleration = 0")], "{shown}");
+    let zero = "box = { acceleration = [0, 1, 1] }";
+    let (lines, shown) = read(&format!("{inertia}joints = [1, 3]\n{zero}")).unwrap_err();
+    assert_eq!(lines, [still.lines().count() + 5], "{shown}");
+    assert!(
+        shown.contains("the acceleration limit of joint 1 (waist) is 0"),
+        "{shown}"
+    );
+    for good in [
+        format!("{inertia}joints = [1]"),
+        format!("{actuator}\njoints = [1, 3]"),
+        format!("{actuator}\nlock = {{ 2 = 0 }}\nbox = {{ velocity = [0, 0, 0] }}"),
+        "tolerance = { value = 1e-3, relative_to = \"range\" }".to_owned(),
+    ] {
+        assert!(read(&good).is_ok(), "{good}");
+    }
+    // A limit that could not be read is not zero.
+    let unread = ROBOT.replace("torque = 80", "torque = \"much\"");
+    let errors = parse(
+        &format!("{unread}[scene.a]\n{actuator}\n"),
+        &Options::default(),
+    )
+    .unwrap_err();
+    assert_eq!(errors.0.len(), 1, "{errors}");
+}
+
+/// A box may be larger than the limits, on purpose: a warning, and the scene as
+/// it stands.
+#[test]
+fn a_box_beyond_the_limits() {
+    let read = |text: &str| {
+        let source = format!("{ROBOT}[scene.a]\n{text}\n");
+        let reading = parse(&source, &Options::default());
+        let reading = reading.unwrap_or_else(|errors| panic!("{text}: {errors}"));
+        assert_eq!(reading.scenes.len(), 1);
+        let notes = reading.notes.into_iter();
+        // The robot has notes of its own.
+        notes
+            .filter(|note| note.message.starts_with("the box of"))
+            .map(|note| (note.severity, note.line, note.message))
+            .collect::<Vec<_>>()
+    };
+    let line = ROBOT.lines().count() + 2;
+    for (text, words) in [
+        (
+            "box = { position = [[-1, 1], [0, 0.1], [-2.5, 2]] }",
+            "the box of scene `a` goes beyond the limits of joint 3 (wrist), -2 to 2",
+        ),
+        (
+            "box = { position = [[-1, 1], [-0.5, 0.75], [-2, 2]] }",
+            "the box of scene `a` goes beyond the limits of joint 2 (boom), -0.5 to 0.5",
+        ),
+        (
+            "box = { velocity = [2.5, 1, 3] }",
+            "the box of scene `a` goes beyond the velocity limit of joint 1 (waist), 2",
+        ),
+        (
+            "box = { acceleration = [10, 5, 11] }",
+            "the box of scene `a` goes beyond the acceleration limit of joint 3 (wrist), 10",
+        ),
+    ] {
+        let expected = (Severity::Warning, line, words.to_owned());
+        assert_eq!(read(text), [expected], "{text}");
+    }
+    for inside in [
+        "box = { position = [[\"-pi\", \"pi\"], [-0.5, 0.5], [-2, 2]], velocity = [2, 1, 3] }",
+        // Of a locked joint the box says nothing.
+        "box = { velocity = [2, 1, 9] }\nlock = { 3 = 0 }",
+    ] {
+        assert_eq!(read(inside), [], "{inside}");
     }
 }
 

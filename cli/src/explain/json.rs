@@ -4,6 +4,7 @@ use dalembert_codegen::couplings::Couplings;
 use dalembert_codegen::explain::Explanation;
 use dalembert_codegen::explain::errors::Errors;
 use dalembert_codegen::explain::parameters::{Fate, LinkFate, Parameter, Together};
+use dalembert_codegen::explain::steps::Code;
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::portfolio::Source;
 use dalembert_model::equations::Formulation;
@@ -43,6 +44,9 @@ fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors])
     }
     for (row, errors) in explanation.rows.iter().zip(errors) {
         let mut value = json!({ "step": row.step.key() });
+        if let Code::Emitted(_, scalar) = &row.code {
+            value["scalar"] = json!(scalar.name());
+        }
         if let (Value::Object(value), Value::Object(counts)) =
             (&mut value, count::counts(&row.counts))
         {

@@ -9,7 +9,7 @@ mod text;
 
 use dalembert_codegen::couplings::{Couplings, Finding, Reason};
 use dalembert_codegen::explain::errors::{self, Errors};
-use dalembert_codegen::explain::{Explanation, explain};
+use dalembert_codegen::explain::{Explanation, explain_all};
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::plan;
@@ -41,12 +41,13 @@ pub fn run(args: &ExplainArgs) -> Outcome {
     }
     let session = progress::watch(&mut request);
     let robot = &reading.robot;
-    let mut explanations = Vec::new();
-    for &function in &request.functions {
-        let explanation = explain(robot, function, &request)?;
-        let errors = errors::measure(&explanation, args.states);
-        explanations.push((explanation, errors));
-    }
+    let explanations = explain_all(robot, &request)?.into_iter();
+    let explanations: Vec<Measured> = explanations
+        .map(|explanation| {
+            let errors = errors::measure(&explanation, args.states);
+            (explanation, errors)
+        })
+        .collect();
     drop(session);
     let scene = args.scene.as_deref();
     if args.json {

@@ -1,10 +1,12 @@
 //! The table of steps and the reasons, for readers.
 
 use dalembert_codegen::couplings::Couplings;
+use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::explain::Explanation;
 use dalembert_codegen::explain::errors::Errors;
 use dalembert_codegen::explain::merged::Merged;
 use dalembert_codegen::explain::parameters::{Fate, LinkFate, Parameter, Parameters, Together};
+use dalembert_codegen::explain::steps::Code;
 use dalembert_codegen::function::Function;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
@@ -23,10 +25,14 @@ pub fn write(
     let mut text = format!(
         "robot {}, {} joints, input {}{scene}\n\
          errors: the worst of {states} states inside the limits, f64 against 134 digits,\n\
-         in u = 2⁻⁵³; normwise max|error|/max|result|, per joint over each joint's largest\n",
+         in u = 2⁻⁵³; normwise max|error|/max|result|, per joint over each joint's largest\n{}",
         robot.name,
         robot.joints.len(),
-        robot.short_hash()
+        robot.short_hash(),
+        match emits_single(explanations) {
+            true => "what is in f32: states and code of f32, u = 2⁻²⁴\n",
+            false => "",
+        }
     );
     for (explanation, errors) in explanations {
         text += &format!("\n{}\n", explanation.function);
@@ -40,9 +46,27 @@ pub fn write(
     text
 }
 
+/// Whether a tolerance took f32 for a row.
+fn emits_single(explanations: &[Measured]) -> bool {
+    let mut rows = explanations.iter().flat_map(|(e, _)| &e.rows);
+    rows.any(|row| matches!(row.code, Code::Emitted(_, ScalarType::F32)))
+}
+
 fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<String>> {
-    let head = ["step", "mul", "add", "sincos", "normwise", "per joint"];
-    let mut rows = vec![head.map(String::from).to_vec()];
+    let steps = &explanation.rows;
+    // Polynomials have counts of their own, where there are such.
+    let polynomials = steps.iter().any(|row| row.counts.trig_mul > 0);
+    let sines: &[&str] = match polynomials {
+        true => &["trig_mul", "trig_add"],
+        false => &[],
+    };
+    let head = [
+        &["step", "mul", "add", "sincos"],
+        sines,
+        &["normwise", "per joint"],
+    ];
+    let head = head.concat().into_iter();
+    let mut rows = vec![head.map(String::from).collect::<Vec<_>>()];
     // Table 3 is about whole arms.
     if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
         let [mul, add] = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
@@ -52,16 +76,23 @@ fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<
             add.to_string(),
         ]);
     }
-    for (row, errors) in explanation.rows.iter().zip(errors) {
+    for (index, (row, errors)) in steps.iter().zip(errors).enumerate() {
         let counts = row.counts;
-        rows.push(vec![
-            row.step.title().to_owned(),
-            counts.mul.to_string(),
-            counts.add.to_string(),
-            counts.sincos.to_string(),
-            units(errors.normwise),
-            units(errors.per_joint),
-        ]);
+        let mut title = row.step.title().to_owned();
+        if let Code::Emitted(_, scalar) = &row.code {
+            title += &format!(", in {scalar}");
+        }
+        // Of several scalars each is.
+        if index + 1 == steps.len() || matches!(row.code, Code::Emitted(..)) {
+            title += ": what is generated";
+        }
+        let mut cells = vec![title];
+        cells.extend([counts.mul, counts.add, counts.sincos].map(|count| count.to_string()));
+        if polynomials {
+            cells.extend([counts.trig_mul, counts.trig_add].map(|count| count.to_string()));
+        }
+        cells.extend([errors.normwise, errors.per_joint].map(units));
+        rows.push(cells);
     }
     rows
 }

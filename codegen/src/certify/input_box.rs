@@ -21,23 +21,32 @@ pub struct InputBox {
     pub acceleration: Vec<Interval>,
 }
 
-/// A limit that a bound needs and the robot does not have.
+/// A limit that a bound needs and the robot does not have, or has as zero
+/// where errors are to be relative to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingLimit {
     /// Zero-based joint.
     pub joint: usize,
     /// The key in the robot file.
     pub limit: &'static str,
+    /// Whether it is there, but zero.
+    pub zero: bool,
 }
 
 impl fmt::Display for MissingLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "a bound needs a box: joint {} has no limit `{}`",
-            self.joint + 1,
-            self.limit
-        )
+        let (joint, limit) = (self.joint + 1, self.limit);
+        match self.zero {
+            false => write!(
+                f,
+                "a bound needs a box: joint {joint} has no limit `{limit}`"
+            ),
+            true => write!(
+                f,
+                "the limit `{limit}` of joint {joint} is 0: errors relative to the actuators need \
+                 one above 0; give that, or make them relative to the range"
+            ),
+        }
     }
 }
 
@@ -73,7 +82,11 @@ impl InputBox {
             acceleration: Vec::new(),
         };
         for (joint, row) in setting.robot().joints.iter().enumerate() {
-            let missing = |limit| MissingLimit { joint, limit };
+            let missing = |limit| MissingLimit {
+                joint,
+                limit,
+                zero: false,
+            };
             if let Some(at) = setting.scene().and_then(|scene| scene.locked(joint)) {
                 limits.position.push(around(at));
                 limits.velocity.push(Interval::ZERO);
@@ -167,5 +180,55 @@ fn position(joint: &Joint) -> Option<Interval> {
         (Some([low, high]), _) => Interval::new(value(low), value(high)),
         (None, JointKind::Revolute) => Some(Interval::symmetric(std::f64::consts::PI)),
         (None, JointKind::Prismatic) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scale;
+    use super::*;
+    use crate::schedule::Program;
+    use dalembert_model::read::{Options, parse};
+
+    /// A limit of zero is not a missing one: at rest for a box, nothing to be
+    /// relative to for T.
+    #[test]
+    fn limits_that_are_missing_and_limits_of_zero() {
+        let of = |limits: &str| {
+            let source = format!(
+                "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
+                 kind = \"revolute\"\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+                 limits = {{ {limits} }}\n"
+            );
+            parse(&source, &Options::default()).unwrap().robot
+        };
+        let program = |function: Function| Program {
+            function,
+            joints: 1,
+            rows: vec![0],
+            arguments: function.arguments().to_vec(),
+            trig: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        };
+        let still = of("velocity = 0, acceleration = 0, torque = 0");
+        let at_rest = InputBox::of(&still).unwrap();
+        assert_eq!(at_rest.velocity, [Interval::ZERO]);
+        for (limits, function, words) in [
+            ("", Function::Gravity, "joint 1 has no limit `torque`"),
+            (
+                "torque = 0",
+                Function::Gravity,
+                "the limit `torque` of joint 1 is 0",
+            ),
+            (
+                "torque = 1, acceleration = 0",
+                Function::Inertia,
+                "the limit `acceleration` of joint 1 is 0",
+            ),
+        ] {
+            let error = scale::actuator(&of(limits), &program(function)).unwrap_err();
+            assert!(error.to_string().contains(words), "{limits}: {error}");
+        }
     }
 }

@@ -20,13 +20,14 @@ use crate::verify::text::TextError;
 /// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
 ///
 /// # Errors
-/// A joint without a limit that this needs.
+/// A joint without a limit that this needs, or with one of zero.
 pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, MissingLimit> {
     let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
         let value = robot.joints.get(joint).map(|row| value(&row.limits));
         let value = value.and_then(Option::as_ref).map(f64::nearest_rational);
+        let zero = value.is_some();
         let above = value.filter(|&value| value > 0.0);
-        above.ok_or(MissingLimit { joint, limit })
+        above.ok_or(MissingLimit { joint, limit, zero })
     };
     // Down, so that an error relative to it is rounded up.
     let torque = |joint| Ok(read(joint, "torque", |limits| &limits.torque)?.next_down());
@@ -87,8 +88,9 @@ pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     all
 }
 
-/// The largest magnitude of each output at actual states: a lower bound of
-/// the range, so an error relative to it is not understated.
+/// A magnitude that each output attains, found by climbing from actual states:
+/// its largest over the box or just below, so an error relative to it is not
+/// understated.
 ///
 /// # Errors
 /// The program cannot be printed and read back: a defect of this library.

@@ -180,6 +180,7 @@ fn functions(
             let function = match &error {
                 GenerateError::Empty
                 | GenerateError::StalePlan { .. }
+                | GenerateError::StaleScene { .. }
                 | GenerateError::Scene(_) => None,
                 GenerateError::Constant { function, .. }
                 | GenerateError::TooLarge { function, .. }

@@ -4,12 +4,16 @@
 //! - [`function`]: one program as one function
 //! - `sines`: sines and cosines as polynomials
 //! - [`parts`]: very long functions, cut into functions of their own
-//! - [`module`]: the module of a robot with its header
+//! - [`module`]: the module of a robot with its header, and of its `scene`
+//! - `variant`: what a tolerance left of a function; `scale`: what its errors
+//!   are relative to; `figures`: numbers rounded to the side that stays true
 
+mod figures;
 pub mod function;
 pub mod literal;
 pub mod module;
 pub mod parts;
+mod scale;
 mod scene;
 mod sines;
 mod variant;

@@ -92,7 +92,7 @@ fn module(
             text.push_str(&structure);
             text.push('\n');
         }
-        let doc = function_doc(generated, scalar);
+        let doc = function_doc(generated, setting, scalar);
         text.push_str(&function::with_sines(
             &generated.program,
             scalar,
@@ -196,7 +196,11 @@ fn header(
     lines
 }
 
-fn function_doc(generated: &GeneratedFunction, scalar: ScalarType) -> Vec<String> {
+fn function_doc(
+    generated: &GeneratedFunction,
+    setting: &Setting,
+    scalar: ScalarType,
+) -> Vec<String> {
     let mut lines = vec![
         generated.function.summary().to_owned(),
         String::new(),
@@ -211,7 +215,7 @@ fn function_doc(generated: &GeneratedFunction, scalar: ScalarType) -> Vec<String
     ];
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
-        lines.extend(variant::describe(admitted, scalar));
+        lines.extend(variant::describe(admitted, setting, scalar));
     }
     lines
 }

@@ -1,16 +1,16 @@
 //! What a tolerance left of a function, in the words of its documentation.
 
-use dalembert_model::scene::Scale;
-
-use super::ScalarType;
+use super::figures::{at_least, bound as up, inside};
+use super::{ScalarType, scale};
 use crate::certify::certificate::{Certificate, Split};
 use crate::certify::choose::Admitted;
 use crate::certify::interval::Interval;
 use crate::certify::prune::omissions;
 use crate::function::Argument;
+use crate::scene::Setting;
 
 /// A line each: the certificate, the box, what was left out.
-pub(super) fn describe(admitted: &Admitted, scalar: ScalarType) -> Vec<String> {
+pub(super) fn describe(admitted: &Admitted, setting: &Setting, scalar: ScalarType) -> Vec<String> {
     let mut all = admitted.certificates.iter();
     let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
         return Vec::new();
@@ -20,18 +20,13 @@ pub(super) fn describe(admitted: &Admitted, scalar: ScalarType) -> Vec<String> {
         "Certified: inside the box, |this code - the full model| ≤ E·T, of which each cause has"
             .into(),
     );
-    lines.push(format!(
-        "its part. T is {}.",
-        match certificate.relative_to {
-            Some(Scale::Actuator) => "the actuators' torque limit",
-            Some(Scale::Range) => "the model's own largest value",
-            None => "as given",
-        }
-    ));
+    lines.push("its part.".into());
+    let quantities = certificate.emitted.function.quantities();
+    lines.extend(scale::sentences(certificate.relative_to, quantities));
     lines.push(String::new());
-    lines.extend(bounds(certificate));
+    lines.extend(bounds(certificate, setting));
     lines.push(String::new());
-    lines.extend(states(certificate));
+    lines.extend(states(certificate, setting));
     lines.push(String::new());
     let left_out = omissions(&admitted.stages);
     if left_out.is_empty() {
@@ -56,26 +51,23 @@ fn saved(omission: &crate::certify::prune::Omission) -> String {
     }
 }
 
-fn bounds(certificate: &Certificate) -> Vec<String> {
+fn bounds(certificate: &Certificate, setting: &Setting) -> Vec<String> {
+    let units = scale::units(&certificate.emitted, setting.robot());
     let mut lines = vec![
         "| output | T | E | left out | sin/cos | rounding |".to_owned(),
         "|---|---|---|---|---|---|".to_owned(),
     ];
-    for (index, (bound, scale)) in certificate
-        .bounds
-        .iter()
-        .zip(&certificate.scales)
-        .enumerate()
-    {
+    let bounds = certificate.bounds.iter().zip(&certificate.scales);
+    for (index, ((bound, scale), unit)) in bounds.zip(units).enumerate() {
         let Split {
             model,
             sincos,
             rounding,
         } = bound;
         lines.push(format!(
-            "| {} | {} | {} | {} | {} | {} |",
+            "| {} | {} {unit} | {} | {} | {} | {} |",
             certificate.emitted.entry(index),
-            short(*scale),
+            at_least(*scale),
             up(bound.total()),
             up(*model),
             up(*sincos),
@@ -85,8 +77,8 @@ fn bounds(certificate: &Certificate) -> Vec<String> {
     lines
 }
 
-/// The box, for what the function reads.
-fn states(certificate: &Certificate) -> Vec<String> {
+/// The box, for what the function reads; what is printed is inside it.
+fn states(certificate: &Certificate, setting: &Setting) -> Vec<String> {
     let limits = &certificate.limits;
     let columns: Vec<(&str, &[Interval])> = certificate
         .emitted
@@ -104,36 +96,12 @@ fn states(certificate: &Certificate) -> Vec<String> {
         format!("|{}", "---|".repeat(columns.len() + 1)),
     ];
     for joint in 0..limits.joints() {
-        let ranges: Vec<String> = columns
-            .iter()
-            .filter_map(|(_, ranges)| ranges.get(joint))
-            .map(|range| format!("{} to {}", short(range.low()), short(range.high())))
-            .collect();
+        let range = |(_, ranges): &(&str, &[Interval])| match ranges.get(joint) {
+            Some(range) if setting.lock(joint).is_none() => inside(range.low(), range.high()),
+            _ => "locked".to_owned(),
+        };
+        let ranges: Vec<String> = columns.iter().map(range).collect();
         lines.push(format!("| {} | {} |", joint + 1, ranges.join(" | ")));
     }
     lines
-}
-
-/// Three digits, rounded up: what is read off is a bound too.
-fn up(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return format!("{x}");
-    }
-    let near = format!("{x:.2e}");
-    let (digits, exponent) = near.split_once('e').unwrap_or((&near, "0"));
-    match (digits.parse::<f64>(), near.parse::<f64>()) {
-        // 9.99 becomes 10.00, which reads as well.
-        (Ok(digits), Ok(read)) if read < x => format!("{:.2}e{exponent}", digits + 0.01),
-        _ => near,
-    }
-}
-
-/// Five digits.
-fn short(x: f64) -> String {
-    let near = format!("{x:.4e}").parse().unwrap_or(x);
-    if near == 0.0 || (1e-3..1e5).contains(&f64::abs(near)) {
-        format!("{near}")
-    } else {
-        format!("{near:e}")
-    }
 }

@@ -7,6 +7,7 @@ use dalembert_model::scalar::big::Big;
 
 use super::Explanation;
 use super::steps::Code;
+use crate::certify::attack;
 use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::graph::Input;
@@ -33,12 +34,14 @@ pub struct Errors {
 }
 
 /// The errors of every row over the same states, inside the limits of the
-/// robot, or of its scene.
+/// robot, or of its scene; those of what is emitted in f32 are rounded to it
+/// first.
 pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
     let (setting, function) = (&explanation.setting, explanation.function);
     let robot = setting.robot();
     let drawn = seeded(robot, states.min(MOST_STATES), SEED);
-    let runs = at(&Truth::in_setting(setting), function, drawn.into_iter());
+    let truth = Truth::in_setting(setting);
+    let runs = at(&truth, function, drawn.iter().cloned());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
     let joints = setting.rows().len();
@@ -50,6 +53,17 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
             let runner = Runner::<f64>::new(program, ScalarType::F64);
             worst(function, joints, &runs, ScalarType::F64, |state| {
                 runner.run(state)
+            })
+        }
+        Code::Emitted(text, scalar) => {
+            let single = drawn.iter().map(JointState::in_single);
+            let own = match scalar {
+                ScalarType::F64 => None,
+                ScalarType::F32 => Some(at(&truth, function, single)),
+            };
+            let runs = own.as_ref().unwrap_or(&runs);
+            worst(function, joints, runs, *scalar, |state| {
+                attack::run(text, *scalar, state)
             })
         }
     };

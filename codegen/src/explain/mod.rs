@@ -17,11 +17,12 @@ use dalembert_model::robot::Robot;
 
 use crate::couplings::Couplings;
 use crate::function::Function;
-use crate::generate::{GenerateError, Request};
+use crate::generate::{GenerateError, Request, tolerate};
 use crate::graph::Graph;
 use crate::plan;
 use crate::portfolio;
 use crate::scene::Setting;
+use crate::schedule::Program;
 use crate::trace::trace_in;
 use merged::Merged;
 use parameters::Parameters;
@@ -38,7 +39,7 @@ pub struct Explanation {
     pub setting: Setting,
     /// Which function.
     pub function: Function,
-    /// The steps, in their order.
+    /// The steps, in their order; the last is what is generated.
     pub rows: Vec<Row>,
     /// What the fingerprints found in each formulation as folded.
     pub merged: Vec<(Formulation, Merged)>,
@@ -49,17 +50,31 @@ pub struct Explanation {
     pub couplings: Option<Couplings>,
 }
 
-/// Explains one function; of the request, effort, preference, plan, scene,
-/// scalars and watch count. With a tolerance the last row is the program that
-/// it admits.
+/// Explains one function, as if nothing else were asked for.
 ///
 /// # Errors
-/// Those of [`generate`](crate::generate::generate).
+/// Those of [`explain_all`].
 pub fn explain(
     robot: &Robot,
     function: Function,
     request: &Request,
 ) -> Result<Explanation, GenerateError> {
+    let alone = Request {
+        functions: vec![function],
+        ..request.clone()
+    };
+    let mut all = explain_all(robot, &alone)?;
+    all.pop().ok_or(GenerateError::Empty)
+}
+
+/// Explains the functions of a request, in their order; of the rest, effort,
+/// preference, plan, scene, scalars, source of sines and watch count. With a
+/// tolerance the last rows are what it admits, a row a scalar: all functions
+/// together, since they are emitted in the same one.
+///
+/// # Errors
+/// Those of [`generate`](crate::generate::generate).
+pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
     if let Some(plan) = &request.plan
         && plan.input != plan::input_hash(robot)
     {
@@ -67,7 +82,30 @@ pub fn explain(
         return Err(GenerateError::StalePlan { robot });
     }
     let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
-    let found = steps::search(&setting, function, request)?;
+    let mut explained = Vec::new();
+    for (index, &function) in request.functions.iter().enumerate() {
+        if !request.functions[..index].contains(&function) {
+            explained.push(exact(robot, &setting, function, request)?);
+        }
+    }
+    let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
+    let admitted = tolerate::admitted(&setting, &programs, request)?;
+    let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
+    for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
+        explanation.rows.extend(steps::tolerated(admitted)?);
+    }
+    Ok(explanations)
+}
+
+/// Everything but what a tolerance admits, and the program that it is applied
+/// to.
+fn exact(
+    robot: &Robot,
+    setting: &Setting,
+    function: Function,
+    request: &Request,
+) -> Result<(Explanation, Program), GenerateError> {
+    let found = steps::search(setting, function, request)?;
     // From all formulations there always is a gauge.
     let tuned = found.tuned.as_ref().ok_or(GenerateError::Empty)?;
     let mut rows = Vec::new();
@@ -77,28 +115,29 @@ pub fn explain(
     };
     if robot.joints.len() <= MOST_WRITTEN {
         let formulation = Formulation::LagrangeEuler;
-        let trace = trace_in(&setting, function, formulation);
+        let trace = trace_in(setting, function, formulation);
         fingerprints(formulation, &trace.graph);
-        rows.extend(steps::lagrange_euler(&setting, function, &trace, request));
+        rows.extend(steps::lagrange_euler(setting, function, &trace, request));
     }
     let formulation = Formulation::NewtonEulerLink;
-    let trace = trace_in(&setting, function, formulation);
+    let trace = trace_in(setting, function, formulation);
     fingerprints(formulation, &trace.graph);
-    rows.extend(steps::newton_euler(&setting, function, &trace));
-    rows.extend(steps::chain(&setting, function, tuned));
-    rows.extend(steps::searched(&setting, function, request, &found)?);
-    rows.extend(steps::tolerated(&setting, function, request, &found)?);
-    let chain = Chain::new(&portfolio::skeleton(&setting), &tuned.gauge);
+    rows.extend(steps::newton_euler(setting, function, &trace));
+    rows.extend(steps::chain(setting, function, tuned));
+    let (searched, program) = steps::searched(setting, function, request, &found)?;
+    rows.extend(searched);
+    let chain = Chain::new(&portfolio::skeleton(setting), &tuned.gauge);
     let couplings = match setting.scene() {
         None => Couplings::of(robot),
         Some(_) => None,
     };
-    Ok(Explanation {
+    let explanation = Explanation {
         function,
         rows,
         merged,
-        parameters: Parameters::of(&setting, function, tuned, &chain),
+        parameters: Parameters::of(setting, function, tuned, &chain),
         couplings,
-        setting,
-    })
+        setting: setting.clone(),
+    };
+    Ok((explanation, program))
 }

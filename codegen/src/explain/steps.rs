@@ -7,9 +7,11 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
+use crate::certify::certificate::Certificate;
+use crate::certify::choose::Admitted;
+use crate::emit::ScalarType;
 use crate::function::Function;
 use crate::generate::search::{self, Found};
-use crate::generate::tolerate;
 use crate::generate::{GenerateError, Request, Start};
 use crate::graph::{Counts, Folding, Graph};
 use crate::portfolio::tune::{self, Tuned};
@@ -18,6 +20,7 @@ use crate::scene::Setting;
 use crate::schedule::Program;
 use crate::simplify;
 use crate::trace::Trace;
+use crate::verify::text::TextProgram;
 
 /// A step of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -47,7 +50,7 @@ pub enum Step {
     ChainUnit,
     /// Equality saturation.
     EGraph,
-    /// Discovery and extraction in turns: what is generated.
+    /// Discovery and extraction in turns.
     Search,
     /// What the plan beside the robot file keeps.
     Plan,
@@ -92,7 +95,7 @@ impl Step {
             Step::ChainTuned => "  gauge tuned link by link",
             Step::ChainUnit => "  unit of length",
             Step::EGraph => "  e-graph, all forms",
-            Step::Search => "  search, all forms: what is generated",
+            Step::Search => "  search, all forms",
             Step::Plan => "kept in the plan",
             Step::Tolerance => "what the tolerance admits",
         }
@@ -106,6 +109,8 @@ pub enum Code {
     Formula(Formulation),
     /// A program.
     Program(Box<Program>),
+    /// A text as it is emitted, with its own sines if it has such.
+    Emitted(Box<TextProgram>, ScalarType),
 }
 
 /// One step.
@@ -231,41 +236,39 @@ pub(super) fn search(
     search::search(setting, function, &anew(request))
 }
 
-/// What the search made of all forms, and what the plan keeps.
+/// What the search made of all forms, and what the plan keeps; and the last of
+/// them: what is generated, or what a tolerance is applied to.
 pub(super) fn searched(
     setting: &Setting,
     function: Function,
     request: &Request,
     found: &Found,
-) -> Result<Vec<Row>, GenerateError> {
+) -> Result<(Vec<Row>, Program), GenerateError> {
     let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
     let simplified = &found.simplified;
-    let mut rows = vec![
-        row(Step::EGraph, &simplified.saturated),
-        row(Step::Search, &simplified.graph),
-    ];
+    let mut rows = vec![row(Step::EGraph, &simplified.saturated)];
+    let mut last = Program::in_setting(setting, function, &simplified.graph);
+    rows.push(Row::program(Step::Search, last.clone()));
     if let Some(entry) = search::replay(setting, function, request)? {
-        rows.push(Row::program(Step::Plan, entry.program.clone()));
+        last = entry.program.clone();
+        rows.push(Row::program(Step::Plan, last.clone()));
     }
-    Ok(rows)
+    Ok((rows, last))
 }
 
-/// What the scene's tolerance admits in place of the plan's program, or else of
-/// the search's, if the scene has one.
-pub(super) fn tolerated(
-    setting: &Setting,
-    function: Function,
-    request: &Request,
-    found: &Found,
-) -> Result<Option<Row>, GenerateError> {
-    let kept = search::replay(setting, function, request)?;
-    let program = kept.map_or_else(
-        || Program::in_setting(setting, function, &found.simplified.graph),
-        |entry| entry.program.clone(),
-    );
-    let admitted = tolerate::admitted(setting, &[&program], request)?;
-    let admitted = admitted.and_then(|all| all.into_iter().next());
-    Ok(admitted.map(|admitted| Row::program(Step::Tolerance, admitted.program)))
+/// What a tolerance admits of a function: a row a scalar, as it is emitted.
+pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
+    let row = |certificate: &Certificate| {
+        let (function, scalar) = (certificate.emitted.function, certificate.scalar);
+        let text = TextProgram::parse(&certificate.text, function, scalar)
+            .map_err(|error| GenerateError::Text(function, scalar, error.to_string()))?;
+        Ok(Row {
+            step: Step::Tolerance,
+            counts: text.counts(),
+            code: Code::Emitted(Box::new(text), scalar),
+        })
+    };
+    admitted.certificates.iter().map(row).collect()
 }
 
 /// The request without a plan, from all formulations.

@@ -14,10 +14,16 @@ use crate::verify::exact::Disproof;
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,
-    /// The plan is for another robot, or for a scene that has changed.
+    /// The plan is for another robot, or for this one before an edit.
     StalePlan {
-        /// The robot that the plan names, or the scene.
+        /// The robot that the plan names.
         robot: String,
+    },
+    /// The plan's program is for the scene before an edit. A plan keeps the
+    /// scene's hash alone, so what was edited is not known.
+    StaleScene {
+        /// The scene.
+        scene: String,
     },
     /// The scene is none of this robot.
     Scene(SettingError),
@@ -56,8 +62,14 @@ impl fmt::Display for GenerateError {
             GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
             GenerateError::StalePlan { robot } => write!(
                 f,
-                "the plan of `{robot}` no longer fits the robot: its parameters changed; \
+                "the plan of `{robot}` no longer fits the robot: its parameters or limits changed; \
                  make it anew with `dalembert generate --effort thorough --save-plan`, or delete it"
+            ),
+            GenerateError::StaleScene { scene } => write!(
+                f,
+                "the plan no longer fits the scene `{scene}`: the scene was edited, the robot was \
+                 not; make its program anew with `dalembert generate --scene {scene} --effort \
+                 thorough --save-plan`, or delete the plan"
             ),
             GenerateError::Scene(error) => error.fmt(f),
             GenerateError::Constant {

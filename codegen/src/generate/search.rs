@@ -34,8 +34,8 @@ pub(crate) fn replay<'r>(
     match (found, scene) {
         // A program of the scene as it was is a program of another scene.
         (Some(entry), Some(scene)) if entry.scene != Some(plan::SceneKey::of(scene)) => {
-            Err(GenerateError::StalePlan {
-                robot: scene.name.clone(),
+            Err(GenerateError::StaleScene {
+                scene: scene.name.clone(),
             })
         }
         _ => Ok(found),

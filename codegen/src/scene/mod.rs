@@ -22,7 +22,7 @@ use std::fmt;
 
 use dalembert_model::equations::JointPosition;
 use dalembert_model::number::Exact;
-use dalembert_model::robot::{Position, Robot};
+use dalembert_model::robot::{Position, Robot, Severity};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
@@ -85,9 +85,10 @@ impl Setting {
     /// A robot in a scene.
     ///
     /// # Errors
-    /// What [`Scene::validate`] finds.
+    /// What [`Scene::validate`] finds, but for warnings.
     pub fn new(robot: &Robot, scene: &Scene) -> Result<Setting, SettingError> {
-        let findings = scene.validate(robot);
+        let mut findings = scene.validate(robot);
+        findings.retain(|finding| finding.severity == Severity::Error);
         if !findings.is_empty() {
             let scene = scene.name.clone();
             return Err(SettingError { scene, findings });

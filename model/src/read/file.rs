@@ -41,6 +41,16 @@ impl Places {
             or()
         })
     }
+
+    /// Whether a part is as the file says, and not made up.
+    pub(super) fn was_read(&self, place: Place) -> bool {
+        !self.unread.contains(&place)
+    }
+
+    /// Where a part is, if the file has it.
+    pub(super) fn span(&self, place: Place) -> Option<Range<usize>> {
+        self.spans.get(&place).cloned()
+    }
 }
 
 /// Reads a robot, reporting to the sink; `None` only after an error.
@@ -67,17 +77,19 @@ pub(super) fn read<'s>(
     let mut places = Places::default();
     let robot = robot(&mut cx, &mut places, &root)?;
     for finding in robot.validate() {
-        if places.unread.contains(&finding.place) {
+        if !places.was_read(finding.place) {
             continue;
         }
-        let span = places.spans.get(&finding.place).cloned().unwrap_or(0..0);
+        let span = places.span(finding.place).unwrap_or(0..0);
         let help = finding.help.unwrap_or_default();
         cx.sink.push(finding.severity, span, finding.message, &help);
     }
     let scenes = root.as_table().and_then(|table| table.get("scene"));
     // Without joints, every joint of a scene would be unknown as well.
     let scenes = scenes.filter(|_| !robot.joints.is_empty());
-    let scenes = scenes.map_or_else(Vec::new, |scenes| scene::read(&mut cx, &robot, scenes));
+    let scenes = scenes.map_or_else(Vec::new, |scenes| {
+        scene::read(&mut cx, &robot, &places, scenes)
+    });
     Some((robot, scenes))
 }
 

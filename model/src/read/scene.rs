@@ -8,12 +8,13 @@ use core::ops::Range;
 
 use toml_span::Value;
 
+use super::file::Places;
 use super::report::quote;
 use super::suggest;
 use super::table::Keys;
 use super::value::{Context, first_line};
 use crate::number::Rational;
-use crate::robot::{Field, Inertia, JointKind, Position, Robot};
+use crate::robot::{Field, Inertia, JointKind, Place, Position, Robot};
 use crate::scene::{Float, MotionBox, Output, Part, Payload, Scale, Scene, Tolerance};
 
 const KEYS: [&str; 10] = [
@@ -40,7 +41,7 @@ struct Reader<'r, 's, 'k> {
 }
 
 /// Reads all scenes of a file.
-pub(super) fn read(cx: &mut Context, robot: &Robot, scenes: &Value) -> Vec<Scene> {
+pub(super) fn read(cx: &mut Context, robot: &Robot, places: &Places, scenes: &Value) -> Vec<Scene> {
     let Some(table) = cx.table(scenes, "each scene is a [scene.NAME] table") else {
         return Vec::new();
     };
@@ -68,8 +69,19 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, scenes: &Value) -> Vec<Scene
             if reader.incomplete && is_of_absence(finding.part) {
                 continue;
             }
-            let span = reader.spans.get(&finding.part).unwrap_or(&head).clone();
-            reader.cx.sink.error(span, finding.message, &finding.help);
+            let span = match finding.part {
+                Part::Limit(joint, field) => {
+                    let place = Place::Joint(joint, field);
+                    if !places.was_read(place) {
+                        continue;
+                    }
+                    places.span(place)
+                }
+                part => reader.spans.get(&part).cloned(),
+            };
+            let span = span.unwrap_or_else(|| head.clone());
+            let sink = &mut reader.cx.sink;
+            sink.push(finding.severity, span, finding.message, &finding.help);
         }
         read.push(scene);
     }
@@ -355,8 +367,7 @@ impl Reader<'_, '_, '_> {
 
     fn tolerance(&mut self, keys: &Keys) -> Option<Tolerance> {
         const HELP: &str = "tolerance = { value = 1e-3, relative_to = \"actuator\" }";
-        const SCALE: &str =
-            "relative_to = \"actuator\" (torque limits) or \"range\" (the model's largest torque)";
+        const SCALE: &str = "relative_to = \"actuator\" (torque limits) or \"range\" (the largest torque that was found of the model)";
         let inner = self.inner(keys, "tolerance", &["value", "relative_to"], HELP)?;
         let value = inner.require("value", HELP, self.cx.sink);
         let scale = inner.require("relative_to", SCALE, self.cx.sink);

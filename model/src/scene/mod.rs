@@ -59,6 +59,10 @@ pub struct Payload {
 }
 
 /// Ranges of motion, an entry a joint; what is missing is the robot's limit.
+///
+/// A range of positions that the joint can never take is an error; one that
+/// goes beyond the robot's limits is taken as it stands, with a warning: it is
+/// where bounds hold, not where the joint can go. A rate may be zero: at rest.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct MotionBox {
     /// Lowest and highest positions.
@@ -91,9 +95,12 @@ impl Tolerance {
 /// The scale T_i of a joint's torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scale {
-    /// The actuator's torque limit.
+    /// The actuator's torque limit, above zero. An entry of D or of h_ikm is
+    /// relative to what alone takes that limit at the largest rates of the box:
+    /// min(T_i/q̈_k, T_k/q̈_i), T_i/(q̇_k q̇_m).
     Actuator,
-    /// The model's own largest torque on the box.
+    /// A size that the model's own result attains on the box: it is found by
+    /// climbing from actual states, so at its largest or just below.
     Range,
 }
 

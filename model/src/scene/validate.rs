@@ -1,4 +1,11 @@
 //! What no scene of a robot may be, whoever made it.
+//!
+//! - this file: names, joints, locks, the payload
+//! - `bounds`: the box
+//! - `tolerance`: the tolerance, and what it needs of the robot
+
+mod bounds;
+mod tolerance;
 
 use alloc::borrow::ToOwned;
 use alloc::format;
@@ -7,11 +14,12 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::fmt;
 
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 
-use super::{Output, Scale, Scene};
+use super::Scene;
 use crate::number::Rational;
-use crate::robot::{Field, Joint, JointKind, Position, Robot};
+use crate::number::parse::write_decimal;
+use crate::robot::{Field, Joint, JointKind, Position, Robot, Severity};
 
 /// A part of a scene, so that a reader can say on which line it is. Indices
 /// are places in the scene's lists, zero-based.
@@ -29,13 +37,18 @@ pub enum Part {
     Payload(Field),
     /// An entry of a list of the box, which `Field` names.
     Box(Field, usize),
-    /// An entry of the tolerance's values.
+    /// An entry of the tolerance's values; the tolerance itself where it has
+    /// no such entry.
     Tolerance(usize),
+    /// A limit of a joint of the robot, which the scene needs to be otherwise.
+    Limit(usize, Field),
 }
 
-/// Something wrong with a scene.
+/// Something wrong, or odd, about a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneFinding {
+    /// Error or warning.
+    pub severity: Severity,
     /// Which part.
     pub part: Part,
     /// What is wrong.
@@ -55,8 +68,8 @@ impl fmt::Display for SceneFinding {
 }
 
 impl Scene {
-    /// Everything that is wrong with the scene; if nothing is, every later
-    /// stage accepts it with this robot.
+    /// Everything that is wrong or odd about the scene; without an error among
+    /// it, every later stage accepts it with this robot.
     pub fn validate(&self, robot: &Robot) -> Vec<SceneFinding> {
         let mut check = Check {
             scene: self,
@@ -81,7 +94,12 @@ struct Check<'a> {
 
 impl<'a> Check<'a> {
     fn say(&mut self, part: Part, message: String, help: &str) {
+        self.push(Severity::Error, part, message, help);
+    }
+
+    fn push(&mut self, severity: Severity, part: Part, message: String, help: &str) {
         self.found.push(SceneFinding {
+            severity,
             part,
             message,
             help: help.to_owned(),
@@ -193,123 +211,6 @@ impl<'a> Check<'a> {
             self.say(Part::Payload(Field::Inertia), message, help);
         }
     }
-
-    fn bounds(&mut self) {
-        let n = self.robot.joints.len();
-        let bounds = &self.scene.bounds;
-        let lengths = [
-            (Field::Position, bounds.position.as_ref().map(Vec::len)),
-            (Field::Velocity, bounds.velocity.as_ref().map(Vec::len)),
-            (
-                Field::Acceleration,
-                bounds.acceleration.as_ref().map(Vec::len),
-            ),
-        ];
-        for (field, length) in lengths {
-            if let Some(length) = length.filter(|&length| length != n) {
-                let message = format!("{length} entries, but the robot has {n} joints");
-                self.say(Part::Box(field, usize::MAX), message, "one entry a joint");
-            }
-        }
-        for (index, range) in bounds.position.iter().flatten().enumerate() {
-            let Some(joint) = self.joint(index) else {
-                break;
-            };
-            let [low, high] = range;
-            let part = Part::Box(Field::Position, index);
-            if !of_kind(joint.kind, low) || !of_kind(joint.kind, high) {
-                let message = "the range is not of the joint's kind".to_owned();
-                let help = "angles for a revolute joint, lengths for a prismatic one";
-                self.say(part, message, help);
-            } else if compare(low, high) != Some(Ordering::Less) {
-                let message = "the range is empty: its lowest position is not below its highest";
-                let help = "write [lowest, highest]; a joint that does not move is locked";
-                self.say(part, message.to_owned(), help);
-            }
-        }
-        for (field, values) in [
-            (Field::Velocity, &bounds.velocity),
-            (Field::Acceleration, &bounds.acceleration),
-        ] {
-            for (index, value) in values.iter().flatten().enumerate() {
-                if value.is_negative() {
-                    let message = format!("the range is empty: the {} is negative", field.key());
-                    let help = "the largest size, in both directions: zero or more";
-                    self.say(Part::Box(field, index), message, help);
-                }
-            }
-        }
-    }
-
-    fn tolerance(&mut self) {
-        let Some(tolerance) = &self.scene.tolerance else {
-            return;
-        };
-        let (n, found) = (self.robot.joints.len(), tolerance.value.len());
-        if found != 1 && found != n {
-            let message = format!("{found} tolerances, but the robot has {n} joints");
-            let help = "one for all joints, or one a joint";
-            self.say(Part::Tolerance(usize::MAX), message, help);
-        }
-        for (index, value) in tolerance.value.iter().enumerate() {
-            if *value <= Rational::zero() {
-                let message = "a tolerance is above zero".to_owned();
-                let help = "without a tolerance the code is exact up to rounding";
-                self.say(Part::Tolerance(index), message, help);
-            }
-        }
-        self.missing(tolerance.relative_to);
-    }
-
-    /// What a bound needs and nobody says.
-    fn missing(&mut self, scale: Scale) {
-        let scene = self.scene;
-        let outputs: Vec<Output> = match scene.outputs.as_slice() {
-            [] => Output::WORDS.map(|(_, output)| output).to_vec(),
-            outputs => outputs.to_vec(),
-        };
-        let reads = |wanted: &[Output]| outputs.iter().any(|output| wanted.contains(output));
-        let velocity = !scene.velocity_zero
-            && reads(&[
-                Output::InverseDynamics,
-                Output::Coriolis,
-                Output::ManipulatorEquation,
-            ]);
-        let acceleration = !scene.acceleration_zero && reads(&[Output::InverseDynamics]);
-        let robot = scene.apply(self.robot);
-        for (index, joint) in robot.joints.iter().enumerate() {
-            let limits = &joint.limits;
-            let moves = scene.locked(index).is_none();
-            let mut lacks = Vec::new();
-            // The sines and cosines of an angle are bounded anyway.
-            if moves && joint.kind == JointKind::Prismatic && limits.position.is_none() {
-                lacks.push("position");
-            }
-            if moves && velocity && limits.velocity.is_none() {
-                lacks.push("velocity");
-            }
-            if moves && acceleration && limits.acceleration.is_none() {
-                lacks.push("acceleration");
-            }
-            for what in lacks {
-                let message = format!(
-                    "a tolerance needs the range of the {what} of joint {}",
-                    self.called(index)
-                );
-                let help = format!("give `{what}` in the scene's box or in the joint's limits");
-                self.say(Part::Tolerance(usize::MAX), message, &help);
-            }
-            let rows = scene.rows(robot.joints.len());
-            if scale == Scale::Actuator && rows.contains(&index) && limits.torque.is_none() {
-                let message = format!(
-                    "a tolerance relative to the actuator needs the torque limit of joint {}",
-                    self.called(index)
-                );
-                let help = "give `torque` in the joint's limits, or relative_to = \"range\"";
-                self.say(Part::Tolerance(usize::MAX), message, help);
-            }
-        }
-    }
 }
 
 fn of_kind(kind: JointKind, at: &Position) -> bool {
@@ -330,8 +231,10 @@ fn compare(a: &Position, b: &Position) -> Option<Ordering> {
 fn shown(at: &Position) -> String {
     match at {
         Position::Angle(angle) => format!("{angle}"),
-        Position::Length(length) => {
-            crate::number::parse::write_decimal(length).unwrap_or_else(|| format!("{length}"))
-        }
+        Position::Length(length) => decimal(length),
     }
+}
+
+fn decimal(value: &Rational) -> String {
+    write_decimal(value).unwrap_or_else(|| format!("{value}"))
 }

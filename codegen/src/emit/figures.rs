@@ -1,0 +1,110 @@
+//! Numbers in documentation: short, and rounded to the side on which what they
+//! say stays true.
+
+/// Where a figure may be, seen from the number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Not below it.
+    Above,
+    /// Not above it.
+    Below,
+}
+
+/// A number of so many digits, on one side of another and next to it.
+fn rounded(x: f64, digits: usize, side: Side) -> f64 {
+    let near = format!("{x:.*e}", digits.saturating_sub(1));
+    let read = near.parse().unwrap_or(x);
+    let good = match side {
+        Side::Above => read >= x,
+        Side::Below => read <= x,
+    };
+    let parts = near.split_once('e');
+    let parts = parts.map(|(digits, power)| (digits.replace('.', ""), power.parse::<i32>()));
+    let (false, Some((mantissa, Ok(power)))) = (good, parts) else {
+        return read;
+    };
+    // In units of the last digit, one further.
+    let last = power - digits.saturating_sub(1) as i32;
+    let step = match side {
+        Side::Above => 1,
+        Side::Below => -1,
+    };
+    let mantissa = mantissa.parse::<i64>().map(|units| units + step);
+    let moved = mantissa.map(|units| format!("{units}e{last}").parse());
+    moved.ok().and_then(Result::ok).unwrap_or(x)
+}
+
+/// A number as people write it.
+fn plain(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// Five digits, not below: an error relative to it stays a bound.
+pub(super) fn at_least(x: f64) -> String {
+    plain(rounded(x, 5, Side::Above))
+}
+
+/// Three digits, not below: what is read off is a bound too.
+pub(super) fn bound(x: f64) -> String {
+    match x == 0.0 || !x.is_finite() {
+        true => format!("{x}"),
+        false => format!("{:.2e}", rounded(x, 3, Side::Above)),
+    }
+}
+
+/// A range of seven digits inside a range, or all its digits if it is that
+/// narrow.
+pub(super) fn inside(low: f64, high: f64) -> String {
+    let ends = (rounded(low, 7, Side::Above), rounded(high, 7, Side::Below));
+    let (low, high) = if ends.0 < ends.1 { ends } else { (low, high) };
+    format!("{} to {}", plain(low), plain(high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simplify::random::Random;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// What is printed, read again, is where it must be, and near.
+    #[test]
+    fn figures_are_on_their_side() {
+        let mut random = Random::new(0xf16);
+        for _ in 0..2000 {
+            let x = (random.unit() - 0.5) * 10f64.powi((random.unit() * 40.0) as i32 - 20);
+            let (a, b) = (x.min(2.0 * x), x.max(2.0 * x));
+            let range = inside(a, b);
+            let (low, high) = range.split_once(" to ").unwrap();
+            let (low, high): (f64, f64) = (low.parse().unwrap(), high.parse().unwrap());
+            assert!(a <= low && low < high && high <= b, "{a} {b}: {range}");
+            assert!(low - a <= 1e-6 * a.abs() && b - high <= 1e-6 * b.abs());
+            for (text, slack) in [(at_least(x.abs()), 1e-4), (bound(x.abs()), 1e-2)] {
+                let read: f64 = text.parse().unwrap();
+                assert!(
+                    read >= x.abs() && read <= x.abs() * (1.0 + slack),
+                    "{x}: {text}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn as_people_write_them() {
+        assert_eq!(inside(0.0, FRAC_PI_2), "0 to 1.570796");
+        assert_eq!(inside(-PI, PI), "-3.141592 to 3.141592");
+        assert_eq!(inside(-2.175, 0.3048), "-2.175 to 0.3048");
+        assert_eq!(inside(1e-5, 2e6), "1e-5 to 2e6");
+        let narrow = 1.0f64.next_up();
+        assert_eq!(inside(1.0, narrow), format!("1 to {narrow}"));
+        assert_eq!(inside(narrow, narrow), format!("{narrow} to {narrow}"));
+        assert_eq!(at_least(97.6f64.next_down()), "97.6");
+        assert_eq!(at_least(18.00001), "18.001");
+        assert_eq!(bound(9.999e-3), "1.00e-2");
+        assert_eq!(bound(8.0601e-3), "8.07e-3");
+        assert_eq!(bound(0.0), "0");
+    }
+}

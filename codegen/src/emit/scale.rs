@@ -1,0 +1,147 @@
+//! What T is, in the words of a function's documentation: a sentence a kind of
+//! output, and the unit of each.
+
+use dalembert_model::robot::{JointKind, Robot};
+use dalembert_model::scene::Scale;
+
+use crate::function::Quantity;
+use crate::schedule::Program;
+
+/// A line or two for each kind of output that the function has.
+pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> Vec<String> {
+    match relative_to {
+        None => vec!["T is as given.".into()],
+        Some(Scale::Range) => vec![
+            "T of an output is a size that it attains in the box, at its largest there or just"
+                .into(),
+            "below.".into(),
+        ],
+        Some(Scale::Actuator) => actuators(quantities),
+    }
+}
+
+fn actuators(quantities: &[Quantity]) -> Vec<String> {
+    let has = |quantity: Quantity| quantities.contains(&quantity);
+    let loads = [Quantity::Torque, Quantity::Coriolis, Quantity::Gravity];
+    let loads: Vec<&str> = loads
+        .into_iter()
+        .filter(|quantity| has(*quantity))
+        .map(Quantity::symbol)
+        .collect();
+    let mut lines = Vec::new();
+    if !loads.is_empty() {
+        let of = loads.join(" and of ");
+        lines.push(format!(
+            "T of {of} is T_i, the torque limit of the joint's actuator."
+        ));
+    }
+    if has(Quantity::Inertia) {
+        lines.push(
+            "T of D_ik is min(T_i/q̈_k, T_k/q̈_i): the inertia that by itself takes the torque"
+                .into(),
+        );
+        lines.push("limit T_i of an actuator at the largest acceleration q̈_k of the box.".into());
+    }
+    if has(Quantity::Christoffel) {
+        lines.push(
+            "T of h_ikm is T_i/(q̇_k q̇_m): the coefficient that by itself takes the torque limit"
+                .into(),
+        );
+        lines.push("T_i at the largest velocities of the box.".into());
+    }
+    lines
+}
+
+/// The unit of each output.
+pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
+    let rows = &program.rows;
+    // A force over an axis is a torque: one metre more.
+    let turns = |joint: usize| {
+        let joint = robot.joints.get(joint);
+        i32::from(joint.is_some_and(|joint| joint.kind == JointKind::Revolute))
+    };
+    let mut units = Vec::new();
+    for quantity in program.function.quantities() {
+        for index in 0..quantity.len(rows.len()) {
+            let mut rest = index;
+            let metres: i32 = (0..quantity.rank())
+                .map(|_| {
+                    let joint = rows[rest % rows.len()];
+                    rest /= rows.len();
+                    turns(joint)
+                })
+                .sum();
+            units.push(match (quantity, metres) {
+                (Quantity::Torque | Quantity::Coriolis | Quantity::Gravity, 0) => "N",
+                (Quantity::Torque | Quantity::Coriolis | Quantity::Gravity, _) => "N·m",
+                (Quantity::Inertia, metres) => kilograms(metres),
+                // Twice per metre where both rates are of length, the force once.
+                (Quantity::Christoffel, metres) => kilograms(metres - 1),
+            });
+        }
+    }
+    units
+}
+
+fn kilograms(metres: i32) -> &'static str {
+    match metres {
+        ..0 => "kg/m",
+        0 => "kg",
+        1 => "kg·m",
+        _ => "kg·m²",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::function::Function;
+    use dalembert_model::read::{Options, parse};
+
+    /// T/q̈ and T/(q̇ q̇) by hand, for joints that turn and joints that slide.
+    #[test]
+    fn units_of_mixed_joints() {
+        let joint = |kind: &str| {
+            format!(
+                "[[joint]]\nkind = \"{kind}\"\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n"
+            )
+        };
+        let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n";
+        let source = [head, &joint("revolute"), &joint("prismatic")].concat();
+        let robot = parse(&source, &Options::default()).unwrap().robot;
+        let program = |function: Function| Program {
+            function,
+            joints: 2,
+            rows: vec![0, 1],
+            arguments: function.arguments().to_vec(),
+            trig: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        };
+        let of = |function| units(&program(function), &robot).join(" ");
+        assert_eq!(of(Function::InverseDynamics), "N·m N");
+        assert_eq!(
+            of(Function::ManipulatorEquation),
+            "kg·m² kg·m kg·m kg N·m N N·m N"
+        );
+        let symbols = "kg·m² kg·m kg·m kg kg·m kg kg kg/m";
+        let all = of(Function::DynamicCoefficients);
+        assert_eq!(all, format!("kg·m² kg·m kg·m kg {symbols} N·m N"));
+    }
+
+    #[test]
+    fn every_kind_of_output_has_its_t() {
+        let said =
+            |function: Function| sentences(Some(Scale::Actuator), function.quantities()).join(" ");
+        let torques = said(Function::InverseDynamics);
+        assert!(torques.starts_with("T of τ is T_i") && !torques.contains("D_ik"));
+        let inertia = said(Function::Inertia);
+        assert!(inertia.starts_with("T of D_ik is min(T_i/q̈_k, T_k/q̈_i)"));
+        let whole = said(Function::ManipulatorEquation);
+        assert!(whole.contains("T of h and of c is") && whole.contains("D_ik"));
+        let symbols = said(Function::DynamicCoefficients);
+        for kind in ["T of c is", "D_ik", "T of h_ikm is T_i/(q̇_k q̇_m)"] {
+            assert!(symbols.contains(kind), "{symbols}");
+        }
+    }
+}
