@@ -237,7 +237,7 @@ fn an_output_that_is_zero_is_exact() {
     let scene = r#"
 [scene.hold]
 outputs = ["gravity"]
-tolerance = { value = 1e-2, relative_to = "range" }
+tolerance = { value = 0.1, relative_to = "range" }
 "#;
     fs::write(&file, format!("{puma}{scene}")).unwrap();
     let certificate = path(&folder, "hold.json");
@@ -249,7 +249,8 @@ tolerance = { value = 1e-2, relative_to = "range" }
         (&claimed["scale"][0], &claimed["total"][0]),
         (&0.0.into(), &0.0.into())
     );
-    assert!(claimed["total"][1].as_f64().unwrap() > 0.0);
+    // Nor does it keep the others from giving way.
+    assert!(claimed["model"][1].as_f64().unwrap() > 1e-6);
     let ran = run(&["certify", &certificate, "--robot", &file]);
     assert_eq!(ran.code, 0, "{}", ran.err);
 }

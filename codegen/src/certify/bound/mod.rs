@@ -146,6 +146,13 @@ mod tests {
         };
         let bound = |limits: &InputBox| magnitudes(&graph, limits, &[1.0], 0.0, Budget::GLANCE)[0];
         assert_eq!(bound(&limits), 0.0);
+        let zero = Builder::new(Folding::Syntactic).finish(&[Value::Constant(Exact::from(
+            Rational::from_integer(0.into()),
+        ))]);
+        assert_eq!(
+            magnitudes(&zero, &limits, &[0.0], 0.0, Budget::GLANCE),
+            [0.0]
+        );
         // Nor is there a step from one subnormal to the next.
         limits.velocity = vec![Interval::symmetric(5e-324)];
         assert!(bound(&limits) < 1e-150);

@@ -52,7 +52,7 @@ impl Layout {
         let mut terms: Vec<(Key, f64)> = Vec::new();
         for &(key, coefficient) in polynomial {
             let most = range(key).magnitude();
-            if most == 0.0 {
+            if most == 0.0 || coefficient.magnitude() == 0.0 {
                 continue;
             }
             let size = (coefficient.magnitude() * most).next_up();
