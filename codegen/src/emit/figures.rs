@@ -58,7 +58,7 @@ pub(super) fn bound(x: f64) -> String {
 
 /// A range of seven digits inside a range, or all its digits if it is that
 /// narrow.
-pub(super) fn inside(low: f64, high: f64) -> String {
+pub fn inside(low: f64, high: f64) -> String {
     let ends = (rounded(low, 7, Side::Above), rounded(high, 7, Side::Below));
     let (low, high) = if ends.0 < ends.1 { ends } else { (low, high) };
     format!("{} to {}", plain(low), plain(high))

@@ -6,9 +6,9 @@
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`module`]: the module of a robot with its header, and of its `scene`
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
-//!   are relative to; `figures`: numbers rounded to the side that stays true
+//!   are relative to; [`figures`]: numbers rounded to the side that stays true
 
-mod figures;
+pub mod figures;
 pub mod function;
 pub mod literal;
 pub mod module;
