@@ -27,17 +27,26 @@ pub const SEED: u64 = 0xa1e3;
 pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     let mut random = Random::new(seed);
     let mut draw = |[low, high]: [f64; 2]| low + (high - low) * random.unit();
+    // Once, not state by state: a multiple of π is rounded from 120 digits.
+    let ranges = robot.joints.iter().map(|joint| {
+        let (velocity, acceleration) = (
+            rate(&joint.limits.velocity, 3.0),
+            rate(&joint.limits.acceleration, 10.0),
+        );
+        (
+            range(joint),
+            [-velocity, velocity],
+            [-acceleration, acceleration],
+        )
+    });
+    let ranges: Vec<_> = ranges.collect();
     (0..count)
         .map(|_| {
             let mut state = JointState::default();
-            for joint in &robot.joints {
-                let (velocity, acceleration) = (
-                    rate(&joint.limits.velocity, 3.0),
-                    rate(&joint.limits.acceleration, 10.0),
-                );
-                state.q.push(draw(range(joint)));
-                state.qd.push(draw([-velocity, velocity]));
-                state.qdd.push(draw([-acceleration, acceleration]));
+            for &(position, velocity, acceleration) in &ranges {
+                state.q.push(draw(position));
+                state.qd.push(draw(velocity));
+                state.qdd.push(draw(acceleration));
             }
             state
         })
