@@ -159,6 +159,11 @@ impl Quantity {
         n.pow(self.rank())
     }
 
+    /// The zero-based indices of an entry for n joints, the last one first.
+    pub fn indices(self, index: usize, n: usize) -> impl Iterator<Item = usize> {
+        (0..self.rank()).map(move |place| index / n.pow(place) % n)
+    }
+
     /// Its field in the structs that generated functions return.
     pub fn field(self) -> &'static str {
         match self {
@@ -197,14 +202,9 @@ impl Quantity {
     pub fn entry_over(self, index: usize, rows: &[usize], n: usize) -> String {
         let letter = self.letter();
         let width = rows.len().max(1);
-        let mut rest = index;
-        let mut digits: Vec<String> = (0..self.rank())
-            .map(|_| {
-                let joint = rows.get(rest % width).map_or(0, |joint| joint + 1);
-                rest /= width;
-                joint.to_string()
-            })
-            .collect();
+        let joint = |at: usize| rows.get(at).map_or(0, |joint| joint + 1);
+        let digits = self.indices(index, width).map(|at| joint(at).to_string());
+        let mut digits: Vec<String> = digits.collect();
         digits.reverse();
         format!("{letter}_{}", digits.join(if n > 9 { "," } else { "" }))
     }

@@ -40,10 +40,7 @@ fn attacked(certificate: &Certificate) -> (f64, f64) {
 /// nothing is left out.
 fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) {
     let reading = support::reading(name);
-    let bare = reading.scenes.into_iter().next().map(|scene| Scene {
-        tolerance: None,
-        ..scene
-    });
+    let bare = reading.scenes.first().map(Scene::without_tolerance);
     let request = Request {
         functions: vec![Function::InverseDynamics],
         scalars: vec![ScalarType::F64],

@@ -58,7 +58,7 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     // Its own tolerance is one of many here.
     let bare = scene.map(Scene::without_tolerance);
     let setting = Setting::of(&reading.robot, bare.as_ref()).map_err(GenerateError::Scene)?;
-    let exact = exact(args, &reading, scene)?;
+    let exact = exact(args, &reading, scene, bare.as_ref())?;
     let relative_to = relative_to(args, scene);
     let frame = Frame::new(&setting, &exact, relative_to).map_err(|refusal| {
         Failure::Input(format!(
@@ -148,18 +148,18 @@ fn chart(
     chart::svg(&title, scale, points)
 }
 
-/// The exact program, from the plan if there is one.
+/// The exact program, which tolerances are applied to: from the plan if there is
+/// one, of the scene without its own.
 fn exact(
     args: &TradeoffArgs,
     reading: &Reading,
     scene: Option<&Scene>,
+    bare: Option<&Scene>,
 ) -> Result<Program, Failure> {
     let first = scene.and_then(|scene| scene.outputs.first().copied());
     let first = first.map_or(Function::InverseDynamics, Function::from);
     let mut plan = kept(&args.robot)?;
-    // What tolerances are applied to.
-    let bare = scene.map(Scene::without_tolerance);
-    if let (Some(plan), Some(scene), Some(bare)) = (&mut plan, scene, &bare) {
+    if let (Some(plan), Some(scene), Some(bare)) = (&mut plan, scene, bare) {
         for entry in &mut plan.entries {
             if entry.scene == Some(SceneKey::of(scene)) {
                 entry.scene = Some(SceneKey::of(bare));
@@ -172,7 +172,7 @@ fn exact(
         scalars: vec![ScalarType::F64],
         effort: args.effort,
         plan,
-        scene: bare,
+        scene: bare.cloned(),
         ..Request::default()
     };
     let session = progress::watch(&mut request);

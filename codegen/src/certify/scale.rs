@@ -76,13 +76,8 @@ pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let mut all = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(rows.len()) {
-            let mut rest = index;
-            let digits = (0..quantity.rank()).map(|_| {
-                let joint = rows[rest % rows.len()];
-                rest /= rows.len();
-                of(joint)
-            });
-            all.push(digits.fold(f64::INFINITY, f64::min));
+            let joints = quantity.indices(index, rows.len()).map(|at| rows[at]);
+            all.push(joints.map(of).fold(f64::INFINITY, f64::min));
         }
     }
     all

@@ -63,14 +63,8 @@ pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
     let mut units = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(rows.len()) {
-            let mut rest = index;
-            let metres: i32 = (0..quantity.rank())
-                .map(|_| {
-                    let joint = rows[rest % rows.len()];
-                    rest /= rows.len();
-                    turns(joint)
-                })
-                .sum();
+            let joints = quantity.indices(index, rows.len()).map(|at| rows[at]);
+            let metres: i32 = joints.map(turns).sum();
             units.push(match (quantity, metres) {
                 (Quantity::Torque | Quantity::Coriolis | Quantity::Gravity, 0) => "N",
                 (Quantity::Torque | Quantity::Coriolis | Quantity::Gravity, _) => "N·m",

@@ -228,10 +228,9 @@ impl Setting {
         for quantity in function.quantities() {
             for index in 0..quantity.len(k) {
                 // The digits of the index to base k, to base n.
-                let (mut rest, mut from, mut weight) = (index, start, 1);
-                for _ in 0..quantity.rank() {
-                    from += places[rest % k] * weight;
-                    rest /= k;
+                let (mut from, mut weight) = (start, 1);
+                for at in quantity.indices(index, k) {
+                    from += places[at] * weight;
                     weight *= n;
                 }
                 selected.push(outputs[from].clone());
