@@ -57,7 +57,10 @@ pub use dalembert_model::read;
 /// # The robot
 ///
 /// A robot file by its path, relative to `CARGO_MANIFEST_DIR`; editing it
-/// expands the macro again. Or the robot itself, in braces:
+/// expands the macro again, and so does a plan that `dalembert generate
+/// --save-plan` puts beside it. (A first plan that comes with a checkout is
+/// noticed once the robot file is newer than the last build: touch it.) Or the
+/// robot itself, in braces:
 ///
 /// ```
 /// dalembert::dynamics! {
@@ -85,6 +88,11 @@ pub use dalembert_model::read;
 /// are written: `0.3` is 3/10, `1/3` a third, `pi/2` a right angle, and so is
 /// `90deg`.
 ///
+/// What is odd about a robot, such as an inertia that no body has or lengths that
+/// look like millimetres, is a warning of the compiler. Whoever knows better
+/// writes `#[allow(deprecated)]` above the module: that is the lint which lets a
+/// macro warn.
+///
 /// # Clauses
 ///
 /// - `outputs: …;` of `inverse_dynamics`, `gravity`, `inertia`, `coriolis`,
@@ -96,10 +104,14 @@ pub use dalembert_model::read;
 ///   `lagrange_euler` and keeps the cheapest; naming one tries that only.
 /// - `effort: quick;` or `thorough`, which takes minutes and finds a few
 ///   operations less.
+/// - `prefer: operations;` takes the cheapest code even where its rounding error
+///   is more than four times the textbook form's, which `accuracy`, the default,
+///   does not. It says nothing about code that a plan keeps.
 /// - `sincos: auto;` takes polynomials for sines and cosines where a scene's
 ///   tolerance admits them, else libm; `libm` takes it always. `polynomial`
 ///   takes polynomials over the joints' limits, or the scene's box; outside
-///   they are wrong.
+///   they are wrong. For a joint without limits, whole turns are taken off first:
+///   they hold to ±1e6 rad, in f32 to ±1e3.
 /// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for
 ///   `sincos: polynomial;` alone. The default is `1e-6`; in a scene with a
 ///   tolerance that decides, and no error is given.
@@ -179,7 +191,10 @@ pub use dalembert_model::read;
 ///
 /// Arguments keep an entry for every joint, results are over `joints`. With a
 /// tolerance each function's documentation has its certificate: how far it is
-/// from the full model at most, in the box. A box that a joint never reaches is
+/// from the full model at most, in the box. Where functions hold in a box only,
+/// be it for a tolerance or for polynomials, the module has that as `BOX` and a
+/// function `in_box`, which takes what they take and says whether it is inside.
+/// A joint without limits has one turn in it, -π to π. A box that a joint never reaches is
 /// an error, one that goes beyond its limits is taken as it stands. To find
 /// what a tolerance admits takes longer than other clauses: keep it in a plan
 /// with the command (`generate --scene NAME --save-plan`).

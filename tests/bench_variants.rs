@@ -7,16 +7,16 @@
 use std::fs;
 use std::path::Path;
 
+use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::certificate::subject::Fineness;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::scale;
-use dalembert_codegen::certify::sensitivity::Sensitivity;
+use dalembert_codegen::certify::sensitivity::{Fineness, Sensitivity};
 use dalembert_codegen::certify::sines::within;
-use dalembert_codegen::emit::{MathPath, ScalarType, function};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan;
+use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::read;
 

@@ -4,11 +4,14 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Prefer, Request, Start};
+use dalembert_codegen::generate::{Prefer, Request};
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::sincos::SinCos;
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -127,8 +130,12 @@ pub struct GenerateArgs {
     /// every later run, macro and build script replays them. After a search
     /// that was ended early, a kept program stays unless that found a cheaper
     /// one
-    #[arg(long, conflicts_with = "check")]
+    #[arg(long, conflicts_with_all = ["check", "no_plan"])]
     pub save_plan: bool,
+    /// Write what is inside the module and not the module itself: for a FILE
+    /// that is a module of your crate (`mod puma560;`). It has one scalar
+    #[arg(long)]
+    pub contents: bool,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
@@ -215,7 +222,7 @@ pub struct StressArgs {
         long,
         value_name = "N",
         allow_negative_numbers = true,
-        value_parser = count_parser(),
+        value_parser = states_parser(),
         default_value_t = 50
     )]
     pub states: usize,
@@ -235,6 +242,14 @@ pub struct CertifyArgs {
     /// The scene of the robot file that it is for [default: the one it names]
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
+    /// What E may be, instead of the scene's tolerance: `tradeoff` certifies
+    /// others
+    #[arg(long, value_name = "E", value_parser = exact_tolerance_parser())]
+    pub tolerance: Option<Rational>,
+    /// Also write scripts by which Gappa bounds the rounding of each output,
+    /// into this folder
+    #[arg(long, value_name = "DIR")]
+    pub gappa: Option<PathBuf>,
     /// Also run the code at this many states and look for an error above E
     #[arg(
         long,
@@ -360,17 +375,29 @@ fn count_parser() -> impl TypedValueParser<Value = usize> {
     })
 }
 
+fn exact_tolerance_parser() -> impl TypedValueParser<Value = Rational> {
+    clap::builder::StringValueParser::new().try_map(|text| {
+        let number = parse_decimal(&text).map_err(|error| error.to_string())?;
+        match number > Rational::from_integer(0.into()) {
+            true => Ok(number),
+            false => Err("a tolerance is a number above zero".to_owned()),
+        }
+    })
+}
+
 fn states_parser() -> impl TypedValueParser<Value = usize> {
-    let most = dalembert_codegen::explain::errors::MOST_STATES as i64;
+    let most = dalembert_report::explain::errors::MOST_STATES as i64;
     clap::value_parser!(i64)
         .range(1..=most)
         .map(|states| states as usize)
 }
 
 fn prefer_parser() -> impl TypedValueParser<Value = Prefer> {
-    PossibleValuesParser::new(["accuracy", "operations"]).map(|name| match name.as_str() {
-        "operations" => Prefer::Operations,
-        _ => Prefer::Accuracy,
+    let names = PossibleValuesParser::new(Prefer::ALL.map(Prefer::name));
+    names.try_map(|name| {
+        let mut all = Prefer::ALL.into_iter();
+        all.find(|prefer| prefer.name() == name)
+            .ok_or("no such preference")
     })
 }
 

@@ -1,8 +1,7 @@
 //! `dalembert count`: the operations of the generated functions.
 
-use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::generate::{GeneratedFunction, generate};
-use dalembert_codegen::graph::Counts;
+use dalembert_codegen::generate::GeneratedFunction;
+use dalembert_codegen::program::{Counts, ScalarType};
 use serde_json::{Map, Value, json};
 
 use crate::args::CountArgs;
@@ -24,7 +23,7 @@ pub fn run(args: &CountArgs) -> Outcome {
         }
     }
     let session = progress::watch(&mut request);
-    let generated = generate(&robot, &request)?;
+    let generated = input::generated(&args.robot, &robot, &request)?;
     drop(session);
     if args.json {
         // The first that was emitted.
@@ -34,17 +33,21 @@ pub fn run(args: &CountArgs) -> Outcome {
         let functions: Map<String, Value> =
             functions.map(|f| (f.function.to_string(), of(f))).collect();
         let scene = request.scene.as_ref().map(|scene| &scene.name);
+        let input = robot.short_hash();
         return output::print_json(&match scene {
-            Some(scene) => json!({ "robot": robot.name, "scene": scene, "functions": functions }),
-            None => json!({ "robot": robot.name, "functions": functions }),
+            Some(scene) => {
+                json!({ "robot": robot.name, "input": input, "scene": scene, "functions": functions })
+            }
+            None => json!({ "robot": robot.name, "input": input, "functions": functions }),
         });
     }
     output::print(&format!(
-        "robot {}, input {}{}\n\n{}",
+        "robot {}, input {}{}\n\n{}{}",
         robot.name,
         robot.short_hash(),
         report::scene(&request),
-        report::counts(&generated)
+        report::counts(&generated),
+        report::limits(&generated)
     ))
 }
 

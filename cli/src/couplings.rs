@@ -1,8 +1,8 @@
 //! `dalembert couplings`: which coefficients vanish or repeat, and why.
 
-use dalembert_codegen::couplings::{Coupling, Couplings, Finding};
 use dalembert_codegen::function::Quantity;
 use dalembert_model::robot::Robot;
+use dalembert_report::couplings::{Coupling, Couplings, Finding};
 use serde_json::{Map, Value, json};
 
 use crate::args::CouplingsArgs;

@@ -1,21 +1,18 @@
-//! Robot files, and states in the format of the golden files.
+//! Robot files, and files of states.
 
-use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use dalembert_codegen::function::Quantity;
-use dalembert_codegen::generate::Request;
+use dalembert_codegen::generate::in_scene::find;
+use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::plan;
-use dalembert_codegen::scene;
 use dalembert_codegen::sincos::SinCos;
-use dalembert_codegen::verify::floating::GivenState;
-use dalembert_codegen::verify::states::JointState;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
-use serde_json::Value;
+use dalembert_report::states::GivenState;
+use dalembert_report::states::file::{self, FileError};
 
 use crate::args::Choice;
 use crate::outcome::Failure;
@@ -35,15 +32,16 @@ pub fn robot_and_request(path: &Path, choice: &Choice) -> Result<(Robot, Request
     let mut request = request(path, choice)?;
     if let Some(name) = &choice.scene {
         let scene = scene(path, &reading, name)?;
-        let (outputs, scalars) = (!choice.outputs.is_empty(), choice.scalar.is_some());
-        request = request.in_scene(scene, outputs, scalars);
+        let outputs = (!choice.outputs.is_empty()).then(|| choice.outputs.clone());
+        let scalars = choice.scalar.map(|scalar| vec![scalar]);
+        request = request.choose(outputs, scalars, Some(scene));
     }
     Ok((reading.robot, request))
 }
 
 /// A scene of a robot file.
 pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Scene, Failure> {
-    scene::find(&reading.scenes, name).map_err(|error| {
+    find(&reading.scenes, name).map_err(|error| {
         Failure::Input(format!(
             "error: {}: {}\n  = help: {}",
             path.display(),
@@ -70,6 +68,23 @@ pub fn reading(path: &Path) -> Result<Reading, Failure> {
     }
 }
 
+/// Generates for a robot file; where its plan does not fit, the error names it.
+pub fn generated(path: &Path, robot: &Robot, request: &Request) -> Result<Generated, Failure> {
+    generate(robot, request).map_err(|error| {
+        let stale = matches!(
+            error,
+            GenerateError::StalePlan { .. } | GenerateError::StaleScene { .. }
+        );
+        match Failure::from(error) {
+            Failure::Input(text) if stale => Failure::Input(format!(
+                "{text}\n --> {}\n  = help: --no-plan searches without it",
+                plan::file::path(path).display()
+            )),
+            other => other,
+        }
+    })
+}
+
 /// The request of a choice, with the plan beside the robot file unless the
 /// choice does without.
 fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
@@ -86,71 +101,19 @@ fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
     Ok(request)
 }
 
-/// Reads the states of a golden file for a robot of n joints.
+/// Reads the states of a file for a robot of n joints.
 pub fn states(path: &Path, n: usize) -> Result<Vec<GivenState>, Failure> {
     let name = path.display();
-    let fail = |why: String| Failure::Input(format!("error: {name}: {why}"));
-    let bytes = bytes(path, MAX_STATES_BYTES)?;
-    let json: Value = serde_json::from_slice(&bytes).map_err(|error| {
-        let (line, column) = (error.line(), error.column());
-        Failure::Input(format!("error: {error}\n --> {name}:{line}:{column}"))
-    })?;
-    let list = json
-        .get("states")
-        .and_then(Value::as_array)
-        .ok_or_else(|| fail("there is no list `states`".into()))?;
-    if list.is_empty() {
-        return Err(fail("the list `states` is empty".into()));
-    }
-    let state =
-        |(index, value)| state(value, n).map_err(|why| fail(format!("state {}: {why}", index + 1)));
-    list.iter().enumerate().map(state).collect()
-}
-
-fn state(value: &Value, n: usize) -> Result<GivenState, String> {
-    let need = |key: &str| vector(value, key, n)?.ok_or_else(|| format!("`{key}` is missing"));
-    let state = JointState {
-        q: need("q")?,
-        qd: need("qd")?,
-        qdd: need("qdd")?,
-    };
-    let mut known = BTreeMap::new();
-    for (key, quantity) in [
-        ("tau", Quantity::Torque),
-        ("h", Quantity::Coriolis),
-        ("c", Quantity::Gravity),
-    ] {
-        if let Some(values) = vector(value, key, n)? {
-            known.insert(quantity, values);
-        }
-    }
-    if let Some(values) = vector(value, "D", n * n)? {
-        known.insert(Quantity::Inertia, values);
-    }
-    Ok(GivenState { state, known })
-}
-
-/// A list of numbers, or a matrix as rows or row by row.
-fn vector(value: &Value, key: &str, len: usize) -> Result<Option<Vec<f64>>, String> {
-    let Some(value) = value.get(key) else {
-        return Ok(None);
-    };
-    let list = value
-        .as_array()
-        .ok_or_else(|| format!("`{key}` is not a list"))?;
-    let mut numbers = Vec::new();
-    for item in list {
-        match item {
-            Value::Array(row) => numbers.extend(row.iter().map(Value::as_f64)),
-            other => numbers.push(other.as_f64()),
-        }
-    }
-    let numbers: Option<Vec<f64>> = numbers.into_iter().collect();
-    let numbers = numbers.ok_or_else(|| format!("`{key}` has an entry that is no number"))?;
-    if numbers.len() != len {
-        return Err(format!("`{key}` has {} numbers, not {len}", numbers.len()));
-    }
-    Ok(Some(numbers))
+    file::read(&bytes(path, MAX_STATES_BYTES)?, n).map_err(|error| {
+        Failure::Input(match error {
+            FileError::Syntax {
+                message,
+                line,
+                column,
+            } => format!("error: {message}\n --> {name}:{line}:{column}"),
+            FileError::Content(message) => format!("error: {name}: {message}"),
+        })
+    })
 }
 
 /// A whole file.

@@ -15,7 +15,7 @@
 //! - [`progress`]: a long search watched, and ended early
 //! - [`files`]: files that are written: checked first, all or none
 //! - [`output`]: standard output, tables
-//! - [`outcome`]: exit codes
+//! - [`outcome`]: how a run ends
 #![forbid(unsafe_code)]
 
 mod args;
@@ -41,6 +41,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use args::{Args, Command};
+use outcome::Failure;
 
 fn main() -> ExitCode {
     let outcome = match Args::parse().command {
@@ -54,5 +55,11 @@ fn main() -> ExitCode {
         Command::Tradeoff(args) => tradeoff::run(&args),
         Command::Table3(args) => table3::run(&args),
     };
-    outcome::exit(outcome)
+    let (why, code) = match outcome {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Failure::Check(why)) => (why, 1),
+        Err(Failure::Input(why)) => (why, 2),
+    };
+    output::note(&why);
+    ExitCode::from(code)
 }

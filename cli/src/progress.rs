@@ -9,9 +9,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::watch::{Observer, Progress, Watch};
+use dalembert_report::sweep::ladder::Waiting;
+use dalembert_report::sweep::rungs::Rung;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::output;
@@ -24,6 +27,8 @@ pub struct Session(Option<Arc<Terminal>>);
 
 struct Terminal {
     bar: ProgressBar,
+    /// What is searched for, in this order.
+    functions: Vec<Function>,
     stop: AtomicBool,
     /// Nothing is left to be ended.
     over: AtomicBool,
@@ -37,9 +42,10 @@ pub fn watch(request: &mut Request) -> Session {
     if !thorough && scene.is_none_or(|scene| scene.tolerance.is_none()) {
         return Session(None);
     }
-    let bar = bar(1);
+    let wanted = |function: &Function| request.functions.contains(function);
     let terminal = Arc::new(Terminal {
-        bar,
+        bar: bar(1),
+        functions: Function::ALL.into_iter().filter(wanted).collect(),
         stop: AtomicBool::new(false),
         over: AtomicBool::new(false),
     });
@@ -69,18 +75,59 @@ impl Steps {
         Steps(Arc::new(Step { bar, name }))
     }
 
-    /// The next one begins.
-    pub fn begin(&self, name: &str) {
+    /// Shows how far searches within a step have come.
+    pub fn watch(&self) -> Watch {
+        Watch::by(self.0.clone())
+    }
+}
+
+impl Waiting for Steps {
+    fn begin(&self, name: &str) {
         self.0.bar.set_message(name.to_owned());
         self.0.bar.inc(1);
         let mut current = self.0.name.lock().unwrap_or_else(PoisonError::into_inner);
         name.clone_into(&mut current);
     }
 
-    /// Shows how far searches within a step have come.
-    pub fn watch(&self) -> Watch {
-        Watch::by(self.0.clone())
+    /// A line where there is no terminal that shows a bar.
+    fn done(&self, rung: &Rung, resumed: bool) {
+        if resumed {
+            // Its search and its attempts to refute.
+            self.0.bar.inc(2);
+        }
+        if self.0.bar.is_hidden() {
+            output::note(&line(rung, resumed));
+        }
     }
+}
+
+/// A rung in one line.
+fn line(rung: &Rung, resumed: bool) -> String {
+    let variants = rung.points.iter().map(|point| {
+        let certificate = &point.certificate;
+        let by = if certificate.sines.is_empty() {
+            ""
+        } else {
+            " with polynomials"
+        };
+        let operations = point.counts().operations();
+        let error = point.certified;
+        format!(
+            "{operations} operations in {}{by} ({error:.1e})",
+            certificate.scalar
+        )
+    });
+    let variants: Vec<String> = variants.collect();
+    let found = match variants.is_empty() {
+        true => "no scalar is that exact".to_owned(),
+        false => variants.join(", "),
+    };
+    let kept = if resumed {
+        ", kept by an earlier run"
+    } else {
+        ""
+    };
+    format!("tolerance {:e}{kept}: {found}", rung.tolerance)
 }
 
 impl Observer for Step {
@@ -113,6 +160,15 @@ impl Drop for Steps {
     }
 }
 
+/// `function 2 of 6: `, where there are several.
+fn place(functions: &[Function], function: Function) -> String {
+    let at = functions.iter().position(|one| *one == function);
+    match (at, functions.len()) {
+        (Some(at), 2..) => format!("function {} of {}: ", at + 1, functions.len()),
+        _ => String::new(),
+    }
+}
+
 /// The best program so far, or how many were tried.
 fn reached(progress: &Progress) -> String {
     match (progress.best, progress.rounds) {
@@ -142,7 +198,10 @@ impl Terminal {
             process::exit(INTERRUPTED);
         }
         self.bar.suspend(|| {
-            output::note("ending the search after this round; once more: give up");
+            output::note(
+                "ending the search after this round; what it has is then compared with a quick \
+                 search, proved and measured; once more: give up",
+            );
         });
     }
 }
@@ -160,7 +219,9 @@ impl Observer for Terminal {
         self.bar.set_length(if known { *rounds as u64 } else { 1 });
         self.bar.set_position(if known { *round as u64 } else { 0 });
         let reached = reached(progress);
-        self.bar.set_message(format!("{function}, {part}{reached}"));
+        let place = place(&self.functions, *function);
+        self.bar
+            .set_message(format!("{place}{function}, {part}{reached}"));
     }
 
     fn stop(&self) -> bool {
@@ -176,5 +237,21 @@ impl Drop for Session {
         if terminal.stop() {
             output::note("the search was ended early: more might be found");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dalembert_codegen::function::Function;
+
+    use super::place;
+
+    #[test]
+    fn which_function_of_how_many() {
+        assert_eq!(
+            place(&Function::ALL, Function::Gravity),
+            "function 2 of 6: "
+        );
+        assert_eq!(place(&[Function::Gravity], Function::Gravity), "");
     }
 }

@@ -1,12 +1,12 @@
 //! Polynomials against libm's sine and cosine: what was seen and what was
 //! proved.
 
-use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::emit::figures::bound_of;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::Generated;
-use dalembert_codegen::graph::AngleSum;
+use dalembert_codegen::program::{AngleSum, ScalarType};
 use dalembert_codegen::sincos::angle_name;
-use dalembert_codegen::verify::states::JointState;
+use dalembert_codegen::states::JointState;
 use serde_json::{Value, json};
 
 use crate::output;
@@ -74,7 +74,7 @@ pub fn table(checks: &[Check]) -> String {
             check.scalar.to_string(),
             angle_name(check.angle),
             format!("{:.1e}", check.error),
-            format!("{:.1e}", check.bound),
+            bound_of(check.bound, 2),
             if check.passed() { "ok" } else { "FAILED" }.to_owned(),
         ]);
     }

@@ -119,6 +119,11 @@ fn wrong_words_on_the_command_line() {
             "a number above zero, such as 1e-3",
         ),
         (vec!["generate", &puma, "--states", "-1"], "1..=10000"),
+        (vec!["stress", &puma, "--states", "0"], "1..=10000"),
+        (
+            vec!["generate", &puma, "--save-plan", "--no-plan"],
+            "cannot be used with",
+        ),
         (
             vec!["tradeoff", &puma, "--samples", "-1"],
             "a whole number, 0 or more",
@@ -131,6 +136,41 @@ fn wrong_words_on_the_command_line() {
     }
 }
 
+/// A plan that is another robot's, or none, is named with what helps; a pipe
+/// in its place is not waited for.
+#[test]
+fn plans_that_cannot_be_used() {
+    let folder = temporary("stale_plan");
+    let file = folder.join("arm.toml");
+    let name = file.to_str().unwrap();
+    let planar = fs::read_to_string(robot("planar2r")).unwrap();
+    fs::write(&file, planar.replacen("shoulder", "first", 1)).unwrap();
+    let plan = folder.join("arm.plan");
+    let kept = robot("planar2r").replace(".toml", ".plan");
+    fs::copy(kept, &plan).unwrap();
+    let gravity = ["count", name, "--outputs", "gravity"];
+    let ran = run(&gravity);
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    for words in [
+        "arm.plan",
+        "--no-plan",
+        "or a name was changed",
+        "--save-plan",
+    ] {
+        assert!(ran.err.contains(words), "{words}: {}", ran.err);
+    }
+    assert_eq!(run(&[&gravity[..], &["--no-plan"]].concat()).code, 0);
+    #[cfg(unix)]
+    {
+        fs::remove_file(&plan).unwrap();
+        let made = std::process::Command::new("mkfifo").arg(&plan).status();
+        assert!(made.is_ok_and(|status| status.success()));
+        let ran = run(&gravity);
+        assert_eq!(ran.code, 2, "{}", ran.err);
+        assert!(ran.err.contains("a plan is a file"), "{}", ran.err);
+    }
+}
+
 /// A device has no length to look at before it is read.
 #[cfg(unix)]
 #[test]
@@ -139,7 +179,7 @@ fn inputs_without_end() {
     for (arguments, words) in [
         (
             vec!["certify", "/dev/zero", "--robot", &puma],
-            "longer than 64 MiB",
+            "longer than 16 MiB",
         ),
         (
             vec!["certify", "/dev/null", "--robot", "/dev/zero"],

@@ -6,8 +6,7 @@ mod support;
 
 use std::path::Path;
 
-use dalembert_codegen::certify::json::read_program;
-use serde_json::Value;
+use dalembert_codegen::certify::certificate::format;
 use support::run;
 
 /// Torques of the PUMA over the box of its file.
@@ -16,24 +15,25 @@ fn holds(name: &str, relative_to: &str, tolerance: f64, operations: usize) {
     let file = generated.join("certificates").join(name);
     let robot = generated.join("robots/puma560.toml");
     let (file, robot) = (file.to_str().unwrap(), robot.to_str().unwrap());
-    let json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
-    let emitted = read_program(json["emitted"].as_str().unwrap()).unwrap();
-    let counts = emitted.counts();
+    let certificates = format::read(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let [certificate] = certificates.as_slice() else {
+        panic!("{name} holds {} certificates", certificates.len());
+    };
+    let counts = certificate.emitted.counts();
     assert!(counts.operations() <= operations, "{counts}");
-    assert_eq!(json["relative_to"], relative_to);
-    let parts = ["model", "sincos", "rounding"].map(|part| json[part].as_array().unwrap());
-    for index in 0..6 {
-        let sum: f64 = parts.iter().map(|part| part[index].as_f64().unwrap()).sum();
-        assert!(sum <= tolerance, "output {index}: {sum:e}");
+    assert_eq!(certificate.relative_to.unwrap().word(), relative_to);
+    for (index, bound) in certificate.bounds.iter().enumerate() {
+        assert!(bound.total() <= tolerance, "output {index}: {bound:?}");
     }
-    for (key, limits) in [
-        ("position", [std::f64::consts::PI; 6]),
-        ("velocity", [2.0, 2.0, 2.0, 5.0, 5.0, 5.0]),
-        ("acceleration", [10.0, 10.0, 10.0, 30.0, 30.0, 30.0]),
+    let limits = &certificate.limits;
+    for (ranges, limits) in [
+        (&limits.position, [std::f64::consts::PI; 6]),
+        (&limits.velocity, [2.0, 2.0, 2.0, 5.0, 5.0, 5.0]),
+        (&limits.acceleration, [10.0, 10.0, 10.0, 30.0, 30.0, 30.0]),
     ] {
-        for (range, limit) in json[key].as_array().unwrap().iter().zip(limits) {
-            let [low, high] = [0, 1].map(|end| range[end].as_f64().unwrap());
-            assert!(low <= -limit && high >= limit, "{key}: {range}");
+        assert_eq!(ranges.len(), limits.len());
+        for (range, limit) in ranges.iter().zip(limits) {
+            assert!(range.low() <= -limit && range.high() >= limit, "{range:?}");
         }
     }
     let ran = run(&["certify", file, "--robot", robot]);

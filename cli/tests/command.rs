@@ -127,7 +127,21 @@ fn verify_with_golden_states() {
         assert!(errors.iter().any(|e| e["scalar"] == "f32"));
         assert!(errors.iter().any(|e| e["against"] == "states"));
         assert!(errors.iter().all(|e| e["error_in_u"].is_number()));
+        let given = &json["given"];
+        assert_eq!(given["states"], 60);
+        for key in ["tau", "D", "h", "c"] {
+            assert_eq!(given["compared"][key], 60, "{name} {key}");
+        }
     }
+    let gravity = ["verify", &robot("planar2r"), "--outputs", "gravity"];
+    let text = run(&[&gravity[..], &["--states", &golden("planar2r")]].concat());
+    assert_eq!(text.code, 0, "{}", text.err);
+    assert!(text.out.contains("; compared: c at 60\n"), "{}", text.out);
+    assert!(
+        text.out.contains("returns it: tau at 60, D at 60, h at 60"),
+        "{}",
+        text.out
+    );
     let text = run(&[
         "verify",
         &robot("planar3r"),
@@ -153,7 +167,15 @@ fn verify_refuses_wrong_states() {
     let zero = r#""q": [0, 0], "qd": [0, 0], "qdd": [0, 0]"#;
     let wrong = with(&format!(r#"{{"states": [{{{zero}, "c": [1, 2]}}]}}"#));
     assert_eq!(wrong.code, 1, "{}", wrong.err);
-    assert!(wrong.out.contains("FAILED"));
+    assert!(wrong.out.contains("DISAGREES"));
+    for part in [
+        "c at state 1, joint 1 (shoulder): the file has 1e0, the robot gives",
+        "1 of 1 states disagree",
+        "= help: ",
+    ] {
+        assert!(wrong.err.contains(part), "{part}: {}", wrong.err);
+    }
+    assert!(!wrong.err.contains("rounding costs"), "{}", wrong.err);
     for (text, why) in [
         ("", "EOF"),
         ("{\n\"states\": [}", ":2:12"),
@@ -166,12 +188,60 @@ fn verify_refuses_wrong_states() {
         ),
         (r#"{"states": [{"q": ["a", 1]}]}"#, "no number"),
         (r#"{"states": [{"q": 1}]}"#, "not a list"),
-        (r#"{"states": [7]}"#, "`q` is missing"),
+        (r#"{"states": [7]}"#, "a state is an object"),
+        (
+            r#"{"states": [{"q": [0, 0], "torque": [1, 2]}]}"#,
+            "did you mean `tau`?",
+        ),
+        (
+            r#"{"states": [{"q": [0, 0]}]}"#,
+            "nothing is compared: no state has any of `tau`, `D`, `h`, `c`",
+        ),
+        (
+            r#"{"states": [{"q": [0, 0], "D": [1, 0, 0, 1]}]}"#,
+            "nothing is compared: the states have `D`, which no function",
+        ),
     ] {
         let ran = with(text);
         assert_eq!(ran.code, 2, "{text}");
         assert!(ran.err.contains(why), "{text}: {}", ran.err);
     }
+    let text = format!(r#"{{"states": [{{{zero}, "c": [14.715, 4.905]}}]}}"#);
+    fs::write(&file, text).unwrap();
+    let single = ["verify", &planar, "--scalar", "f32", "--states", &name];
+    let ran = run(&single);
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(ran.err.contains("--scalar f64"), "{}", ran.err);
+}
+
+/// Golden angles in degrees: the file is at fault, and the message says how.
+#[test]
+fn verify_says_what_makes_states_agree() {
+    let file = temporary("degrees").join("states.json");
+    let text = fs::read_to_string(golden("planar2r")).unwrap();
+    let mut json: Value = serde_json::from_str(&text).unwrap();
+    for state in json["states"].as_array_mut().unwrap() {
+        for key in ["q", "qd", "qdd"] {
+            let values = state[key].as_array().unwrap().iter();
+            let degrees = values.map(|x| x.as_f64().unwrap().to_degrees());
+            state[key] = degrees.collect::<Vec<f64>>().into();
+        }
+    }
+    fs::write(&file, json.to_string()).unwrap();
+    let name = file.to_str().unwrap();
+    let verify = ["verify", &robot("planar2r"), "--states", name];
+    let ran = run(&verify);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("agrees if `q`, `qd` and `qdd` of revolute joints are taken as degrees"),
+        "{}",
+        ran.err
+    );
+    let ran = run(&[&verify[..], &["--json"]].concat());
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(json["passed"], false);
+    assert_eq!(json["given"]["disagreements"][0]["quantity"], "τ");
 }
 
 #[test]

@@ -113,7 +113,9 @@ fn nothing_is_written_over_an_input_or_another_output() {
     let before = names(&folder);
     // There is none, but the next run would read it.
     refused(&gravity(&["-o", &path("arm.plan")]), over, &folder, &before);
-    let same = gravity(&["-o", &path("arm.plan"), "--save-plan"]);
+    let plan = path("arm.plan");
+    let generate = ["generate", &arm, "--outputs", "gravity"];
+    let same = run(&[&generate[..], &["-o", &plan, "--save-plan"]].concat());
     let words = "--output and --save-plan would be the same file";
     refused(&same, words, &folder, &before);
     let certificate = hold(&arm, &["--certificate", &arm]);
@@ -221,4 +223,35 @@ fn folders_are_made_at_the_end() {
     fs::create_dir_all(folder.join("full/tradeoff.csv")).unwrap();
     let before = names(&folder);
     refused(&tradeoff(&path("full")), "it is a folder", &folder, &before);
+}
+
+/// A macro that was expanded without a plan watches the robot file alone: a
+/// first plan gives that a new time, the next does not, and neither a new text.
+#[test]
+fn a_first_plan_is_noticed() {
+    let (folder, arm) = arm("first_plan");
+    let plan = folder.join("arm.plan");
+    let source = fs::read_to_string(&arm).unwrap();
+    let past = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
+    for first in [true, false] {
+        let file = fs::File::options().append(true).open(&arm).unwrap();
+        file.set_modified(past).unwrap();
+        let ran = run(&gravity_of(&arm));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        assert!(plan.is_file(), "{}", ran.err);
+        let now = fs::metadata(&arm).unwrap().modified().unwrap();
+        assert_eq!(now != past, first);
+        assert_eq!(fs::read_to_string(&arm).unwrap(), source);
+    }
+}
+
+fn gravity_of(arm: &str) -> [&str; 6] {
+    [
+        "generate",
+        arm,
+        "--outputs",
+        "gravity",
+        "--scalar=f64",
+        "--save-plan",
+    ]
 }

@@ -3,10 +3,10 @@
 
 mod support;
 
+use dalembert_codegen::certify::certificate::format::text_hash;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::certify::json::text_hash;
 use serde_json::Value;
 use support::{robot, run, temporary};
 
@@ -68,7 +68,7 @@ fn a_scene_with_a_tolerance() {
         "T of an output is a size that it attains in the box",
         "| output | T | E | left out | sin/cos | rounding |",
         "| joint | q | q̇ | q̈ |",
-        "Left out, and the operations that each would bring back:",
+        "bring back:",
     ] {
         assert!(text.contains(part), "{part}\n{text}");
     }
@@ -103,12 +103,12 @@ fn a_scene_with_a_tolerance() {
     );
     let ran = run(&[&generate[..], &["--check"]].concat());
     assert_eq!(ran.code, 0, "{}", ran.err);
-    // Bounds are taken as the plan has them, but not by the command.
+    // Bounds are taken as the plan has them, but the code is run.
     let low = plan.replacen("\nbound ", "\nbound 1e-9 0 0\n# ", 1);
     fs::write(folder.join("arm.plan"), low).unwrap();
     let ran = run(&generate);
     assert_eq!(ran.code, 1, "{}", ran.err);
-    assert!(ran.err.contains("what can be shown is"), "{}", ran.err);
+    assert!(ran.err.contains("E allows"), "{}", ran.err);
 }
 
 /// By hand: a bound made smaller, a scale made larger, a box made smaller, an
@@ -123,6 +123,12 @@ fn certificates_made_better_by_hand_are_caught() {
     let with = |key: &str, value: Value| {
         let mut lie = honest.clone();
         lie[key] = value;
+        if key != "total" {
+            // What follows from the parts must.
+            let at = |part: &str, i: usize| lie[part][i].as_f64().unwrap_or(0.0);
+            let sum = |i| at("model", i) + at("sincos", i) + at("rounding", i);
+            lie["total"] = (0..2).map(|i| sum(i) * (1.0 + 1e-15)).collect();
+        }
         let file = path(&folder, "lie.json");
         fs::write(&file, lie.to_string()).unwrap();
         run(&["certify", &file, "--robot", &arm])
@@ -150,26 +156,18 @@ fn certificates_made_better_by_hand_are_caught() {
         ("input", "0".into(), "another robot"),
         ("robot", "another".into(), "another robot"),
         // A larger claim is true, but not within the scene's tolerance.
-        (
-            "model",
-            half("model", 100.0).into(),
-            "the scene allows 9.99",
-        ),
-        // What follows from the rest, or is the same of all.
-        ("total", half("total", 0.5).into(), "`total` is"),
-        ("function", "gravity".into(), "`function` is \"gravity\""),
-        (
-            "assumptions",
-            Vec::<Value>::new().into(),
-            "`assumptions` is []",
-        ),
-        ("method", 1.into(), "`method` is"),
-        ("proved_by", "me".into(), "none of a certificate's fields"),
+        ("model", half("model", 100.0).into(), "is allowed"),
+        // Another function than the one that is proved.
+        ("function", "coriolis".into(), "not that of the function"),
     ] {
         let ran = with(key, value);
         assert_eq!(ran.code, 1, "{key}: {}", ran.err);
         assert!(ran.err.contains(why), "{key}: {}", ran.err);
     }
+    // A text without its hash is no certificate at all.
+    let ran = with("text", "".into());
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(ran.err.contains("`text_hash` is not"), "{}", ran.err);
     let mut forgotten = honest["stages"].clone();
     forgotten[0]["edits"] = Value::Array(Vec::new());
     let ran = with("stages", forgotten);
@@ -200,12 +198,24 @@ fn certificates_made_better_by_hand_are_caught() {
     }
     // Not what a certificate looks like.
     for (key, value, why) in [
-        ("model", Value::from(vec!["a"]), "no number"),
-        ("relative_to", "actuators".into(), "`actuators` is no scale"),
-        ("scale", Value::Null, "`scale` is no list"),
+        ("model", Value::from(vec!["a"]), "invalid type"),
+        (
+            "relative_to",
+            "actuators".into(),
+            "`actuators` is not known",
+        ),
+        ("scale", Value::Null, "invalid type: null"),
+        // What follows from the rest, or is the same of all.
+        ("total", half("total", 0.5).into(), "`total` is not what"),
+        (
+            "assumptions",
+            Vec::<Value>::new().into(),
+            "`assumptions` is not",
+        ),
+        ("method", "trust me".into(), "`method` is not"),
+        ("proved_by", "me".into(), "unknown field `proved_by`"),
         ("scene", "pck".into(), "did you mean `pick`?"),
         ("certificate", 7.into(), "version"),
-        ("text", "".into(), "text_hash"),
     ] {
         let ran = with(key, value);
         assert_eq!(ran.code, 2, "{key}: {}", ran.err);
@@ -214,7 +224,11 @@ fn certificates_made_better_by_hand_are_caught() {
     for (text, why) in [
         ("", "EOF"),
         ("[]", "no certificate"),
-        ("{}", "`certificate` is missing"),
+        ("{}", "missing field `certificate`"),
+        (
+            "{\"certificate\": 2, \"certificate\": 2}",
+            "duplicate field",
+        ),
     ] {
         let file = path(&folder, "none.json");
         fs::write(&file, text).unwrap();
@@ -401,8 +415,18 @@ fn a_tradeoff_with_table_chart_and_certificates() {
         assert!(svg.contains(part), "{part}");
     }
     let certificate = path(&folder, "out/certificates/2e-1-f64.json");
-    let ran = run(&["certify", &certificate, "--robot", &arm]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let certify = ["certify", &certificate, "--robot", &arm];
+    let again = run(&[&certify[..], &["--tolerance", "2e-1"]].concat());
+    assert_eq!(again.code, 0, "{}", again.err);
+    let again = run(&[&certify[..], &["--tolerance", "1e-6"]].concat());
+    assert_eq!(again.code, 1, "{}", again.err);
+    assert!(again.err.contains("is allowed"), "{}", again.err);
+
+    // A line a rung where there is no terminal; nothing of the work is left.
+    for line in ["tolerance 2e-1: ", "tolerance 1e-9: ", "tolerance 0e0: "] {
+        assert!(ran.err.contains(line), "{line}: {}", ran.err);
+    }
+    assert!(!folder.join("out/rungs").exists());
 
     // The same bytes on every run.
     assert_eq!(run(&arguments).code, 0);
@@ -414,6 +438,73 @@ fn a_tradeoff_with_table_chart_and_certificates() {
         fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap(),
         svg
     );
+}
+
+/// A run that ends after two rungs leaves them, the next one goes on from there
+/// to the same bytes; what is damaged or of another run is refused.
+#[test]
+fn a_tradeoff_goes_on_where_it_was() {
+    let (folder, arm) = arm("resumed");
+    let output = path(&folder, "out");
+    let rung = |tolerance: &str| folder.join(format!("out/rungs/{tolerance}.json"));
+    let with = |more: &[&str]| {
+        let arguments = ["tradeoff", &arm, "--scene", "pick", "-o", &output];
+        let arguments = [&arguments[..], &["--tolerances", "0.1,0.2"], more].concat();
+        run(&arguments)
+    };
+    let whole = with(&["--samples", "100"]);
+    assert_eq!(whole.code, 0, "{}", whole.err);
+    let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
+    fs::remove_dir_all(&output).unwrap();
+
+    // A folder in the place of the last rung ends the run there.
+    fs::create_dir_all(rung("0e0").with_extension("unfinished")).unwrap();
+    let ended = with(&["--samples", "100"]);
+    assert_eq!(ended.code, 2, "{}", ended.err);
+    assert!(
+        ended.err.contains("0e0.json` cannot be written"),
+        "{}",
+        ended.err
+    );
+    fs::remove_dir(rung("0e0").with_extension("unfinished")).unwrap();
+    let kept = fs::read_to_string(rung("2e-1")).unwrap();
+    assert!(rung("1e-1").exists() && !rung("0e0").exists());
+
+    let refused = |words: &str, more: &[&str]| {
+        let ran = with(more);
+        assert_eq!(ran.code, 2, "{words}: {}", ran.err);
+        assert!(ran.err.contains(words), "{words}: {}", ran.err);
+        assert!(
+            ran.err.contains("2e-1.json") && ran.err.contains("delete it"),
+            "{}",
+            ran.err
+        );
+    };
+    let other = "is of another robot, scene, plan, version or options";
+    refused(other, &["--samples", "99"]);
+    fs::write(rung("2e-1"), &kept[..kept.len() / 2]).unwrap();
+    refused("is damaged", &["--samples", "100"]);
+    fs::write(
+        rung("2e-1"),
+        kept.replacen("\"fruitful\":true", "\"fruitful\":false", 1),
+    )
+    .unwrap();
+    refused("its hash is not that", &["--samples", "100"]);
+    fs::write(rung("2e-1"), &kept).unwrap();
+
+    let resumed = with(&["--samples", "100"]);
+    assert_eq!(resumed.code, 0, "{}", resumed.err);
+    for line in [
+        "tolerance 2e-1, kept by an earlier run: ",
+        "tolerance 1e-1, kept by an earlier run: ",
+        "tolerance 0e0: ",
+    ] {
+        assert!(resumed.err.contains(line), "{line}: {}", resumed.err);
+    }
+    assert_eq!(resumed.out, whole.out);
+    let again = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
+    assert_eq!(again, csv);
+    assert!(!folder.join("out/rungs").exists());
 }
 
 /// Where nothing is run nothing was observed, not even zero.

@@ -1,45 +1,100 @@
-//! From a robot to verified flat Rust: stages in the order of the pipeline.
+//! From a robot to verified flat Rust: what the macro `dynamics!`, the build
+//! scripts' `dalembert-build` and the command have in common.
 //!
-//! - [`generate`]: the one function that macro, build script and command call
-//! - [`function`]: the functions that can be generated
-//! - [`scene`]: the robot in its setting: locked joints, results asked for
-//! - [`trace`]: the equations as a graph
-//! - [`portfolio`]: the formulations to start from, tuned to the robot
-//! - [`graph`]: the graph with exact constants and fingerprints
-//! - [`simplify`]: fewer operations, same function
-//! - [`plan`]: programs kept from a long search
-//! - [`schedule`]: straight-line code
-//! - [`sincos`]: sine and cosine by polynomials with proved errors
-//! - [`emit`]: flat Rust
-//! - [`verify`]: proofs and checks
-//! - [`certify`]: bounds of what was left out and of what rounding costs
-//! - [`couplings`]: which coefficients vanish or repeat, and why
-//! - [`explain`]: what each step brought, and why
-//! - [`watch`]: watching a long search, and ending it early
+//! [`generate()`] does a [`Request`] for a robot. The items listed below are for
+//! users of the generator as a library; the modules are the workspace's own, and
+//! change as it needs. They follow here in the order of the stages: each may use
+//! those above it, never those below (`tests/layering.rs` sees to it).
 //!
-//! And the ways in, which all end in [`generate`]:
-//! - [`clauses`]: words, robot files, and `dynamics!` as tokens
-//! - [`builder`]: for build scripts
-//! - `stress`: stability at the extremes (feature `stress`)
+//! - `random`: seeded random numbers, the same on every machine
+//! - `states`: joint states inside a robot's limits
+//! - `function`: the functions that can be generated
+//! - `program`: straight-line code, its inputs, scalars, counts and text
+//! - `graph`: the formulas as a graph with exact constants and fingerprints
+//! - `bound`: rigorous bounds
+//! - `watch`: watching a long search, and ending it early
+//! - `simplify`: fewer operations, same function
+//! - `scene`: the robot in its setting: locked joints, results asked for
+//! - `trace`: the equations as a graph
+//! - `portfolio`: the formulations to start from, tuned to the robot
+//! - `schedule`: from a graph to straight-line code
+//! - `approximate`: programs with less work in them, and how far they are off
+//! - `sincos`: sine and cosine by polynomials with proved errors
+//! - `backend`: flat Rust, printed and read back
+//! - `verify`: proofs and checks
+//! - `plan`: programs kept from a long search
+//! - `certify`: bounds of what was left out and of what rounding costs
+//! - `emit`: the module of a robot: header, documentation, functions
+//! - `generate`: the one function that macro, build script and command call
+//!
+//! And the ways in, which all end in `generate`:
+//! - `clauses`: words, robot files, and `dynamics!` as tokens
 #![forbid(unsafe_code)]
 
-pub mod builder;
+#[doc(hidden)]
+pub mod approximate;
+#[doc(hidden)]
+pub mod backend;
+#[doc(hidden)]
+pub mod bound;
+#[doc(hidden)]
 pub mod certify;
+#[doc(hidden)]
 pub mod clauses;
-pub mod couplings;
+#[doc(hidden)]
 pub mod emit;
-pub mod explain;
+#[doc(hidden)]
 pub mod function;
+#[doc(hidden)]
 pub mod generate;
+#[doc(hidden)]
 pub mod graph;
+#[doc(hidden)]
 pub mod plan;
+#[doc(hidden)]
 pub mod portfolio;
+#[doc(hidden)]
+pub mod program;
+#[doc(hidden)]
+pub mod random;
+#[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
 pub mod schedule;
+#[doc(hidden)]
 pub mod simplify;
+#[doc(hidden)]
 pub mod sincos;
-#[cfg(feature = "stress")]
-pub mod stress;
+#[doc(hidden)]
+pub mod states;
+#[doc(hidden)]
 pub mod trace;
+#[doc(hidden)]
 pub mod verify;
+#[doc(hidden)]
 pub mod watch;
+
+#[doc(inline)]
+pub use backend::MathPath;
+#[doc(inline)]
+pub use clauses::{RobotFile, RobotFileError, expand};
+#[doc(inline)]
+pub use emit::{GeneratedFunction, Layout};
+#[doc(inline)]
+pub use function::Function;
+#[doc(inline)]
+pub use generate::in_scene::UnknownScene;
+#[doc(inline)]
+pub use generate::{GenerateError, Generated, Prefer, Request, generate};
+#[doc(inline)]
+pub use plan::{Plan, PlanError};
+#[doc(inline)]
+pub use portfolio::Start;
+#[doc(inline)]
+pub use program::{Counts, Program, ScalarType};
+#[doc(inline)]
+pub use simplify::Effort;
+#[doc(inline)]
+pub use sincos::SinCos;
+#[doc(inline)]
+pub use watch::Watch;

@@ -10,7 +10,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::function::Function;
-use crate::graph::Counts;
+use crate::program::Counts;
 
 /// A part of the search for a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

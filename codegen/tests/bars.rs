@@ -3,7 +3,7 @@
 mod support;
 
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Start;
+use dalembert_codegen::portfolio::Start;
 use dalembert_model::equations::Formulation;
 
 fn operations(name: &str, function: Function, start: Start) -> usize {
@@ -40,7 +40,7 @@ fn lagrange_euler_alone() {
 #[test]
 fn auto_is_never_dearer_than_one_formulation() {
     for name in ["planar2r", "stanford"] {
-        for function in Function::ALL {
+        for function in Function::by_default() {
             let auto = operations(name, function, Start::Auto);
             for formulation in [
                 Formulation::LagrangeEuler,
@@ -55,5 +55,22 @@ fn auto_is_never_dearer_than_one_formulation() {
                 assert!(auto <= folded, "{name} {function} {formulation:?}");
             }
         }
+    }
+}
+
+/// Arms of other kinds than the checked-in ones.
+#[test]
+fn other_kinds_of_arms() {
+    for (name, most) in [
+        ("scara", 71),
+        ("gantry", 257),
+        ("rprpr", 315),
+        ("general6r", 687),
+        ("gen3", 538),
+    ] {
+        let robot = support::read_robot(&support::arm_file(name));
+        let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
+        let found = generated.functions[0].counts.operations();
+        assert!(found <= most, "{name}: {found}");
     }
 }

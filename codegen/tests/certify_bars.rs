@@ -10,9 +10,9 @@ use dalembert_codegen::certify::definite::least_eigenvalue;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::prune::{Settings, prune};
 use dalembert_codegen::certify::scale;
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Start;
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::ScalarType;
 
 fn bar(tolerance: f64, operations: usize) {
     let robot = support::robot("puma560");

@@ -2,19 +2,19 @@
 
 mod support;
 
+use dalembert_codegen::approximate::edits::{Edit, Place, Stage, difference};
+use dalembert_codegen::approximate::text::{read_edit, write_edit};
 use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::bound::{Budget, magnitudes};
-use dalembert_codegen::certify::certificate::{Certificate, Refuted, same};
-use dalembert_codegen::certify::edits::{Edit, Place, Stage, difference};
+use dalembert_codegen::certify::certificate::{Certificate, Refuted, format};
 use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::json::{read_edit, read_program, write_edit};
 use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
 use dalembert_codegen::certify::ranges::{Finding, ranges};
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Start;
 use dalembert_codegen::graph::Folding;
-use dalembert_codegen::schedule::Program;
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::{Program, ScalarType};
+use dalembert_codegen::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
 
 fn robot() -> Robot {
@@ -144,7 +144,7 @@ fn every_other_lie_is_caught() {
 
     let mut text = honest.clone();
     text.text = text.text.replacen(" + ", " - ", 1);
-    assert!(matches!(text.check(&case.robot), Err(Refuted::Text(_))));
+    assert!(matches!(text.check(&case.robot), Err(Refuted::Text { .. })));
 
     let mut exact = honest.clone();
     let output = &mut exact.stages[0].program.outputs[0];
@@ -155,7 +155,7 @@ fn every_other_lie_is_caught() {
     let last = edit.stages[0].program.steps.len() - 1;
     let (place, value) = (
         Place::Step(0),
-        dalembert_codegen::schedule::Operand::Step(last),
+        dalembert_codegen::program::Operand::Step(last),
     );
     edit.stages[0].edits = vec![Edit {
         place,
@@ -237,7 +237,7 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     // The whole circle, and a part of it.
     let mut part = case.limits.clone();
     for q in &mut part.position {
-        *q = dalembert_codegen::certify::interval::Interval::new(-0.5, 0.25).unwrap();
+        *q = dalembert_codegen::bound::interval::Interval::new(-0.5, 0.25).unwrap();
     }
     let whole = bound(1 << 16, false, &case.limits);
     for linear in [false, true] {
@@ -282,7 +282,7 @@ fn what_a_scalar_cannot_hold_is_found() {
     let none = ranges(&program, ScalarType::F32, &limits, 8).findings;
     assert_eq!(none, []);
     for rate in &mut limits.velocity {
-        *rate = dalembert_codegen::certify::interval::Interval::symmetric(1e25);
+        *rate = dalembert_codegen::bound::interval::Interval::symmetric(1e25);
     }
     let overflow = ranges(&program, ScalarType::F32, &limits, 8).findings;
     assert!(matches!(overflow[0], Finding::Overflow { .. }) && overflow[0].is_error());
@@ -294,20 +294,13 @@ fn edits_and_programs_read_back() {
     let case = case(0.1);
     for stage in &case.pruned.stages {
         for edit in &stage.edits {
-            let text = write_edit(edit);
-            assert_eq!(
-                read_edit(&text, &stage.program).as_ref(),
-                Ok(edit),
-                "{text}"
-            );
+            let line = write_edit(edit);
+            let read = read_edit(&line, &stage.program);
+            assert_eq!(read.as_ref(), Ok(edit), "{line}");
         }
-        assert!(same(&stage.program, &stage.program));
+        assert_eq!(prove_same(&stage.program, &stage.program), Ok(()));
     }
-    let json: serde_json::Value =
-        serde_json::from_str(&case.certificate(ScalarType::F64).to_json()).unwrap();
-    let program = read_program(json["emitted"].as_str().unwrap()).unwrap();
-    assert_eq!(program, case.pruned.program);
-    let model: Vec<f64> = serde_json::from_value(json["model"].clone()).unwrap();
-    let bounds = case.certificate(ScalarType::F64).bounds;
-    assert!(model.iter().zip(&bounds).all(|(a, b)| *a == b.model));
+    let certificate = case.certificate(ScalarType::F64);
+    let read = format::read(&certificate.to_json()).unwrap();
+    assert_eq!(read, [certificate]);
 }

@@ -3,17 +3,16 @@
 
 mod support;
 
+use dalembert_codegen::approximate::edits::Stage;
 use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::choose::Frame;
-use dalembert_codegen::certify::edits::Stage;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Start;
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::{Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::schedule::Program;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::Scale;

@@ -3,22 +3,19 @@
 
 mod support;
 
+use dalembert_codegen::backend::{MathPath, function};
+use dalembert_codegen::bound::interval::Interval;
 use dalembert_codegen::certify::attack::attack;
-use dalembert_codegen::certify::certificate::subject::Fineness;
-use dalembert_codegen::certify::certificate::{Certificate, Refuted};
+use dalembert_codegen::certify::certificate::{Certificate, Refuted, format};
 use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::interval::Interval;
-use dalembert_codegen::certify::json::read_sines;
 use dalembert_codegen::certify::scale;
-use dalembert_codegen::certify::sensitivity::Sensitivity;
+use dalembert_codegen::certify::sensitivity::{Fineness, Sensitivity};
 use dalembert_codegen::certify::sines::within;
-use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::emit::{MathPath, function};
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Start;
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::kernel::Term;
+use dalembert_codegen::program::{AngleSum, Literal, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::schedule::Program;
-use dalembert_codegen::sincos::kernel::Term;
 use dalembert_codegen::sincos::{Sines, counts};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
@@ -127,7 +124,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
     let honest = case.certificate(ScalarType::F64, &sines);
     let literals = |sines: &Sines| {
         let steps = sines[0].kernel.steps.iter().enumerate();
-        let is = |term: &Term| matches!(term, Term::Literal(_));
+        let is = |term: &Term| matches!(term, Term::Constant(_));
         let found = steps.filter(|(_, step)| is(&step.left) || is(&step.right));
         found.map(|(index, _)| index).collect::<Vec<usize>>()
     };
@@ -135,7 +132,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
         let mut changed = sines.clone();
         let step = &mut changed[0].kernel.steps[index];
         for term in [&mut step.left, &mut step.right] {
-            if let Term::Literal(value) = term {
+            if let Term::Constant(Literal(value)) = term {
                 *value *= 1.0 + 1e-2;
             }
         }
@@ -156,7 +153,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
         // In the text alone it is not the certificate's polynomial.
         let mut text = honest.clone();
         text.text = lie.text;
-        assert!(matches!(text.check(&case.robot), Err(Refuted::Text(_))));
+        assert!(matches!(text.check(&case.robot), Err(Refuted::Text { .. })));
     }
 }
 
@@ -190,21 +187,27 @@ fn a_claim_made_too_small_is_caught() {
     // Polynomials that nothing is claimed of, and claims without polynomials.
     let mut silent = honest.clone();
     silent.sines.clear();
-    assert!(matches!(refuted(&silent), Refuted::Text(_)));
-    let claims = |certificate: &Certificate, name: &str| {
-        let sine = &certificate.sines[0];
-        vec![(name.to_owned(), sine.form.clone(), sine.range, sine.errors)]
-    };
-    let read = |text: &str, name: &str| {
-        read_sines(
-            text,
-            honest.emitted.function,
-            honest.scalar,
-            claims(&honest, name),
-        )
-    };
-    let name = honest.sines[0].angle.to_string();
-    assert_eq!(read(&honest.text, &name).unwrap(), honest.sines[..1]);
-    assert!(read(&honest.text, "9").unwrap_err().contains("polynomials"));
-    assert!(read(&honest.text, "x").unwrap_err().contains("no angle"));
+    assert!(matches!(refuted(&silent), Refuted::Text { .. }));
+    let mut other = honest.clone();
+    other.sines[0].angle = AngleSum::joint(60);
+    assert!(matches!(
+        refuted(&other),
+        Refuted::Text { .. } | Refuted::Polynomials { .. }
+    ));
+
+    // Read back, all but the words for people.
+    let mut wordless = honest.clone();
+    for sine in &mut wordless.sines {
+        sine.form.clear();
+    }
+    assert_eq!(format::read(&honest.to_json()).unwrap(), [wordless]);
+    for (was, is, why) in [
+        ("\"angle\": \"1\"", "\"angle\": \"x\"", "no angle"),
+        ("\"q * q\"", "\"q * x1\"", "x1"),
+        ("\"q * q\"", "\"q * NaN\"", "x1"),
+    ] {
+        let lie = honest.to_json().replacen(was, is, 1);
+        let error = format::read(&lie).unwrap_err().to_string();
+        assert!(error.contains(why), "{was}: {error}");
+    }
 }

@@ -3,12 +3,12 @@
 
 mod support;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::program::Operand;
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::states::{SEED, STATES, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::verify::states::{SEED, STATES, seeded};
-use dalembert_codegen::verify::text::TextOperand;
 
 const ROBOTS: [&str; 6] = [
     "panda", "planar2r", "planar3r", "puma560", "stanford", "ur10",
@@ -48,17 +48,17 @@ fn a_wrong_literal_is_far_outside() {
     for emitted in generated.emitted {
         for index in 0..emitted.text.steps.len() {
             let mut wrong = emitted.clone();
-            let TextOperand::Literal(value) = &mut wrong.text.steps[index].right else {
+            let Operand::Constant(value) = &mut wrong.text.steps[index].right else {
                 continue;
             };
-            *value *= 1.5;
+            value.0 *= 1.5;
             let measures = wrong.against_runtime(&runtime, &states);
             assert!(measures[0].in_units() > 100.0 * BOUND);
             // NaN must not pass for a small error.
-            let TextOperand::Literal(value) = &mut wrong.text.steps[index].right else {
+            let Operand::Constant(value) = &mut wrong.text.steps[index].right else {
                 continue;
             };
-            *value = f64::NAN;
+            value.0 = f64::NAN;
             let measures = wrong.against_runtime(&runtime, &states);
             assert_eq!(measures[0].error, f64::INFINITY);
         }
@@ -71,7 +71,7 @@ fn states_keep_to_the_limits() {
     let states = seeded(&robot, STATES, SEED);
     assert_eq!(states, seeded(&robot, STATES, SEED));
     assert_ne!(states, seeded(&robot, STATES, SEED + 1));
-    let largest = |pick: fn(&dalembert_codegen::verify::states::JointState) -> &Vec<f64>| {
+    let largest = |pick: fn(&dalembert_codegen::states::JointState) -> &Vec<f64>| {
         let values = states.iter().flat_map(pick);
         values.fold(0.0f64, |most, x| most.max(x.abs()))
     };

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use dalembert_codegen::clauses::expand;
-use dalembert_codegen::simplify::random::Random;
+use dalembert_codegen::random::Random;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 /// A dose for every day; `FUZZ_TIMES` multiplies it.

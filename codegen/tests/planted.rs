@@ -3,11 +3,10 @@
 
 mod support;
 
-use dalembert_codegen::emit::{MathPath, ScalarType, function};
+use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::function::Function;
-use dalembert_codegen::schedule::{Operand, Operation, Program};
+use dalembert_codegen::program::{Lowered, Operand, Operation, Program, ScalarType};
 use dalembert_codegen::verify::exact::{Disproof, prove};
-use dalembert_codegen::verify::text::TextProgram;
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -120,8 +119,8 @@ fn a_missing_output() {
 
 /// The text of a program, and whether it passes for the program.
 fn passes(program: &Program, scalar: ScalarType, text: &str) -> bool {
-    TextProgram::parse(text, program.function, scalar)
-        .is_ok_and(|read| read.matches(program, scalar).is_ok())
+    Lowered::parse(text, program.function, scalar)
+        .is_ok_and(|read| read.matches(program, &[]).is_ok())
 }
 
 #[test]

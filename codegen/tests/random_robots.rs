@@ -6,14 +6,15 @@
 
 mod support;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, Start, generate};
+use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::graph::Points;
-use dalembert_codegen::trace::{Motion, evaluate};
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::program::run::State;
+use dalembert_codegen::scene;
+use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::verify::interpret::State;
-use dalembert_codegen::verify::states::{SEED, seeded};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::scene::Scene;
 use support::draw::{Draw, robots};
@@ -81,14 +82,14 @@ fn every_start_leads_to_the_same_function() {
 /// The formulas themselves, in the prime field: equal numbers, not close ones.
 #[test]
 fn formulations_agree() {
-    let points = Points::independent(7);
+    let points = Points::SEARCH;
     for (seed, robot, _) in robots(40, 0xf1e1d) {
         let constant = &mut |constant: &_| points.constant(constant).unwrap().0[0];
         let arm = Arm::from_robot(&robot, constant);
-        let motion = Motion::of(&robot, |input| points.input(input).0[0]);
+        let motion = scene::motion(&robot, |input| points.input(input).0[0]);
         let few = if robot.joints.len() > 5 { 5 } else { 6 };
         for function in &Function::ALL[..few] {
-            let of = |formulation| evaluate(*function, formulation, &arm, &motion);
+            let of = |formulation| function.evaluate(formulation, &arm, &motion);
             let [first, rest @ ..] = Formulation::ALL;
             let expected = of(first);
             for formulation in rest {

@@ -4,10 +4,11 @@ mod support;
 
 use std::path::Path;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GeneratedFunction, Request, Start, generate};
+use dalembert_codegen::generate::{GeneratedFunction, Request, generate};
 use dalembert_codegen::plan;
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::ScalarType;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
 use dalembert_model::scene::{MotionBox, Scene};

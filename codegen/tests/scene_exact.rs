@@ -2,17 +2,16 @@
 
 mod support;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::graph::Input;
 use dalembert_codegen::plan::{self, Entry, Plan, SceneKey};
+use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::schedule::{Operand, Program};
+use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::exact::{Disproof, prove_in};
 use dalembert_codegen::verify::floating::Runtime;
-use dalembert_codegen::verify::states::seeded;
 use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::outputs::Axis;
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Payload, Scene};
 
@@ -82,24 +81,19 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
             let mut start = 0;
             let mut expected = Vec::new();
             for quantity in emitted.function.quantities() {
-                let entry = |index: Vec<usize>| {
-                    full[start + index.iter().fold(0, |sum, digit| sum * n + digit)]
-                };
-                match quantity.rank() {
-                    1 => expected.extend(rows.iter().map(|&i| entry(vec![i]))),
-                    2 => {
-                        for &i in &rows {
-                            expected.extend(rows.iter().map(|&k| entry(vec![i, k])));
-                        }
-                    }
-                    _ => {
-                        for &i in &rows {
-                            for &k in &rows {
-                                expected.extend(rows.iter().map(|&m| entry(vec![i, k, m])));
-                            }
-                        }
-                    }
+                let mut wanted = vec![0];
+                for axis in quantity.shape().0 {
+                    let (length, places) = match *axis {
+                        Axis::Joints => (n, rows.clone()),
+                        Axis::Fixed(length) => (length, (0..length).collect()),
+                    };
+                    let along = |from: &usize| {
+                        let from = from * length;
+                        places.iter().map(|place| from + place).collect::<Vec<_>>()
+                    };
+                    wanted = wanted.iter().flat_map(along).collect();
                 }
+                expected.extend(wanted.into_iter().map(|index| full[start + index]));
                 start += quantity.len(n);
             }
             assert_eq!(found.len(), expected.len());
@@ -219,7 +213,7 @@ fn every_function_over_chosen_joints() {
         },
     ] {
         let scene = named(scene);
-        let generated = run(&robot, &scene, &Function::ALL);
+        let generated = run(&robot, &scene, &Function::by_default());
         check_floats(&robot, &scene, &generated);
     }
 }

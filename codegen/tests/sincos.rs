@@ -3,15 +3,14 @@
 
 mod support;
 
-use dalembert_codegen::certify::certificate::Split;
-use dalembert_codegen::emit::ScalarType;
+use dalembert_codegen::bound::Split;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::program::{Lowered, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::verify::states::seeded;
-use dalembert_codegen::verify::text::TextProgram;
 use dalembert_model::robot::Robot;
 
 const FUNCTION: Function = Function::InverseDynamics;
@@ -72,8 +71,8 @@ fn a_text_with_other_sines_is_not_the_function() {
     let generated = with(&robot, 1e-5).unwrap();
     let (function, scalar) = (&generated.functions[0], ScalarType::F64);
     let matches = |text: &str| {
-        let read = TextProgram::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
-        read.matches_with(&function.program, scalar, function.sines(scalar))
+        let read = Lowered::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
+        read.matches(&function.program, function.sines(scalar))
     };
     assert_eq!(matches(&generated.text), Ok(()));
     let block = generated.text.find("let (s1, c1) = {").unwrap();
@@ -95,9 +94,9 @@ fn a_text_with_other_sines_is_not_the_function() {
     let text = generated.text[..block].to_owned() + called + &generated.text[end..];
     assert!(matches(&text).is_err());
     // Nor is it one of libm's sines.
-    let read = TextProgram::parse(&generated.text, FUNCTION, scalar).unwrap();
-    assert!(read.matches(&function.program, scalar).is_err());
-    assert!(read.with_libm().matches(&function.program, scalar).is_ok());
+    let read = Lowered::parse(&generated.text, FUNCTION, scalar).unwrap();
+    assert!(read.matches(&function.program, &[]).is_err());
+    assert!(read.with_libm().matches(&function.program, &[]).is_ok());
 }
 
 /// A joint without limits of position may have turned often.
@@ -168,7 +167,7 @@ fn a_tolerance_says_how_exact_sines_are() {
     let source = std::fs::read_to_string(folder.join("planar2r.toml")).unwrap() + SCENE;
     let reading = dalembert_model::read::parse(&source, &Default::default()).unwrap();
     let scene = &reading.scenes[0];
-    let request = Request::default().in_scene(scene, false, false);
+    let request = Request::default().in_scene(scene);
     let generated = generate(&reading.robot, &request).unwrap();
     let function = &generated.functions[0];
     let setting = Setting::of(&reading.robot, Some(scene)).unwrap();

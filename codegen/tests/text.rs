@@ -3,10 +3,9 @@
 
 mod support;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::verify::text::TextProgram;
+use dalembert_codegen::program::{Lowered, ScalarType};
 
 const TEXT: &str = "\
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
@@ -20,8 +19,8 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 }
 ";
 
-fn read(text: &str) -> Result<TextProgram, (usize, String)> {
-    TextProgram::parse(text, Function::Gravity, ScalarType::F64)
+fn read(text: &str) -> Result<Lowered, (usize, String)> {
+    Lowered::parse(text, Function::Gravity, ScalarType::F64)
         .map_err(|error| (error.line, error.message))
 }
 
@@ -32,7 +31,7 @@ fn what_was_emitted_reads() {
     // The angle sum is an addition.
     assert_eq!((counts.mul, counts.add, counts.sincos), (2, 2, 2));
     assert_eq!(program.outputs.len(), 2);
-    assert!(program.outputs[1].0);
+    assert!(program.outputs[1].negative);
 }
 
 #[test]
@@ -110,7 +109,7 @@ fn what_was_not_is_refused() {
 fn the_struct_at_the_end_is_read_with_its_names() {
     let read = |result: &str| {
         let text = format!("pub fn manipulator_equation() -> M {{\n{result}\n}}\n");
-        TextProgram::parse(&text, Function::ManipulatorEquation, ScalarType::F64)
+        Lowered::parse(&text, Function::ManipulatorEquation, ScalarType::F64)
     };
     let good =
         "ManipulatorEquation {\nd: [[1.0, -q[0]], [3.0, 4.0]],\nh: [5.0, 6.0],\nc: [7.0, 8.0],\n}";

@@ -5,10 +5,10 @@ mod support;
 use std::sync::Arc;
 use std::sync::Mutex;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::early::price;
 use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
 
@@ -105,7 +105,7 @@ fn a_tolerance_is_watched() {
             watch: Watch::by(clerk.clone()),
             ..Request::default()
         };
-        let request = request.in_scene(&reading.scenes[0], false, false);
+        let request = request.in_scene(&reading.scenes[0]);
         let generated = generate(&reading.robot, &request).unwrap();
         let seen = clerk.seen.lock().unwrap().clone();
         (generated, seen)
@@ -146,7 +146,7 @@ fn an_early_end_is_no_worse_than_the_quick_search() {
             watch,
             ..Request::default()
         };
-        let request = request.in_scene(&reading.scenes[0], false, false);
+        let request = request.in_scene(&reading.scenes[0]);
         generate(&reading.robot, &request).unwrap()
     };
     let quick = run(Effort::Quick, None);

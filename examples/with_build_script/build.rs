@@ -1,14 +1,12 @@
 //! Writes the arm's dynamics before the crate is compiled.
 
-use dalembert_codegen::builder::{BuildError, Generator};
-use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::function::Function;
+use dalembert_build::{BuildError, Generator, Output, Scalar};
 
 fn main() -> Result<(), BuildError> {
     Generator::new()
         .robot("../../generated/robots/planar2r.toml")
-        .outputs([Function::InverseDynamics, Function::ManipulatorEquation])
-        .scalars([ScalarType::F64])
+        .outputs([Output::InverseDynamics, Output::ManipulatorEquation])
+        .scalars([Scalar::F64])
         .module("arm")
         .write_to_out_dir("arm.rs")
 }

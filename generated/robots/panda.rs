@@ -25,9 +25,12 @@
 /// | `dynamic_coefficients` | 652 | 510 | 6 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod panda {
 /// The number of joints.
 pub const N: usize = 7;
@@ -35,7 +38,7 @@ pub const N: usize = 7;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 261 mul, 257 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 40, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 40, 259 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 7], qd: &[f64; 7], qdd: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -568,7 +571,7 @@ pub fn inverse_dynamics(q: &[f64; 7], qd: &[f64; 7], qdd: &[f64; 7]) -> [f64; 7]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 46 mul, 30 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 12, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 12, 137 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -659,7 +662,7 @@ pub fn gravity(q: &[f64; 7]) -> [f64; 7] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 144 mul, 157 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 28, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 221 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f64; 7]) -> [[f64; 7]; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -983,7 +986,7 @@ pub fn inertia(q: &[f64; 7]) -> [[f64; 7]; 7] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 251 mul, 237 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 42, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 42, 426 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn coriolis(q: &[f64; 7], qd: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1497,7 +1500,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 401 mul, 365 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 32, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 32, 282 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 7], qd: &[f64; 7]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -2301,7 +2304,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 652 mul, 510 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 28, chance of a miss below 1e-45).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 482 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 7]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -3586,9 +3589,12 @@ pub fn dynamic_coefficients(q: &[f64; 7]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 652 | 510 | 6 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod panda_f32 {
 /// The number of joints.
 pub const N: usize = 7;
@@ -3596,7 +3602,7 @@ pub const N: usize = 7;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 261 mul, 257 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 40, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 40, 259 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 7], qd: &[f32; 7], qdd: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4129,7 +4135,7 @@ pub fn inverse_dynamics(q: &[f32; 7], qd: &[f32; 7], qdd: &[f32; 7]) -> [f32; 7]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 46 mul, 30 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 12, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 12, 137 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4220,7 +4226,7 @@ pub fn gravity(q: &[f32; 7]) -> [f32; 7] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 144 mul, 157 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 28, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 221 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f32; 7]) -> [[f32; 7]; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4544,7 +4550,7 @@ pub fn inertia(q: &[f32; 7]) -> [[f32; 7]; 7] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 251 mul, 237 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 42, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 42, 426 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn coriolis(q: &[f32; 7], qd: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -5058,7 +5064,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 401 mul, 365 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 32, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 32, 282 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 7], qd: &[f32; 7]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -5862,7 +5868,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 652 mul, 510 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 28, chance of a miss below 1e-45).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 482 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 7]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

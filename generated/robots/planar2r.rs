@@ -20,9 +20,12 @@
 /// | `dynamic_coefficients` | 6 | 4 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r {
 /// The number of joints.
 pub const N: usize = 2;
@@ -30,7 +33,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 13 mul, 10 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 128 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -64,7 +67,7 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 4, chance of a miss below 1e-50).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 4, 124 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -81,7 +84,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 1 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 8, chance of a miss below 1e-50).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 8, 126 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
     let c2 = libm::cos(q[1]);
@@ -97,7 +100,7 @@ pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 5 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 127 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn coriolis(q: &[f64; 2], qd: &[f64; 2]) -> [f64; 2] {
     let s2 = libm::sin(q[1]);
@@ -125,7 +128,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 10 mul, 6 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 127 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 2], qd: &[f64; 2]) -> ManipulatorEquation {
     let (s1, c1) = libm::sincos(q[0]);
@@ -170,7 +173,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 6 mul, 4 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 8, chance of a miss below 1e-49).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 8, 126 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 2]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincos(q[0]);
@@ -225,9 +228,12 @@ pub fn dynamic_coefficients(q: &[f64; 2]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 6 | 4 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r_f32 {
 /// The number of joints.
 pub const N: usize = 2;
@@ -235,7 +241,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 13 mul, 10 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 128 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -269,7 +275,7 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 4, chance of a miss below 1e-50).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 4, 124 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -286,7 +292,7 @@ pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 1 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 8, chance of a miss below 1e-50).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 8, 126 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
     let c2 = libm::cosf(q[1]);
@@ -302,7 +308,7 @@ pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 5 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 127 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn coriolis(q: &[f32; 2], qd: &[f32; 2]) -> [f32; 2] {
     let s2 = libm::sinf(q[1]);
@@ -330,7 +336,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 10 mul, 6 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 127 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 2], qd: &[f32; 2]) -> ManipulatorEquation {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -375,7 +381,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 6 mul, 4 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 8, chance of a miss below 1e-49).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 8, 126 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 2]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincosf(q[0]);

@@ -24,9 +24,12 @@
 /// | `dynamic_coefficients` | 131 | 101 | 4 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560 {
 /// The number of joints.
 pub const N: usize = 6;
@@ -34,7 +37,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 34, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 34, 149 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -306,7 +309,7 @@ pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 18 mul, 8 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 91 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -345,7 +348,7 @@ pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 61 mul, 57 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 24, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 24, 202 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -483,7 +486,7 @@ pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 117 mul, 95 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 36, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 36, 149 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn coriolis(q: &[f64; 6], qd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -719,7 +722,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 180 mul, 152 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 36, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 36, 194 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 6], qd: &[f64; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1086,7 +1089,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 131 mul, 101 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 26, chance of a miss below 1e-45).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 26, 479 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1413,9 +1416,12 @@ pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 131 | 101 | 4 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560_f32 {
 /// The number of joints.
 pub const N: usize = 6;
@@ -1423,7 +1429,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 34, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 34, 149 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1695,7 +1701,7 @@ pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 18 mul, 8 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 10, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 10, 91 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1734,7 +1740,7 @@ pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 61 mul, 57 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 24, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 24, 202 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1872,7 +1878,7 @@ pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 117 mul, 95 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 36, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 36, 149 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn coriolis(q: &[f32; 6], qd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2108,7 +2114,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 180 mul, 152 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 36, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 36, 194 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 6], qd: &[f32; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2475,7 +2481,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 131 mul, 101 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 26, chance of a miss below 1e-45).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 26, 479 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

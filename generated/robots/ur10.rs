@@ -24,9 +24,12 @@
 /// | `dynamic_coefficients` | 109 | 101 | 5 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod ur10 {
 /// The number of joints.
 pub const N: usize = 6;
@@ -34,7 +37,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 138 mul, 117 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 38, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 38, 284 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -303,7 +306,7 @@ pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 15 mul, 7 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 8, chance of a miss below 1e-50).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 8, 100 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -338,7 +341,7 @@ pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 58 mul, 56 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 24, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 24, 276 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -473,7 +476,7 @@ pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 115 mul, 87 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 38, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 38, 251 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn coriolis(q: &[f64; 6], qd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -700,7 +703,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 161 mul, 142 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 38, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 38, 582 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 6], qd: &[f64; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1039,7 +1042,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 109 mul, 101 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 28, chance of a miss below 1e-45).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 390 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1345,9 +1348,12 @@ pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 109 | 101 | 5 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points of a prime field, and this text, read
+/// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
-#[allow(clippy::all, clippy::pedantic, clippy::nursery)]
+/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
+/// can choose them. The chance of a miss is that of one attempt to be lucky.
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod ur10_f32 {
 /// The number of joints.
 pub const N: usize = 6;
@@ -1355,7 +1361,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 138 mul, 117 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 38, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 38, 284 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1624,7 +1630,7 @@ pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 15 mul, 7 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 8, chance of a miss below 1e-50).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 8, 100 bits, chance of a miss below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1659,7 +1665,7 @@ pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 58 mul, 56 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 24, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 24, 276 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1794,7 +1800,7 @@ pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 115 mul, 87 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 38, chance of a miss below 1e-47).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 38, 251 bits, chance of a miss below 1e-63).
 #[must_use]
 pub fn coriolis(q: &[f32; 6], qd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2021,7 +2027,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 161 mul, 142 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 38, chance of a miss below 1e-46).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 38, 582 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 6], qd: &[f32; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2360,7 +2366,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 109 mul, 101 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 3 random points modulo 2^61 - 1 (degree 28, chance of a miss below 1e-45).
+/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 390 bits, chance of a miss below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

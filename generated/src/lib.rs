@@ -17,22 +17,16 @@
 #![forbid(unsafe_code)]
 
 #[path = "../robots/panda.rs"]
-#[rustfmt::skip]
 mod panda_source;
 #[path = "../robots/planar2r.rs"]
-#[rustfmt::skip]
 mod planar2r_source;
 #[path = "../robots/planar3r.rs"]
-#[rustfmt::skip]
 mod planar3r_source;
 #[path = "../robots/puma560.rs"]
-#[rustfmt::skip]
 mod puma560_source;
 #[path = "../robots/stanford.rs"]
-#[rustfmt::skip]
 mod stanford_source;
 #[path = "../robots/ur10.rs"]
-#[rustfmt::skip]
 mod ur10_source;
 
 pub use panda_source::{panda, panda_f32};

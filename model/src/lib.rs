@@ -7,6 +7,7 @@
 //! - [`scalar`]: the arithmetic that every formula is generic over
 //! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
 //! - [`mod@reference`]: the generic runtime in f64 and f32, nalgebra at its surface
+//! - [`outputs`]: what can be asked about an arm, a file each
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -16,6 +17,7 @@ extern crate std;
 
 pub mod equations;
 pub mod number;
+pub mod outputs;
 #[cfg(feature = "std")]
 pub mod read;
 pub mod reference;

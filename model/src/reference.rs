@@ -8,8 +8,13 @@ use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::equations::dalembert::Part;
+use crate::equations::energy::contracted;
+use crate::equations::kinematics::poses;
+use crate::equations::matrix::{Columns, total};
+use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
-use crate::equations::{Arm, DhVariables, JointPosition, Rotor, from_torques};
+use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor, from_torques};
 use crate::number::{Exact, Rounded};
 use crate::robot::{JointKind, Robot};
 use crate::scalar::Scalar;
@@ -65,6 +70,17 @@ impl fmt::Display for WrongLength {
 
 impl core::error::Error for WrongLength {}
 
+/// The joint vectors that the outputs of an arm depend on.
+#[derive(Clone, Debug)]
+pub struct JointVectors<T> {
+    /// Positions.
+    pub q: DVector<T>,
+    /// Velocities.
+    pub qd: DVector<T>,
+    /// Accelerations.
+    pub qdd: DVector<T>,
+}
+
 /// The dynamics of one arm in floating point.
 ///
 /// All vectors are of length n, from the base to the hand: q in rad or m, q̇
@@ -104,7 +120,10 @@ impl core::error::Error for WrongLength {}
 /// ```
 #[derive(Clone, Debug)]
 pub struct Reference<T> {
+    /// Without the lengths that no torque depends on.
     arm: Arm<T>,
+    /// With them: where things are depends on all.
+    whole: Arm<T>,
 }
 
 impl<T: Float> Reference<T> {
@@ -112,7 +131,8 @@ impl<T: Float> Reference<T> {
     /// ([`Arm::fold_base`]).
     pub fn new(arm: Arm<T>) -> Self {
         Reference {
-            arm: arm.fold_base(),
+            arm: arm.clone().fold_base(),
+            whole: arm,
         }
     }
 
@@ -121,6 +141,7 @@ impl<T: Float> Reference<T> {
         // Folded while exact: sin α of a parallel axis is zero here, not small.
         let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
         Reference {
+            whole: exact.map(T::nearest),
             arm: exact.fold_base().map(T::nearest),
         }
     }
@@ -177,7 +198,109 @@ impl<T: Float> Reference<T> {
         Ok(h.iter().map(|h| matrix(h)).collect())
     }
 
+    /// p = D q̇.
+    pub fn momentum(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, WrongLength> {
+        let at = self.at(q)?;
+        let qd = self.values("qd", qd)?;
+        let d = from_torques::inertia(torques, &self.arm, &at);
+        let row = |row: &Vec<T>| total(row.iter().zip(qd).map(|(d, qd)| d.mul(qd)));
+        Ok(DVector::from_vec(d.iter().map(row).collect()))
+    }
+
+    /// T = ½ q̇ᵀ D q̇.
+    pub fn kinetic_energy(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<T, WrongLength> {
+        let p = self.momentum(q, qd)?;
+        Ok(total(p.iter().zip(qd.iter()).map(|(p, qd)| p.mul(qd))).half())
+    }
+
+    /// ∂T/∂q = Cᵀ q̇.
+    pub fn momentum_slope(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+    ) -> Result<DVector<T>, WrongLength> {
+        let c = self.coriolis_matrix(q, qd)?;
+        let column = |k| total((0..qd.len()).map(|i| c[(i, k)].mul(&qd[i])));
+        Ok(DVector::from_vec((0..qd.len()).map(column).collect()))
+    }
+
+    /// C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
+    pub fn coriolis_matrix(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+    ) -> Result<DMatrix<T>, WrongLength> {
+        let at = self.at(q)?;
+        let qd = self.values("qd", qd)?;
+        let h = from_torques::christoffel(torques, &self.arm, &at);
+        Ok(matrix(&contracted(&h, qd)))
+    }
+
+    /// U = −Σ_j m_j g·r_j, from the base's origin.
+    pub fn potential_energy(&self, q: &DVector<T>) -> Result<T, WrongLength> {
+        let at = self.whole_at(q)?;
+        Ok(Formulation::NewtonEulerLink.potential_energy(&self.whole, &at))
+    }
+
+    /// ⁰A_n: where the hand is.
+    pub fn hand(&self, q: &DVector<T>) -> Result<Columns<T>, WrongLength> {
+        let at = self.whole_at(q)?;
+        Ok(Formulation::NewtonEulerLink.hand(&self.whole, &at))
+    }
+
+    /// ⁰A_i: where every link is.
+    pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, WrongLength> {
+        Ok(poses(&self.whole, &self.whole_at(q)?))
+    }
+
+    /// J, 6×n: linear over angular velocity of frame n, in base axes.
+    pub fn jacobian(&self, q: &DVector<T>) -> Result<Vec<Vec<T>>, WrongLength> {
+        let at = self.whole_at(q)?;
+        Ok(Formulation::NewtonEulerLink.jacobian(&self.whole, &at))
+    }
+
+    /// J̇ q̇, linear over angular.
+    pub fn jacobian_rate(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+    ) -> Result<[[T; 3]; 2], WrongLength> {
+        let at = self.whole_at(q)?;
+        let qd = self.values("qd", qd)?;
+        Ok(Formulation::NewtonEulerLink.jacobian_rate(&self.whole, &at, qd))
+    }
+
+    /// What each link exerts on the next, gravity included, in base axes, about
+    /// the origin of the frame whose z is the joint's axis.
+    pub fn wrenches(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+        qdd: &DVector<T>,
+    ) -> Result<Vec<Wrench<T>>, WrongLength> {
+        let at = self.whole_at(q)?;
+        let [qd, qdd] = [self.values("qd", qd)?, self.values("qdd", qdd)?];
+        Ok(Formulation::NewtonEulerLink.wrenches(&self.whole, &at, qd, qdd))
+    }
+
+    /// The dynamics by which parts of the links: of their rotation alone, or
+    /// their translation alone.
+    pub fn part(&self, part: Part) -> Reference<T> {
+        Reference {
+            arm: part.of(&self.arm),
+            whole: part.of(&self.whole),
+        }
+    }
+
     fn at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
+        Ok(self.arm.at(&self.positions(q)?))
+    }
+
+    fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
+        Ok(self.whole.at(&self.positions(q)?))
+    }
+
+    fn positions(&self, q: &DVector<T>) -> Result<Vec<JointPosition<T>>, WrongLength> {
         let q = self.values("q", q)?;
         let position = |(link, q): (&crate::equations::Link<T>, &T)| match link.kind {
             JointKind::Revolute => {
@@ -186,8 +309,7 @@ impl<T: Float> Reference<T> {
             }
             JointKind::Prismatic => JointPosition::Prismatic(*q),
         };
-        let position: Vec<_> = self.arm.links.iter().zip(q).map(position).collect();
-        Ok(self.arm.at(&position))
+        Ok(self.arm.links.iter().zip(q).map(position).collect())
     }
 
     fn values<'a>(

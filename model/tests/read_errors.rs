@@ -36,6 +36,8 @@ const ROWS: &[Row] = &[
     ("name = \"arm\"", "name = \"\"", "the name is empty", "lower-case"),
     ("name = \"arm\"", "name = \"PUMA 560\"", "cannot name a Rust module", "\"puma_560\""),
     ("name = \"arm\"", "name = \"3r\"", "cannot name a Rust module", "\"robot_3r\""),
+    ("name = \"waist\"", "name = \"w\\u202Eaist\"", "turns the direction of text", "write \"waist\""),
+    ("name = \"waist\"", "name = \"\\u2066\"", "turns the direction of text", "leave the name out"),
     ("name = \"arm\"", "name = \"loop\"", "a word of the Rust language", "\"loop_robot\""),
     ("name = \"arm\"", "name = \"bras_mécanique\"", "cannot name", "\"bras_m_canique\""),
     ("name = \"arm\"", "nmae = \"arm\"", "the robot has no `name`", ""),
@@ -113,6 +115,21 @@ const ROWS: &[Row] = &[
     ("a = 0.5", "a =", "expected a value, found a newline", ""),
     ("a = 0.5", "a 0.5", "expected an equals", ""),
     ("a = 0.5", "a = \"\\q\"", "invalid escape", ""),
+    // Not TOML, but nearly.
+    ("mass = 2", "mass = 04", "`04` begins with a zero", "write 4"),
+    ("mass = 2", "mass = -00.5", "`-00.5` begins with a zero", "write -0.5"),
+    ("mass = 2", "mass = \u{2212}4", "the character `\u{2212}` (U+2212)", "minus of the keyboard"),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, 0, \u{2013}9.81]", "(U+2013)", "minus of the keyboard"),
+    ("alpha = \"pi/2\"", "alpha = \"\u{2212}pi/2\"", "expected an angle", "write \"-pi/2\""),
+    ("mass = 2", "mass = \"\u{2212}2\"", "expected a number", "minus of the keyboard"),
+    ("name = \"arm\"", "name = \u{201c}arm\u{201d}", "(U+201C)", "quotation mark of the keyboard"),
+    ("mass = 2", "mass =\u{a0}2", "U+00A0", "an ordinary space"),
+    ("mass = 2", "mass = 17,4", "expected newline, found a comma", "decimals have a point: 17.4"),
+    ("mass = 2", "mass = \"17,4\"", "expected a number", "decimals have a point: 17.4"),
+    ("alpha = \"pi/2\"", "alpha = \"1,57\"", "expected an angle", "decimals have a point: 1.57"),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, 0, -9,81]", "found an array of 4", "decimals have a point: -9.81"),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1,5, 1, 1, 0, 0, 0]", "found an array of 7", "decimals have a point: 1.5"),
+    ("velocity = 2", "velocity = 2,5", "", "decimals have a point: 2.5"),
 ];
 
 fn errors(source: &str) -> Vec<Diagnostic> {
@@ -140,6 +157,33 @@ fn one_row_a_case() {
         }
     }
     assert!(bad.is_empty(), "{bad}");
+}
+
+/// A file of another format is told apart, in one error.
+#[test]
+fn other_formats() {
+    for (source, format) in [
+        ("{\"name\": \"arm\"}", "JSON"),
+        ("\u{feff}\n[ {\"name\": 1}]", "JSON"),
+        ("<?xml version=\"1.0\"?>\n<robot name=\"a\"/>", "URDF"),
+        ("<mujoco/>", "XML"),
+        ("name: arm\njoints:\n  - a: 1\n", "YAML"),
+        ("# An arm.\n---\nname: arm\n", "YAML"),
+        ("joints:\n- {a: 1}\n", "YAML"),
+    ] {
+        let found = errors(source);
+        assert_eq!(found.len(), 1, "{source}");
+        assert!(found[0].message.contains(format), "{source}: {found:?}");
+        assert!(
+            found[0]
+                .help
+                .as_deref()
+                .is_some_and(|help| help.contains("TOML"))
+        );
+    }
+    // A slip in TOML is no other format.
+    let found = errors("name = \"arm\"\ngravity: [0, 0, 1]\n");
+    assert!(!found[0].message.contains("YAML"), "{found:?}");
 }
 
 /// The line is that of the value that is wrong.
@@ -268,6 +312,136 @@ fn warnings_and_notes() {
         assert_eq!(notes.len(), 1, "{by}: {notes:?}");
         assert_eq!((notes[0].severity, notes[0].line), (severity, line));
         assert!(notes[0].message.contains(message), "{:?}", notes[0]);
+    }
+}
+
+/// Numbers that look like another unit's: taken as they stand, and the help says
+/// what was probably meant.
+#[test]
+fn sizes_of_other_units() {
+    const SLIDES: &str = "kind = \"prismatic\"\ntheta = 0\nd = 0";
+    for (what, by, line, message, help) in [
+        (
+            "[0, 0, -9.81]",
+            "[0, 0, -9810]",
+            3,
+            "is 9810.0000 m/s²",
+            "mm/s²",
+        ),
+        ("[0, 0, -9.81]", "[0, 981, 0]", 3, "far from", "cm/s²"),
+        ("[0, 0, -9.81]", "[0, 32.174, 0]", 3, "far from", "ft/s²"),
+        ("[0, 0, -9.81]", "[0, 0, -1]", 3, "far from", "a direction"),
+        (
+            "\"pi/2\"",
+            "90",
+            7,
+            "alpha is 90 rad: more than a turn",
+            "\"90deg\"",
+        ),
+        ("\"pi/2\"", "-7.5", 7, "more than a turn", "\"-7.5deg\""),
+        (
+            "offset = 0.1",
+            "offset = 45",
+            11,
+            "offset is 45 rad",
+            "\"45deg\"",
+        ),
+        (
+            "a = 0.5",
+            "a = 431.8",
+            8,
+            "a is 431.8 m: longer than 10 m",
+            "write 0.4318",
+        ),
+        (
+            "d = 0.25",
+            "d = -149.09",
+            9,
+            "d is -149.09 m",
+            "write -0.14909",
+        ),
+        (
+            "[0, 0.1, 0]",
+            "[0, 68.1, -70]",
+            13,
+            "com is -70 m",
+            "write -0.07",
+        ),
+        (
+            "mass = 2",
+            "mass = 17400",
+            12,
+            "17400 kg",
+            "of grams, write 17.4",
+        ),
+        (
+            "[-1, 1]",
+            "[-170, 170]",
+            17,
+            "a limit of -170 rad",
+            "\"-170deg\"",
+        ),
+        (
+            "velocity = 2",
+            "velocity = 110",
+            17,
+            "110 rad/s is fast",
+            "write 1.9199",
+        ),
+    ] {
+        let source = GOOD.replacen(what, by, 1);
+        let notes = parse(&source, &Options::default()).expect("reads").notes;
+        let [note] = notes.as_slice() else {
+            panic!("{by}: {notes:?}");
+        };
+        assert_eq!(
+            (note.severity, note.line),
+            (Severity::Warning, line),
+            "{by}"
+        );
+        assert!(note.message.contains(message), "{note:?}");
+        let said = note.help.as_deref().unwrap_or_default();
+        assert!(
+            said.contains(help) && said.ends_with("as it stands"),
+            "{note:?}"
+        );
+    }
+    let sliding = GOOD.replace("kind = \"revolute\"", SLIDES);
+    let sliding = sliding.replacen("d = 0.25\ntheta = 0\n", "", 1);
+    for (what, by, help) in [
+        ("offset = 0.1", "offset = 100", "write 0.1"),
+        ("[-1, 1]", "[0, 500]", "write 0.5"),
+        ("velocity = 2", "velocity = 500", "write 0.5"),
+    ] {
+        let source = sliding.replacen(what, by, 1);
+        let notes = parse(&source, &Options::default()).expect("reads").notes;
+        assert_eq!(notes.len(), 1, "{by}: {notes:?}");
+        assert!(
+            notes[0]
+                .help
+                .as_deref()
+                .is_some_and(|said| said.contains(help))
+        );
+    }
+}
+
+/// What is usual somewhere is not odd.
+#[test]
+fn sizes_that_are_none_of_our_business() {
+    for (what, by) in [
+        ("[0, 0, -9.81]", "[0, 0, 0]"),
+        ("[0, 0, -9.81]", "[0, 0, -1.62]"),
+        ("[0, 0, -9.81]", "[0, 6.94, -6.94]"),
+        ("\"pi/2\"", "\"5*pi/2\""),
+        ("\"pi/2\"", "\"450deg\""),
+        ("a = 0.5", "a = 10"),
+        ("mass = 2", "mass = 999"),
+        ("[-1, 1]", "[-31, 31]"),
+        ("[-1, 1]", "[\"-36000deg\", \"36000deg\"]"),
+    ] {
+        let source = GOOD.replacen(what, by, 1);
+        let notes = parse(&source, &Options::default()).expect("reads").notes;
+        assert!(notes.is_empty(), "{by}: {notes:?}");
     }
 }
 

@@ -1,9 +1,10 @@
 //! Scenes of robot files: every key, and the text that says the same.
 
 use dalembert_model::number::{Angle, Rational};
+use dalembert_model::outputs::Function;
 use dalembert_model::read::{Options, parse};
 use dalembert_model::robot::{Position, Severity};
-use dalembert_model::scene::{Float, Output, Scale, Scene, write};
+use dalembert_model::scene::{Float, Scale, Scene, write};
 
 const ROBOT: &str = r#"
 name = "arm"
@@ -68,7 +69,7 @@ acceleration = "zero"
         panic!("{scenes:?}")
     };
     assert_eq!(pick.name, "pick");
-    assert_eq!(pick.outputs, [Output::InverseDynamics, Output::Gravity]);
+    assert_eq!(pick.outputs, [Function::InverseDynamics, Function::Gravity]);
     assert_eq!(pick.joints.as_deref(), Some(&[2, 0][..]));
     assert_eq!(pick.lock, [(1, Position::Length(ratio(1, 4)))]);
     assert!(pick.gravity.is_some() && pick.velocity_zero && !pick.acceleration_zero);
@@ -376,6 +377,25 @@ fn a_box_beyond_the_limits() {
     ] {
         assert_eq!(read(inside), [], "{inside}");
     }
+}
+
+/// A tolerance of everything is probably meant in percent.
+#[test]
+fn a_tolerance_of_one_or_more() {
+    let read = |value: &str| {
+        let scene = format!("tolerance = {{ value = {value}, relative_to = \"actuator\" }}");
+        let source = format!("{ROBOT}[scene.a]\noutputs = [\"gravity\"]\n{scene}\n");
+        let reading = parse(&source, &Options::default());
+        let reading = reading.unwrap_or_else(|errors| panic!("{value}: {errors}"));
+        let notes = reading.notes.into_iter();
+        let mut notes = notes.filter(|note| note.message.starts_with("a tolerance of 1 or more"));
+        notes.next().map(|note| (note.severity, note.line))
+    };
+    let line = ROBOT.lines().count() + 3;
+    for value in ["1", "5", "[0.1, 0.1, 2]"] {
+        assert_eq!(read(value), Some((Severity::Warning, line)), "{value}");
+    }
+    assert_eq!(read("0.999"), None);
 }
 
 /// Everything at once.

@@ -1,66 +1,96 @@
 //! `dalembert certify`: a certificate checked again, part by part.
-//!
-//! - this file: the check and what is said of it
-//! - [`read`]: a certificate from its file
-//! - [`complete`]: fields that follow from the others
 
-mod complete;
-mod read;
-
+use dalembert_codegen::bound::interval::Interval;
 use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::certificate::format::{self, MAX_BYTES};
+use dalembert_codegen::certify::gappa;
 use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::interval::Interval;
 use dalembert_codegen::emit::figures::inside;
 use dalembert_codegen::generate::GenerateError;
-use dalembert_codegen::plan::SceneKey;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::read::Reading;
-use dalembert_model::scene::Scene;
-use serde_json::Value;
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::{Scene, Tolerance};
+use std::path::Path;
 
 use crate::args::CertifyArgs;
+use crate::files::folder::Folder;
 use crate::generate::report;
 use crate::outcome::{Failure, Outcome};
 use crate::{input, output};
-use complete::complete;
-use read::read;
 
 /// Runs the subcommand.
 pub fn run(args: &CertifyArgs) -> Outcome {
     let reading = input::reading(&args.robot)?;
     let certificates = read(&args.certificate)?;
-    for (certificate, json) in &certificates {
-        one(args, &reading, certificate, json)?;
+    let folder = args
+        .gappa
+        .as_ref()
+        .map(|folder| Folder::at(folder, &[], None));
+    let folder = folder.transpose()?;
+    for certificate in &certificates {
+        one(args, &reading, certificate)?;
+    }
+    if let Some(folder) = folder {
+        folder.write(&scripts(&certificates))?;
+        output::note(&format!(
+            "wrote {}: run `gappa FILE` on each",
+            folder.path().display()
+        ));
     }
     Ok(())
 }
 
-fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate, json: &Value) -> Outcome {
+/// The certificates of a file.
+fn read(path: &Path) -> Result<Vec<Certificate>, Failure> {
+    let name = path.display();
+    let bytes = input::bytes(path, MAX_BYTES as u64)?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| Failure::Input(format!("error: {name}: the file is no UTF-8 text")))?;
+    format::read(&text).map_err(|error| match error.at {
+        Some((line, column)) => {
+            Failure::Input(format!("error: {error}\n --> {name}:{line}:{column}"))
+        }
+        None => Failure::Input(format!("error: {name}: {error}")),
+    })
+}
+
+fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outcome {
     let name = args.certificate.display();
     let own = certificate.scene.as_ref().map(|scene| &scene.name);
     let scene = args.scene.as_ref().or(own);
     let scene = scene.map(|scene| input::scene(&args.robot, reading, scene));
     let scene = scene.transpose()?;
-    // What `tradeoff` finds for other tolerances is about the scene without its.
-    let bare = scene.map(Scene::without_tolerance);
-    let is_bare = certificate.scene == bare.as_ref().map(SceneKey::of);
-    let scene = if is_bare { bare.as_ref() } else { scene };
     let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
+    let own = scene.and_then(|scene| scene.tolerance.clone());
+    let tolerance = match &args.tolerance {
+        Some(value) => Some(Tolerance {
+            value: vec![value.clone()],
+            relative_to: certificate.relative_to.ok_or_else(|| {
+                let why = "its errors are relative to scales of its own: no tolerance fits them";
+                Failure::Input(format!("error: {name}: {why}"))
+            })?,
+        }),
+        None => own,
+    };
     let checked = certificate
-        .check_in(&setting)
+        .check_within(&setting, tolerance.as_ref())
         .map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
-    complete(certificate, json).map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
     let of = scene.map_or_else(String::new, |scene| format!(" in scene {}", scene.name));
     let mut text = format!(
         "{name} holds for `{}` in {} of {}{of}\n  {}\n",
         certificate.emitted.function, certificate.scalar, reading.robot.name, checked.proof
     );
-    text += &over(certificate, scene);
+    text += &over(certificate, scene, &reading.robot);
     for finding in &checked.findings {
         text += &format!("warning: {finding}\n");
     }
     let mut rows = report::bounds(certificate);
+    rows[0].push("seen".into());
+    for (row, seen) in rows[1..].iter_mut().zip(&checked.ran.observed) {
+        row.push(format!("{seen:.3e}"));
+    }
     let mut seen = None;
     if args.samples > 0 {
         let attack = attack(certificate, args.samples, args.climbs, 1)
@@ -88,8 +118,22 @@ fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate, json: &
     Ok(())
 }
 
+/// Scripts for Gappa, one an output that takes an operation.
+fn scripts(certificates: &[Certificate]) -> Vec<(String, String)> {
+    let mut files = Vec::new();
+    for certificate in certificates {
+        let (function, scalar) = (certificate.emitted.function, certificate.scalar);
+        for output in 0..certificate.emitted.outputs.len() {
+            if let Some(script) = gappa::script(certificate, output) {
+                files.push((format!("{function}_{scalar}_{}.g", output + 1), script));
+            }
+        }
+    }
+    files
+}
+
 /// The box, inside which everything holds.
-fn over(certificate: &Certificate, scene: Option<&Scene>) -> String {
+fn over(certificate: &Certificate, scene: Option<&Scene>, robot: &Robot) -> String {
     let InputBox {
         position,
         velocity,
@@ -99,7 +143,7 @@ fn over(certificate: &Certificate, scene: Option<&Scene>) -> String {
     let range = |x: &Interval| inside(x.low(), x.high());
     let joints = position.iter().zip(velocity).zip(acceleration);
     for (joint, ((q, qd), qdd)) in joints.enumerate() {
-        let name = format!("joint {}", joint + 1);
+        let name = robot.joint_label(joint);
         rows.push(match scene.and_then(|scene| scene.locked(joint)) {
             Some(_) => vec![name, "locked".into()],
             None => vec![name, range(q), range(qd), range(qdd)],

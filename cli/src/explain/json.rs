@@ -1,14 +1,14 @@
 //! The table of steps and the reasons, for programs.
 
-use dalembert_codegen::couplings::Couplings;
-use dalembert_codegen::explain::Explanation;
-use dalembert_codegen::explain::errors::Errors;
-use dalembert_codegen::explain::parameters::{Fate, LinkFate, Parameter, Together};
-use dalembert_codegen::explain::steps::Code;
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::portfolio::Source;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
+use dalembert_report::couplings::Couplings;
+use dalembert_report::explain::Explanation;
+use dalembert_report::explain::errors::Errors;
+use dalembert_report::explain::parameters::{Fate, LinkFate, Parameter, Together};
+use dalembert_report::explain::steps::Code;
 use serde_json::{Map, Value, json};
 
 use super::{Measured, QUANTITIES, REASONS, tally};

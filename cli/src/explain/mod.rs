@@ -7,12 +7,12 @@
 mod json;
 mod text;
 
-use dalembert_codegen::couplings::{Couplings, Finding, Reason};
-use dalembert_codegen::explain::errors::{self, Errors};
-use dalembert_codegen::explain::{Explanation, explain_all};
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::plan;
+use dalembert_report::couplings::{Couplings, Finding, Reason};
+use dalembert_report::explain::errors::{self, Errors};
+use dalembert_report::explain::{Explanation, explain_all};
 
 use crate::args::ExplainArgs;
 use crate::outcome::{Failure, Outcome};
@@ -37,7 +37,8 @@ pub fn run(args: &ExplainArgs) -> Outcome {
     };
     if let Some(name) = &args.scene {
         let scene = input::scene(&args.robot, &reading, name)?;
-        request = request.in_scene(scene, !args.outputs.is_empty(), false);
+        let outputs = (!args.outputs.is_empty()).then(|| args.outputs.clone());
+        request = request.choose(outputs, None, Some(scene));
     }
     let session = progress::watch(&mut request);
     let robot = &reading.robot;

@@ -1,15 +1,15 @@
 //! The table of steps and the reasons, for readers.
 
-use dalembert_codegen::couplings::Couplings;
-use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::explain::Explanation;
-use dalembert_codegen::explain::errors::Errors;
-use dalembert_codegen::explain::merged::Merged;
-use dalembert_codegen::explain::parameters::{Fate, LinkFate, Parameter, Parameters, Together};
-use dalembert_codegen::explain::steps::Code;
 use dalembert_codegen::function::Function;
+use dalembert_codegen::program::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
+use dalembert_report::couplings::Couplings;
+use dalembert_report::explain::Explanation;
+use dalembert_report::explain::errors::Errors;
+use dalembert_report::explain::merged::Merged;
+use dalembert_report::explain::parameters::{Fate, LinkFate, Parameter, Parameters, Together};
+use dalembert_report::explain::steps::Code;
 
 use super::{Measured, QUANTITIES, REASONS, tally};
 use crate::{output, table3};

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::distinct::distinct;
 use super::target::Target;
-use super::write::{Unfinished, write};
+use super::unfinished::Unfinished;
+use super::write::write;
 use super::{parent, unwritable};
 use crate::outcome::{Failure, Outcome};
 

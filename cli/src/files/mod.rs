@@ -9,6 +9,7 @@
 pub mod distinct;
 pub mod folder;
 pub mod target;
+mod unfinished;
 pub mod write;
 
 use std::fmt::Display;

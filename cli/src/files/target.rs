@@ -4,7 +4,7 @@ use std::fs::{self, Metadata, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::write::Unfinished;
+use super::unfinished::Unfinished;
 use super::{parent, unwritable};
 use crate::outcome::{Failure, Outcome};
 

@@ -1,6 +1,6 @@
 //! What goes where, and what is there already.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use dalembert_codegen::generate::Request;
 use dalembert_codegen::plan;
@@ -19,6 +19,8 @@ pub struct Files {
     certificates: Option<Target>,
     /// If it is to be kept.
     plan: Option<Target>,
+    /// The robot file of a plan that was not there before.
+    first: Option<PathBuf>,
 }
 
 impl Files {
@@ -46,10 +48,12 @@ impl Files {
         let certificates = certificates.map(|file| Target::at(&file)).transpose()?;
         let path = plan::file::path(&args.robot);
         let plan = args.save_plan.then(|| Target::at(&path)).transpose()?;
+        let first = (args.save_plan && !path.exists()).then(|| args.robot.clone());
         let files = Files {
             code,
             certificates,
             plan,
+            first,
         };
         match args.check {
             true => files.comparable()?,
@@ -101,6 +105,15 @@ impl Files {
         }
         outputs.push((&self.code, code));
         write(&outputs)?;
+        if let Some(robot) = &self.first
+            && let Err(error) = plan::file::announce(robot)
+        {
+            let name = robot.display();
+            output::note(&format!(
+                "\nwarning: {name} cannot be given a new time ({error}): macros and build scripts \
+                 that were built without the plan notice it once the robot file is saved again"
+            ));
+        }
         for (target, _) in outputs {
             let name = target.name.display();
             match self

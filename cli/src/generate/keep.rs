@@ -1,10 +1,9 @@
 //! The plan: programs kept for later runs.
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::generate::early::price;
 use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
 use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
-use dalembert_codegen::schedule::Program;
+use dalembert_codegen::program::{Program, ScalarType};
 use dalembert_model::robot::Robot;
 
 /// The plan with the programs in it, and what is to be said of it. Those of

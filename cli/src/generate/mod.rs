@@ -9,11 +9,13 @@ mod files;
 mod keep;
 pub mod report;
 
-use dalembert_codegen::explain::errors::{MOST_STATES, affordable_states};
-use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::certify::certificate::format;
+use dalembert_codegen::emit::Layout;
+use dalembert_codegen::generate::{GenerateError, Generated, Request};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::simplify::Effort;
 use dalembert_model::robot::Robot;
+use dalembert_report::explain::errors::{MOST_STATES, affordable_states};
 
 use crate::args::GenerateArgs;
 use crate::outcome::{Failure, Outcome};
@@ -23,18 +25,25 @@ use files::Files;
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    if args.contents {
+        request.layout = Layout::Contents;
+    }
     // Before the work: what cannot be written is no news after it.
     let files = Files::of(args, &request)?;
     let kept = request.plan.take_if(|_| args.save_plan);
     // A comparison with what a whole search gives needs a whole search.
     let session = (!args.check).then(|| progress::watch(&mut request));
-    let generated = generate(&robot, &request)?;
+    let generated = input::generated(&args.robot, &robot, &request)?;
     let certificates = certificates(&robot, &request, &generated)?;
     drop(session);
     let states = args.states.unwrap_or(match args.choice.effort {
-        Effort::Quick => affordable_states(robot.joints.len()),
-        Effort::Thorough => MOST_STATES,
+        // Who ended the search waits no longer for its errors.
+        Effort::Thorough if !generated.ended => MOST_STATES,
+        _ => affordable_states(robot.joints.len()),
     });
+    if states > affordable_states(robot.joints.len()) {
+        output::note(&format!("measuring rounding errors at {states} states"));
+    }
     output::note(&report::text(&robot, &request, &generated, states));
     let plan = args.save_plan.then(|| {
         let (plan, notes) = keep::plan(&robot, &request, &generated, kept);
@@ -66,10 +75,5 @@ fn certificates(
             Failure::Check(format!("error: the certificate of `{function}`: {why}"))
         })?;
     }
-    let texts: Vec<String> = certificates.iter().map(|c| c.to_json()).collect();
-    Ok(match texts.as_slice() {
-        [] => None,
-        [one] => Some(one.clone()),
-        all => Some(format!("[{}]\n", all.join(", ").replace("\n, ", ",\n"))),
-    })
+    Ok((!certificates.is_empty()).then(|| format::write(&certificates)))
 }

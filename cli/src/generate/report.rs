@@ -4,10 +4,12 @@
 use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::choose::Admitted;
 use dalembert_codegen::certify::prune::omissions;
-use dalembert_codegen::explain::errors::of_program;
+use dalembert_codegen::emit::figures::bound_of;
 use dalembert_codegen::generate::{Generated, Request};
+use dalembert_codegen::program::Counts;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::robot::Robot;
+use dalembert_report::explain::errors::of_program;
 
 use crate::output;
 
@@ -21,6 +23,7 @@ pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usi
         scene(request)
     );
     text += &counts(generated);
+    text += &limits(generated);
     text += &errors(robot, request, generated, states);
     text += "\nmul add sincos after each stage\n";
     text += &stages(generated);
@@ -39,6 +42,25 @@ pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usi
     };
     for warning in &generated.warnings {
         text += &format!("warning: {warning}\n");
+    }
+    text
+}
+
+/// What the limit on rounding errors cost each function.
+pub fn limits(generated: &Generated) -> String {
+    let mut text = String::new();
+    for function in &generated.functions {
+        let Some(refused) = function.refused.filter(|_| function.admitted.is_none()) else {
+            continue;
+        };
+        let fewer = function
+            .counts
+            .operations()
+            .saturating_sub(refused.counts.operations());
+        text += &format!(
+            "\n{}: {fewer} operations fewer with an error of about {:.0} u instead of {:.0}: `--prefer operations`\n",
+            function.function, refused.error, refused.taken
+        );
     }
     text
 }
@@ -115,9 +137,9 @@ pub fn bounds(certificate: &Certificate) -> Vec<Vec<String>> {
     let mut rows = vec![head.map(String::from).to_vec()];
     let pairs = certificate.bounds.iter().zip(&certificate.scales);
     for (index, (bound, scale)) in pairs.enumerate() {
-        let mut row = vec![certificate.emitted.entry(index), format!("{scale:.4e}")];
+        let mut row = vec![certificate.emitted.entry(index), bound_of(*scale, 5)];
         let parts = [bound.model, bound.sincos, bound.rounding, bound.total()];
-        row.extend(parts.map(|x| format!("{x:.3e}")));
+        row.extend(parts.map(|x| bound_of(x, 4)));
         rows.push(row);
     }
     rows
@@ -181,18 +203,20 @@ fn sines(generated: &Generated) -> String {
 }
 
 fn stages(generated: &Generated) -> String {
+    let admitted = generated.functions.iter().any(|f| f.admitted.is_some());
+    let cell = |counts: &Counts| format!("{} {} {}", counts.mul, counts.add, counts.sincos);
     let mut rows = Vec::new();
     for function in &generated.functions {
         if rows.is_empty() {
             let mut head = vec![String::new()];
             head.extend(function.stages.iter().map(|s| s.name.to_owned()));
+            head.extend(admitted.then(|| "tolerance".to_owned()));
             rows.push(head);
         }
         let mut row = vec![function.function.to_string()];
-        row.extend(function.stages.iter().map(|stage| {
-            let counts = stage.counts;
-            format!("{} {} {}", counts.mul, counts.add, counts.sincos)
-        }));
+        row.extend(function.stages.iter().map(|stage| cell(&stage.counts)));
+        // What the tolerance left of it: what is emitted.
+        row.extend(admitted.then(|| cell(&function.counts)));
         rows.push(row);
     }
     output::table(&rows, 0)

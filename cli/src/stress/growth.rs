@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use std::{env, fs, process};
 
 use dalembert_codegen::generate::Request;
-use dalembert_codegen::stress::growth::{Growth, JOINTS, measure};
+use dalembert_report::stress::growth::{Growth, JOINTS, measure};
 use serde_json::json;
 
 use crate::args::StressArgs;

@@ -6,10 +6,10 @@
 mod growth;
 
 use dalembert_codegen::generate::Request;
-use dalembert_codegen::stress::category::{Criterion, NORMWISE, PER_JOINT};
-use dalembert_codegen::stress::report::{self, Options, Row, Verdict};
-use dalembert_codegen::stress::sweep::{self, Axis, Curve};
 use dalembert_model::robot::Robot;
+use dalembert_report::stress::category::{Criterion, NORMWISE, PER_JOINT};
+use dalembert_report::stress::report::{self, Options, Row, Verdict};
+use dalembert_report::stress::sweep::{self, Axis, Curve};
 use serde_json::{Value, json};
 
 use crate::args::StressArgs;

@@ -9,11 +9,10 @@ mod generic;
 mod paper;
 mod written;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, Start, generate};
-use dalembert_codegen::graph::Counts;
-use dalembert_codegen::portfolio::Source;
+use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::portfolio::{Source, Start};
+use dalembert_codegen::program::{Counts, ScalarType};
 use dalembert_codegen::simplify::Stage;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;

@@ -6,7 +6,8 @@
 //! below the others. f64 is open, f32 full, smaller and dashed: where both are, both
 //! are seen.
 
-use super::ladder::Point;
+use dalembert_report::sweep::Point;
+
 use crate::plot::picture::{Picture, Shape};
 
 /// The kinds of variants, as the legend names them.

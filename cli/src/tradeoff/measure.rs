@@ -12,11 +12,11 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use dalembert_codegen::emit::ScalarType;
-use dalembert_codegen::emit::function::structure;
+use dalembert_codegen::backend::function::structure;
 use dalembert_codegen::function::Argument;
+use dalembert_codegen::program::ScalarType;
+use dalembert_report::sweep::{Point, Time};
 
-use super::ladder::{Point, Time};
 use crate::outcome::Failure;
 
 /// A compiler that was found.

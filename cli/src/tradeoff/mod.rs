@@ -1,34 +1,33 @@
 //! `dalembert tradeoff`: what accuracy costs, certified and observed.
 //!
 //! - this file: what is asked for
-//! - [`ladder`]: the variants, tolerance by tolerance
 //! - [`report`]: the table, for people and as CSV
 //! - [`chart`]: the front as SVG
 //! - [`measure`]: the variants compiled and timed
 
 mod chart;
-mod ladder;
 mod measure;
 mod report;
 
 use std::path::Path;
 
 use dalembert_codegen::certify::choose::Frame;
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::plan::{self, Plan, SceneKey};
+use dalembert_codegen::program::{Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::schedule::Program;
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
+use dalembert_report::sweep::ladder::{Ladder, Options};
+use dalembert_report::sweep::rungs::Rungs;
+use dalembert_report::sweep::{Point, SweepError, mark};
 
 use crate::args::TradeoffArgs;
 use crate::files::folder::Folder;
 use crate::outcome::{Failure, Outcome};
 use crate::progress::{self, Steps};
 use crate::{input, output};
-use ladder::{Ladder, Point};
 
 /// Tolerances unless others are asked for; zero is always there.
 const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
@@ -37,6 +36,8 @@ const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2,
 const CSV: &str = "tradeoff.csv";
 const SVG: &str = "tradeoff.svg";
 const CERTIFICATES: &str = "certificates";
+/// What a run that is ended leaves for the next one.
+const RUNGS: &str = "rungs";
 
 /// Runs the subcommand.
 pub fn run(args: &TradeoffArgs) -> Outcome {
@@ -50,7 +51,9 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         None => None,
         Some(folder) => {
             let output = Folder::at(folder, &[CSV, SVG], Some(&args.robot))?;
-            Folder::at(&folder.join(CERTIFICATES), &[], None)?;
+            for inner in [CERTIFICATES, RUNGS] {
+                Folder::at(&folder.join(inner), &[], None)?;
+            }
             Some(output)
         }
     };
@@ -70,16 +73,34 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let steps = Steps::new(2 * (1 + tolerances.len()));
     let watch = steps.watch();
     let frame = frame.watched(watch.over(exact.function));
-    let mut points = Ladder::new(args, &frame, &steps).climb(&tolerances)?;
+    let options = Options {
+        samples: args.samples,
+        climbs: args.climbs,
+        effort: args.effort,
+    };
+    let rungs = output.as_ref().map(|folder| {
+        let identity = identity(&reading, bare.as_ref(), &exact, relative_to, options);
+        Rungs::new(&folder.path().join(RUNGS), &identity)
+    });
+    let ladder = Ladder::new(options, &frame, &steps);
+    let mut points = ladder
+        .climb(&tolerances, rungs.as_ref())
+        .map_err(|error| match error {
+            SweepError::Text(why) => Failure::Check(format!("error: {why}")),
+            SweepError::Rung(why) => Failure::Input(format!("error: {why}")),
+        })?;
     drop(steps);
     if let Some(compiler) = compiler {
         compiler.measure(&mut points)?;
     }
-    report::mark(&mut points);
+    mark(&mut points);
     output::print(&report::table(&points))?;
     if let Some(folder) = &output {
         let chart = chart(&reading, scene, exact.function, relative_to, &points);
         folder.write(&files(chart, &points))?;
+        if let Some(rungs) = &rungs {
+            rungs.forget(tolerances.iter().copied().chain([0.0]));
+        }
         output::note(&format!("wrote {}", folder.path().display()));
     }
     let violated = points.iter().filter_map(|point| {
@@ -91,6 +112,19 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         true => Ok(()),
         false => Err(Failure::Check(violated.join("\n"))),
     }
+}
+
+/// What tells this run apart from others, but for the list of tolerances.
+fn identity(
+    reading: &Reading,
+    scene: Option<&Scene>,
+    exact: &Program,
+    relative_to: Scale,
+    options: Options,
+) -> String {
+    let scene = scene.map(SceneKey::of);
+    let robot = plan::input_hash(&reading.robot);
+    format!("{robot}\n{scene:?}\n{relative_to:?}\n{options:?}\n{exact:?}")
 }
 
 /// The table, the chart and the certificates, by name.
@@ -113,6 +147,11 @@ fn tolerances(args: &TradeoffArgs) -> Result<Vec<f64>, Failure> {
         return Err(Failure::Input(format!(
             "error: a tolerance is a number above zero, not {bad}\n  = help: --tolerances 1e-3,1e-2"
         )));
+    }
+    if let Some(large) = tolerances.iter().find(|t| **t >= 1.0) {
+        output::note(&format!(
+            "warning: a tolerance of {large} allows an error as large as the output: 0.01 is 1%"
+        ));
     }
     tolerances.sort_by(f64::total_cmp);
     tolerances.dedup();

@@ -1,39 +1,8 @@
 //! The table of variants.
 
-use super::ladder::Point;
+use dalembert_report::sweep::Point;
+
 use crate::output;
-
-/// What a variant costs, dimension by dimension: a narrower scalar is one too.
-fn cost(point: &Point) -> [usize; 3] {
-    let counts = point.counts();
-    let bits = match point.certificate.scalar {
-        dalembert_codegen::emit::ScalarType::F64 => 64,
-        dalembert_codegen::emit::ScalarType::F32 => 32,
-    };
-    // Polynomials are operations like others; what libm does is not known.
-    match point.certificate.sines.is_empty() {
-        true => [bits, counts.sincos, counts.operations()],
-        false => [
-            bits,
-            0,
-            counts.operations() + counts.trig_mul + counts.trig_add,
-        ],
-    }
-}
-
-/// Marks what is dominated: another point is no dearer, no worse, and not the
-/// same; of equal points the first stays.
-pub fn mark(points: &mut [Point]) {
-    let all: Vec<([usize; 3], f64)> = points.iter().map(|p| (cost(p), p.certified)).collect();
-    for (index, point) in points.iter_mut().enumerate() {
-        let (mine, error) = all[index];
-        point.dominated = all.iter().enumerate().any(|(other, &(theirs, e))| {
-            let no_worse = theirs.iter().zip(&mine).all(|(a, b)| a <= b) && e <= error;
-            let same = theirs == mine && e == error;
-            no_worse && (!same || other < index)
-        });
-    }
-}
 
 /// The rows, for people or for programs, which get more digits and columns.
 fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {

@@ -10,13 +10,11 @@ use super::certificate::Certificate;
 use super::input_box::InputBox;
 use super::sample::{climb, draw};
 use super::sensitivity::{Rounding, rounding};
-use crate::emit::{MathPath, ScalarType, function};
-use crate::schedule::Program;
-use crate::simplify::random::Random;
-use crate::verify::columns::Columns;
-use crate::verify::interpret::State;
-use crate::verify::states::JointState;
-use crate::verify::text::{TextError, TextProgram};
+use crate::backend::read::TextError;
+use crate::program::columns::Columns;
+use crate::program::{Lowered, ScalarType};
+use crate::random::Random;
+use crate::states::JointState;
 
 /// The largest errors that were seen.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,36 +25,6 @@ pub struct Attack {
     pub violation: Option<(usize, JointState)>,
     /// States at which the text was run.
     pub states: usize,
-}
-
-/// Runs a text at a state of the scalar's own numbers.
-pub fn run(text: &TextProgram, scalar: ScalarType, state: &JointState) -> Vec<f64> {
-    match scalar {
-        ScalarType::F64 => text.run(State {
-            q: &state.q,
-            qd: &state.qd,
-            qdd: &state.qdd,
-        }),
-        ScalarType::F32 => {
-            let single = |x: &[f64]| x.iter().map(|&x| x as f32).collect::<Vec<f32>>();
-            let (q, qd, qdd) = (single(&state.q), single(&state.qd), single(&state.qdd));
-            let out = text.run(State {
-                q: &q,
-                qd: &qd,
-                qdd: &qdd,
-            });
-            out.into_iter().map(f64::from).collect()
-        }
-    }
-}
-
-/// A program as the text that would be printed of it.
-///
-/// # Errors
-/// The text cannot be read back: a defect of this library.
-pub fn text(program: &Program, scalar: ScalarType) -> Result<TextProgram, TextError> {
-    let text = function::write(program, scalar, &MathPath::default(), &[]);
-    TextProgram::parse(&text, program.function, scalar)
 }
 
 /// Samples, then climbs from the worst of them, output by output.
@@ -118,8 +86,8 @@ const MOVES: usize = 600;
 /// Both texts, and what was seen of them.
 struct Attacker<'c> {
     certificate: &'c Certificate,
-    emitted: TextProgram,
-    exact: TextProgram,
+    emitted: Lowered,
+    exact: Lowered,
     granted: Vec<Rounding>,
     attack: Attack,
 }
@@ -132,8 +100,8 @@ impl<'c> Attacker<'c> {
         let limits = &certificate.limits;
         Ok(Attacker {
             certificate,
-            emitted: TextProgram::parse(printed, function, certificate.scalar)?,
-            exact: text(program, ScalarType::F64)?,
+            emitted: Lowered::parse(printed, function, certificate.scalar)?,
+            exact: program.lower(ScalarType::F64, |_| None),
             granted: rounding(program, ScalarType::F64, limits, 64),
             attack: Attack {
                 observed: vec![0.0; certificate.scales.len()],
@@ -186,7 +154,7 @@ fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState
     if scalar == ScalarType::F64 {
         return state.clone();
     }
-    let hold = |values: &[f64], ranges: &[super::interval::Interval]| {
+    let hold = |values: &[f64], ranges: &[crate::bound::interval::Interval]| {
         let pairs = values.iter().zip(ranges);
         pairs
             .map(|(&x, range)| {

@@ -11,21 +11,22 @@ use std::rc::Rc;
 
 use dalembert_model::scene::{Scale, Tolerance};
 
-use super::certificate::subject::{Fineness, Subject};
-use super::certificate::{Certificate, Refuted, Split};
-use super::definite::{Indefinite, has_inertia, least_eigenvalue};
-use super::edits::{Stage, has_edits};
+use super::certificate::subject::Subject;
+use super::certificate::{Certificate, Refuted};
+use super::definite::{Indefinite, least_eigenvalue};
 use super::gauge;
 use super::input_box::{InputBox, MissingLimit};
 use super::prune::{self, Settings};
 use super::scale;
 use super::sensitivity::Sensitivity;
 use super::sines;
-use crate::emit::ScalarType;
+use super::work::Meter;
+use crate::approximate::edits::{Stage, has_edits};
+use crate::bound::Split;
+use crate::certify::sensitivity::Fineness;
+use crate::program::{Program, ScalarType, has_inertia};
 use crate::scene::Setting;
-use crate::schedule::Program;
 use crate::sincos::TooAccurate;
-use crate::verify::text::TextError;
 use crate::watch::{Part, Vigil};
 
 /// What errors of a function are bounded in and relative to.
@@ -79,10 +80,17 @@ pub struct Claim {
 pub enum Refusal {
     /// A limit that a bound needs.
     Missing(MissingLimit),
-    /// The exact program cannot be read back: a defect of this library.
-    Text(TextError),
+    /// The actuators are no measure of its outputs.
+    Scale(scale::NoScale),
     /// The full model's D cannot be shown to be positive definite.
     Indefinite(Indefinite),
+    /// It would take more work than may be done.
+    Work {
+        /// Units of work that were allowed.
+        limit: u64,
+        /// The scene's name.
+        scene: String,
+    },
     /// Already what sines and rounding cost cannot be shown to be less.
     Above {
         /// The output's name.
@@ -100,7 +108,14 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Refusal::Missing(missing) => missing.fmt(f),
-            Refusal::Text(error) => error.fmt(f),
+            Refusal::Scale(why) => why.fmt(f),
+            Refusal::Work { limit, scene } => write!(
+                f,
+                "what the tolerance allows was not found within {limit} units of work, about as \
+                 much as may be done while a compiler waits: run `dalembert generate ROBOT.toml \
+                 --scene {scene} --effort thorough --save-plan` once; with its plan nothing is \
+                 searched for"
+            ),
             Refusal::Indefinite(why) => write!(f, "the full model: {why}"),
             Refusal::Above {
                 entry,
@@ -111,8 +126,13 @@ impl fmt::Display for Refusal {
                 f,
                 "no variant in {scalar} can be certified to keep {entry} within {tolerance:.1e}: with nothing \
                  left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
-                 allow more, or choose a wider scalar",
-                bound.rounding, bound.sincos
+                 allow more{}",
+                bound.rounding,
+                bound.sincos,
+                match scalar {
+                    ScalarType::F32 => ", or choose a wider scalar",
+                    ScalarType::F64 => "",
+                }
             ),
         }
     }
@@ -157,8 +177,8 @@ impl<'a> Frame<'a> {
     ) -> Result<Frame<'a>, Refusal> {
         let limits = InputBox::within(setting, exact.function).map_err(Refusal::Missing)?;
         let scales = match relative_to {
-            Scale::Actuator => scale::actuator(setting.robot(), exact).map_err(Refusal::Missing)?,
-            Scale::Range => scale::range(exact, &limits).map_err(Refusal::Text)?,
+            Scale::Actuator => scale::actuator(setting.robot(), exact).map_err(Refusal::Scale)?,
+            Scale::Range => scale::range(exact, &limits),
         };
         Ok(Frame {
             setting,
@@ -269,8 +289,7 @@ impl<'a> Frame<'a> {
                 lambda_min: claim.lambda_min,
                 ..subject.claim(claim.scalar, claim.bounds.clone())
             };
-            certificate.check_shape(self.setting.robot())?;
-            certificate.check_edits()?;
+            certificate.check_programs(self.setting)?;
             certificates.push(certificate);
         }
         Ok(Admitted::of(stages, emitted, certificates))
@@ -288,8 +307,17 @@ impl<'a> Frame<'a> {
         settings: &Settings,
         fineness: Fineness,
     ) -> Result<Admitted, Refusal> {
+        let meter = Meter::new(settings.work);
+        let spent = || match settings.work {
+            Some(limit) if meter.is_over() => Err(Refusal::Work {
+                limit,
+                scene: (self.setting.scene()).map_or(String::new(), |scene| scene.name.clone()),
+            }),
+            _ => Ok(()),
+        };
         let unedited = self.unedited(scalars, fineness);
         unedited.within(tolerances)?;
+        spent()?;
         let mut start: Option<Option<Program>> = None;
         for aside in [2.0, 8.0] {
             let Some(allowances) = self.allowances(tolerances, scalars, aside, fineness) else {
@@ -301,6 +329,7 @@ impl<'a> Frame<'a> {
             });
             let start = start.as_ref();
             let pruned = prune::watched(exact, start, limits, &allowances, settings, watch);
+            spent()?;
             if pruned.stages.is_empty() {
                 break;
             }
@@ -346,14 +375,18 @@ impl<'a> Frame<'a> {
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
         let sensitivity = self.sensitivity(emitted, fineness);
-        let sines = sines::within(emitted, *scalar, &self.limits, &allowances, &sensitivity);
-        let sines = sines.map_err(NoPolynomials::TooAccurate)?;
-        let found = certificate.with_sines(self.setting, &sines, &sensitivity);
-        within(&found, tolerances).map_err(NoPolynomials::Above)?;
-        match found.lambda_min.is_some() == certificate.lambda_min.is_some() {
-            true => Ok(found),
-            false => Err(NoPolynomials::Indefinite),
+        // A tolerance may admit more than D bears.
+        for part in [1.0, 0.1, 0.01] {
+            let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
+            let sines = sines::within(emitted, *scalar, &self.limits, &allowances, &sensitivity);
+            let sines = sines.map_err(NoPolynomials::TooAccurate)?;
+            let found = certificate.with_sines(self.setting, &sines, &sensitivity);
+            within(&found, tolerances).map_err(NoPolynomials::Above)?;
+            if found.lambda_min.is_some() || !has_inertia(emitted) {
+                return Ok(found);
+            }
         }
+        Err(NoPolynomials::Indefinite)
     }
 
     /// What is left for edits, in each output's unit; `None` if that is

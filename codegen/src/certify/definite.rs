@@ -10,19 +10,16 @@
 
 use std::fmt;
 
-use super::attack::{run, text};
-use super::edits::Stage;
 use super::expand::expand;
 use super::grid;
 use super::input_box::InputBox;
-use super::interval::Interval;
 use super::sensitivity::rounding_with;
-use crate::emit::ScalarType;
-use crate::function::Quantity;
+use crate::approximate::edits::Stage;
+use crate::bound::interval::Interval;
 use crate::graph::{Folding, Graph};
-use crate::schedule::Program;
+use crate::program::{Program, ScalarType};
 use crate::sincos::AngleKernel;
-use crate::verify::states::JointState;
+use crate::states::JointState;
 
 /// Points of the bound at most.
 const POINTS: usize = 1 << 24;
@@ -70,11 +67,6 @@ impl fmt::Display for Indefinite {
 }
 
 impl std::error::Error for Indefinite {}
-
-/// Whether a program returns D.
-pub fn has_inertia(program: &Program) -> bool {
-    program.function.quantities().contains(&Quantity::Inertia)
-}
 
 /// A lower bound, above zero, of the least eigenvalue of S D S over the box,
 /// D as code in the scalar computes it.
@@ -139,7 +131,7 @@ fn start(program: &Program) -> Option<usize> {
     let n = program.rows.len();
     let mut start = 0;
     for quantity in program.function.quantities() {
-        if *quantity == Quantity::Inertia {
+        if quantity.is_definite() {
             return Some(start);
         }
         start += quantity.len(n);
@@ -159,8 +151,7 @@ fn scales(
         qd: rest.clone(),
         qdd: rest,
     };
-    let text = text(program, ScalarType::F64).map_err(|_| Indefinite::Unproved)?;
-    let values = run(&text, ScalarType::F64, &middle);
+    let values = program.lower(ScalarType::F64, |_| None).run_at(&middle);
     let scale = |i: usize| {
         let diagonal = values[entry(i, i)];
         if !(diagonal > 0.0 && diagonal.is_finite()) {

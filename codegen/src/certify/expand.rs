@@ -7,15 +7,19 @@
 //! Σ coefficient · (product of at most two rates) · Π_j sin^a(q_j) cos^b(q_j)
 //!
 //! with a ∈ {0, 1}, since sin² = 1 − cos². A sliding joint is written as
-//! q = middle + radius·cos θ, which takes every position of its range.
+//! q = middle + radius·cos θ, which takes every position of its range; θ stands
+//! where an angle would, so a graph that reads a joint's position and its sine
+//! or cosine as well is not written out.
 //!
 //! **Soundness.** Only identities are used, and coefficients are intervals
 //! rounded outward: there are coefficients inside them with which the
 //! polynomial is the output, exactly.
 
 use super::input_box::InputBox;
-use super::interval::Interval;
-use crate::graph::{Graph, Input, Node};
+use super::work;
+use crate::bound::interval::Interval;
+use crate::graph::{Graph, Node};
+use crate::program::Input;
 
 /// Powers packed: two rates (1 … 2n, sorted, 0 is none) in a byte each, then
 /// five bits a joint: the power of the cosine, and the sine's on top.
@@ -32,6 +36,9 @@ const MOST_PRODUCTS: usize = 4_000_000;
 
 /// Nor graphs whose products have more together: some seconds.
 const MOST_WORK: usize = 100_000_000;
+
+/// Products of terms that take about a unit of work.
+const TERMS: usize = 16;
 
 /// The outputs written out; `None` if they are too large, or of higher degree
 /// than fits.
@@ -59,10 +66,10 @@ pub(super) fn visit(
     limits: &InputBox,
     show: &mut dyn FnMut(usize, &Polynomial),
 ) -> Option<()> {
-    if limits.joints() > MOST_JOINTS {
+    let live = graph.live();
+    if limits.joints() > MOST_JOINTS || mixes(graph, &live) {
         return None;
     }
-    let live = graph.live();
     let mut last_use = vec![0; graph.nodes.len()];
     for (index, node) in graph.nodes.iter().enumerate() {
         if live[index] {
@@ -87,6 +94,7 @@ pub(super) fn visit(
             Node::Product(a, b) => {
                 let (a, b) = (&values[a.index()], &values[b.index()]);
                 work += a.len() * b.len();
+                work::count(1 + a.len() * b.len() / TERMS);
                 if work > MOST_WORK {
                     return None;
                 }
@@ -111,6 +119,22 @@ pub(super) fn visit(
         }
     }
     Some(())
+}
+
+/// Whether a joint's position is read and its sine or cosine too: both would
+/// have the same place in a key.
+fn mixes(graph: &Graph, live: &[bool]) -> bool {
+    let (mut slides, mut turns) = (0u64, 0u64);
+    for (node, _) in graph.nodes.iter().zip(live).filter(|(_, live)| **live) {
+        match node {
+            Node::Input(Input::Position(joint)) => slides |= 1 << joint,
+            Node::Input(Input::Sin(angle) | Input::Cos(angle)) => {
+                angle.terms().for_each(|(joint, _)| turns |= 1 << joint);
+            }
+            _ => {}
+        }
+    }
+    slides & turns != 0
 }
 
 /// Where a joint's bits are in a key.
@@ -256,4 +280,31 @@ fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Opti
         out.push((split, if negative { -coefficient } else { coefficient }));
     }
     Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::{Builder, Folding};
+    use crate::program::AngleSum;
+
+    /// sin q₁ − q₁ is no polynomial in the sine and cosine of one angle.
+    #[test]
+    fn an_angle_that_is_read_as_a_number_is_not_written_out() {
+        let half_turn = Interval::symmetric(3.2);
+        let limits = InputBox {
+            position: vec![half_turn; 2],
+            velocity: vec![Interval::ZERO; 2],
+            acceleration: vec![Interval::ZERO; 2],
+        };
+        let written = |slides: usize| {
+            let mut builder = Builder::new(Folding::Syntactic);
+            let sine = builder.input(Input::Sin(AngleSum::joint(0)));
+            let position = builder.input(Input::Position(slides));
+            let output = builder.sub(&sine, &position);
+            expand(&builder.finish(&[output]), &limits)
+        };
+        assert_eq!(written(0), None);
+        assert_eq!(written(1).unwrap()[0].len(), 3);
+    }
 }

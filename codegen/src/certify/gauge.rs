@@ -17,8 +17,8 @@ use dalembert_model::number::Exact;
 use super::input_box::InputBox;
 use super::prune::{Settings, appraise};
 use crate::portfolio;
+use crate::program::Program;
 use crate::scene::Setting;
-use crate::schedule::Program;
 use crate::simplify::{Effort, simplify};
 use crate::watch::{Part, Vigil};
 
@@ -50,7 +50,7 @@ pub(super) fn descend(
         settings,
         watch,
     };
-    let tuned = portfolio::tuned(setting, function, effort, watch);
+    let tuned = portfolio::tuned(setting, function, effort, None, &[], watch);
     let mut best: Option<(Gauge<Exact>, Program)> = None;
     let mut price = descent.price(program, LOOKS[1]);
     for round in 0..settings.sweeps {

@@ -5,9 +5,9 @@ use std::fmt;
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
 
-use super::interval::Interval;
+use crate::bound::interval::Interval;
 use crate::function::{Argument, Function};
-use crate::graph::{AngleSum, Input};
+use crate::program::{AngleSum, Input};
 use crate::scene::Setting;
 
 /// Intervals of joint positions, velocities and accelerations, one a joint.
@@ -61,7 +61,7 @@ impl InputBox {
     pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
         InputBox::reading(
             &Setting::whole(robot),
-            Function::InverseDynamics.arguments(),
+            &Function::InverseDynamics.arguments(),
         )
     }
 
@@ -130,6 +130,15 @@ impl InputBox {
             && pairs(&self.acceleration, &other.acceleration)
     }
 
+    /// The ranges of an argument.
+    pub fn of_argument(&self, argument: Argument) -> &[Interval] {
+        match argument {
+            Argument::Position => &self.position,
+            Argument::Velocity => &self.velocity,
+            Argument::Acceleration => &self.acceleration,
+        }
+    }
+
     /// The number of joints.
     pub fn joints(&self) -> usize {
         self.position.len()
@@ -187,7 +196,7 @@ fn position(joint: &Joint) -> Option<Interval> {
 mod tests {
     use super::super::scale;
     use super::*;
-    use crate::schedule::Program;
+    use crate::program::Program;
     use dalembert_model::read::{Options, parse};
 
     /// A limit of zero is not a missing one: at rest for a box, nothing to be

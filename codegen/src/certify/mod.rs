@@ -1,9 +1,8 @@
 //! Certificates: how far emitted code can be from the full model, proved.
 //!
-//! - [`interval`], [`trig`]: doubles rounded outward
+//! - [`trig`]: sines and cosines rounded outward
 //! - [`input_box`]: the states for which a bound holds; [`scale`]: what errors
 //!   are relative to
-//! - [`edits`]: what was left out, and the program of its error
 //! - [`bound`]: the largest magnitude of a program over a box: written out as
 //!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
 //!   and bound over polynomials in the rates ([`form`])
@@ -15,8 +14,10 @@
 //! - [`prune`]: the cheapest edits that a certificate admits; `gauge`: the exact
 //!   program that they leave least of
 //! - [`choose`]: the cheapest variant that a tolerance admits
-//! - [`certificate`]: the claim and its check; [`json`]: its text
+//! - `work`: work counted, for who cannot wait
+//! - [`certificate`]: the claim, its check and its text
 //! - [`sample`], [`attack`]: attempts to refute it
+//! - [`gappa`]: scripts for a second opinion on rounding
 
 pub mod attack;
 pub mod bound;
@@ -24,14 +25,12 @@ pub mod certificate;
 pub mod choose;
 pub mod definite;
 mod distinct;
-pub mod edits;
 mod expand;
 pub mod form;
+pub mod gappa;
 mod gauge;
 mod grid;
 pub mod input_box;
-pub mod interval;
-pub mod json;
 pub mod prune;
 pub mod ranges;
 pub mod sample;
@@ -40,3 +39,4 @@ pub mod sensitivity;
 pub mod sines;
 mod subdivide;
 pub mod trig;
+pub(crate) mod work;

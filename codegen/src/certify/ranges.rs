@@ -6,8 +6,7 @@
 use super::input_box::InputBox;
 use super::sensitivity::{Constants, forward};
 use super::subdivide::sub_boxes;
-use crate::emit::ScalarType;
-use crate::schedule::{Operand, Program};
+use crate::program::{Operand, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
 /// The largest magnitude of each step, and what is wrong with them.

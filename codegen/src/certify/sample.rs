@@ -1,9 +1,9 @@
 //! States that try to break a bound: corners, random states, hill climbing.
 
 use super::input_box::InputBox;
-use super::interval::Interval;
-use crate::simplify::random::Random;
-use crate::verify::states::JointState;
+use crate::bound::interval::Interval;
+use crate::random::Random;
+use crate::states::JointState;
 
 /// A state of the box: each coordinate at an end, in the middle or anywhere.
 /// Errors are largest at the ends of the rates far more often than inside.

@@ -1,27 +1,56 @@
 //! T: what errors are relative to, and how large they may be against it.
 
+use std::fmt;
+
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Limits, Robot};
 use dalembert_model::scene::Tolerance;
 
-use super::attack::{run, text};
 use super::input_box::{InputBox, MissingLimit};
 use super::sample::{climb, draw};
 use super::sensitivity::rounding;
-use crate::emit::ScalarType;
-use crate::function::Quantity;
-use crate::schedule::Program;
-use crate::simplify::random::Random;
-use crate::verify::states::JointState;
-use crate::verify::text::TextError;
+use crate::function::{ErrorScale, Quantity};
+use crate::program::{Program, ScalarType};
+use crate::random::Random;
+use crate::states::JointState;
+
+/// Why there is no T that the actuators give.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoScale {
+    /// A joint without a limit that it needs, or with one of zero.
+    Limit(MissingLimit),
+    /// Torque limits are no measure of such a quantity.
+    Quantity(Quantity),
+}
+
+impl fmt::Display for NoScale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoScale::Limit(missing) => missing.fmt(f),
+            NoScale::Quantity(quantity) => write!(
+                f,
+                "the actuators' limits are no measure of {}: make its errors relative to the range",
+                quantity.symbol()
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoScale {}
+
+impl From<MissingLimit> for NoScale {
+    fn from(missing: MissingLimit) -> NoScale {
+        NoScale::Limit(missing)
+    }
+}
 
 /// The torque limits of the actuators. For an entry of D the inertia, for one
 /// of h_ikm the coefficient, that alone takes the whole limit at the largest
 /// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
 ///
 /// # Errors
-/// A joint without a limit that this needs, or with one of zero.
-pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, MissingLimit> {
+/// [`NoScale`].
+pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
     let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
         let value = robot.joints.get(joint).map(|row| value(&row.limits));
         let value = value.and_then(Option::as_ref).map(f64::nearest_rational);
@@ -30,31 +59,27 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, MissingLim
         above.ok_or(MissingLimit { joint, limit, zero })
     };
     // Down, so that an error relative to it is rounded up.
-    let torque = |joint| Ok(read(joint, "torque", |limits| &limits.torque)?.next_down());
+    let torque = |joint| -> Result<f64, MissingLimit> {
+        Ok(read(joint, "torque", |limits| &limits.torque)?.next_down())
+    };
     let velocity = |joint| read(joint, "velocity", |limits| &limits.velocity);
     let acceleration = |joint| read(joint, "acceleration", |limits| &limits.acceleration);
-    let inertia = |i, k| Ok((torque(i)? / acceleration(k)?).next_down());
+    let inertia =
+        |i, k| -> Result<f64, MissingLimit> { Ok((torque(i)? / acceleration(k)?).next_down()) };
     let rows = &program.rows;
     let mut scales = Vec::new();
     for quantity in program.function.quantities() {
-        for &i in rows {
-            match quantity {
-                Quantity::Torque | Quantity::Coriolis | Quantity::Gravity => {
-                    scales.push(torque(i)?);
+        for index in 0..quantity.len(rows.len()) {
+            let joints: Vec<usize> = quantity.joints(index, rows).collect();
+            scales.push(match (quantity.scale(), joints.as_slice()) {
+                (ErrorScale::Load, &[i]) => torque(i)?,
+                (ErrorScale::Inertia, &[i, k]) => inertia(i, k)?.min(inertia(k, i)?),
+                (ErrorScale::Coefficient, &[i, k, m]) => {
+                    let rates = (velocity(k)? * velocity(m)?).next_up();
+                    (torque(i)? / rates).next_down()
                 }
-                Quantity::Inertia => {
-                    for &k in rows {
-                        let both = [inertia(i, k)?, inertia(k, i)?];
-                        scales.push(both[0].min(both[1]));
-                    }
-                }
-                Quantity::Christoffel => {
-                    for (&k, &m) in rows.iter().flat_map(|k| rows.iter().map(move |m| (k, m))) {
-                        let rates = (velocity(k)? * velocity(m)?).next_up();
-                        scales.push((torque(i)? / rates).next_down());
-                    }
-                }
-            }
+                _ => return Err(NoScale::Quantity(*quantity)),
+            });
         }
     }
     Ok(scales)
@@ -76,8 +101,12 @@ pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let mut all = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(rows.len()) {
-            let joints = quantity.indices(index, rows.len()).map(|at| rows[at]);
-            all.push(joints.map(of).fold(f64::INFINITY, f64::min));
+            all.push(
+                quantity
+                    .joints(index, rows)
+                    .map(of)
+                    .fold(f64::INFINITY, f64::min),
+            );
         }
     }
     all
@@ -86,16 +115,13 @@ pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
 /// A magnitude that each output attains, found by climbing from actual states:
 /// its largest over the box or just below, so an error relative to it is not
 /// understated.
-///
-/// # Errors
-/// The program cannot be printed and read back: a defect of this library.
-pub fn range(program: &Program, limits: &InputBox) -> Result<Vec<f64>, TextError> {
-    let exact = text(program, ScalarType::F64)?;
+pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {
+    let exact = program.lower(ScalarType::F64, |_| None);
     let granted = rounding(program, ScalarType::F64, limits, 64);
     let mut random = Random::new(0x7a46e);
     let mut most = vec![0.0f64; program.outputs.len()];
     for output in 0..most.len() {
-        let mut size = |state: &JointState| run(&exact, ScalarType::F64, state)[output].abs();
+        let mut size = |state: &JointState| exact.run_at(state)[output].abs();
         for _ in 0..12 {
             let from = draw(limits, &mut random);
             let (_, found) = climb(limits, from, 1500, &mut random, &mut size);
@@ -104,5 +130,5 @@ pub fn range(program: &Program, limits: &InputBox) -> Result<Vec<f64>, TextError
         let lost = granted[output].arithmetic + granted[output].sincos;
         most[output] = (most[output] - lost).next_down().max(0.0);
     }
-    Ok(most)
+    most
 }

@@ -10,10 +10,10 @@
 //! operations of 88 less and a twentieth more time.
 
 use super::input_box::InputBox;
-use super::interval::Interval;
 use super::sensitivity::Sensitivity;
-use crate::emit::ScalarType;
-use crate::schedule::{Program, Trig};
+use crate::bound::interval::Interval;
+use crate::program::kernel::Kernel;
+use crate::program::{Program, ScalarType, Trig};
 use crate::sincos::choose::{Candidates, Choice};
 use crate::sincos::proof::Errors;
 use crate::sincos::{self, AngleKernel, Sines, TooAccurate};
@@ -87,7 +87,7 @@ fn uniform(
         angle: trig.angle,
         range: Interval::ALL,
         form: String::new(),
-        kernel: sincos::kernel::Kernel::default(),
+        kernel: Kernel::default(),
         errors: Errors {
             sin: UNIT,
             cos: UNIT,

@@ -1,7 +1,7 @@
 //! A box cut into equal sub-boxes.
 
 use super::input_box::InputBox;
-use crate::schedule::Program;
+use crate::program::Program;
 
 /// Equal sub-boxes, at most `boxes`: the angles that a program reads are halved
 /// joint after joint.

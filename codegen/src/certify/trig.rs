@@ -1,7 +1,8 @@
 //! Sine and cosine of an interval.
 //!
 //! **Assumption** (named in certificates): the `libm` crate's `sin` and `cos`
-//! of a double are within one ulp of the true value. Here two are allowed,
+//! of a double are within one ulp of the true value (`tests/libm_ulps.rs` measures
+//! it). Here two are allowed,
 //! one of them for a value next to a power of two, where an ulp changes.
 //!
 //! **Soundness.** Between its stationary points a sine is monotonic, so over
@@ -9,7 +10,7 @@
 //! interval holds a stationary point. Which of them it may hold is decided
 //! with an enclosure of 1/π, so one is at worst counted where there is none.
 
-use super::interval::Interval;
+use crate::bound::interval::Interval;
 
 /// 1/π lies between this double and the next.
 const INVERSE_PI: f64 = std::f64::consts::FRAC_1_PI;
@@ -61,7 +62,7 @@ fn periodic(x: Interval, function: fn(f64) -> f64, shift: Interval) -> Interval 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simplify::random::Random;
+    use crate::random::Random;
 
     #[test]
     fn contains_every_sample_and_is_not_wide() {

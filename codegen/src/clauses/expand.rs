@@ -6,17 +6,19 @@ use proc_macro2::{Group, Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::LitStr;
 
+use dalembert_model::read::Diagnostic;
 use dalembert_model::robot::{Robot, Severity};
 use dalembert_model::scene::Scene;
 
 use super::errors::Errors;
 use super::invocation::{self, Invocation, RobotSource};
+use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
-use crate::emit::MathPath;
-use crate::generate::{GenerateError, Generated, Prefer, Request, generate};
+use crate::backend::MathPath;
+use crate::generate::in_scene::find;
+use crate::generate::{GenerateError, Generated, Request, generate};
 use crate::plan::{self, Plan};
-use crate::scene;
-use crate::watch::Watch;
+use crate::program::ScalarType;
 
 /// The modules that an invocation asks for, or everything that is wrong with
 /// it next to modules whose functions have no bodies.
@@ -32,14 +34,19 @@ pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
         Some(robot) if errors.is_empty() => functions(robot, &source, &invocation, &mut errors),
         _ => None,
     };
-    let (text, notes) = match generated {
+    let (text, warnings) = match generated {
         Some(generated) => {
-            let notes = [source.notes, generated.warnings].concat();
-            (generated.text, notes)
+            let rounding = generated.warnings.into_iter().map(|text| Warning {
+                at: invocation.place(),
+                text,
+                help: None,
+            });
+            let warnings = source.warnings.into_iter().chain(rounding).collect();
+            (generated.text, warnings)
         }
         None => (stub::write(&invocation, source.joints), Vec::new()),
     };
-    let modules = module::dress(&text, &invocation, &notes).unwrap_or_else(|error| {
+    let modules = module::dress(&text, &invocation, &warnings).unwrap_or_else(|error| {
         let text = format!("the generated text has no tokens: {error}");
         errors.say(&invocation.name, &text, "");
         TokenStream::new()
@@ -54,7 +61,7 @@ struct Source {
     robot: Option<Robot>,
     scenes: Vec<Scene>,
     joints: Option<usize>,
-    notes: Vec<String>,
+    warnings: Vec<Warning>,
     plan: Option<Plan>,
     /// Makes an edit of the robot file, or its plan, expand the macro again.
     watch: TokenStream,
@@ -70,7 +77,7 @@ fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
                 robot: read.robot,
                 scenes: read.scenes,
                 joints: in_range.then_some(read.joints),
-                notes: read.notes,
+                warnings: read.warnings,
                 plan: None,
                 watch: TokenStream::new(),
             }
@@ -99,7 +106,7 @@ fn file(literal: &LitStr, base: &Path, invocation: &Invocation, errors: &mut Err
     match RobotFile::read_as(&path, &shown) {
         Ok(file) => Source {
             joints: Some(file.robot.joints.len()),
-            notes: notes(&file, &shown),
+            warnings: warnings(&file, literal),
             scenes: match written(invocation) {
                 Some((name, body)) => table::beside(&file.source, name, body, errors),
                 None => file.scenes,
@@ -132,15 +139,18 @@ fn path_exists(path: &str) -> bool {
     Path::new(path).is_file()
 }
 
-/// A macro cannot warn: what a reader warns of goes into the documentation.
-fn notes(file: &RobotFile, shown: &str) -> Vec<String> {
-    let warnings = file
-        .notes
-        .iter()
-        .filter(|n| n.severity == Severity::Warning);
-    warnings
-        .map(|note| format!("Warning, {shown}:{}: {}.", note.line, note.message))
-        .collect()
+/// What is odd about the robot in the file, at the file's name: a macro knows
+/// no place in another file.
+fn warnings(file: &RobotFile, literal: &LitStr) -> Vec<Warning> {
+    let shown = literal.value();
+    let odd = file.notes.iter();
+    let odd = odd.filter(|note| note.severity == Severity::Warning);
+    let warning = |note: &Diagnostic| Warning {
+        at: literal.to_token_stream(),
+        text: format!("{shown}:{}: {}", note.line, note.message),
+        help: note.help.clone(),
+    };
+    odd.map(warning).collect()
 }
 
 fn functions(
@@ -149,56 +159,56 @@ fn functions(
     invocation: &Invocation,
     errors: &mut Errors,
 ) -> Option<Generated> {
-    let mut request = Request {
-        functions: invocation.outputs.iter().map(|(f, _)| *f).collect(),
-        scalars: invocation.scalars.clone(),
-        start: invocation.start,
-        effort: invocation.effort,
-        plan: source.plan.clone(),
-        watch: Watch::default(),
-        prefer: Prefer::default(),
-        sincos: invocation.sincos,
-        math: MathPath(module::MATH.into()),
-        module: Some(invocation.name.to_string()),
-        scene: None,
-        any_scalar: false,
-    };
-    if let Some((name, _)) = &invocation.scene {
-        match scene::find(&source.scenes, &name.to_string()) {
-            Ok(scene) => {
-                let [outputs, scalars] = invocation.chose;
-                request = request.in_scene(scene, outputs, scalars);
-            }
+    let scene = match &invocation.scene {
+        Some((name, _)) => match find(&source.scenes, &name.to_string()) {
+            Ok(scene) => Some(scene),
             Err(error) => {
                 errors.say(name, &error.message(), &error.help());
                 return None;
             }
-        }
-    }
+        },
+        None => None,
+    };
+    let outputs = invocation.outputs.as_ref();
+    let outputs = outputs.map(|chosen| chosen.iter().map(|(f, _)| *f).collect());
+    let request = Request {
+        scalars: vec![ScalarType::F64],
+        start: invocation.start,
+        effort: invocation.effort,
+        prefer: invocation.prefer,
+        plan: source.plan.clone(),
+        sincos: invocation.sincos,
+        math: MathPath(module::MATH.into()),
+        module: Some(invocation.name.to_string()),
+        work: Request::work_while_compiling(invocation.effort),
+        ..Request::default()
+    };
+    let request = request.choose(outputs, invocation.scalars.clone(), scene);
     generate(robot, &request)
         .map_err(|error| {
             let function = match &error {
                 GenerateError::Empty
+                | GenerateError::Contents
+                | GenerateError::Unexplained(_)
                 | GenerateError::StalePlan { .. }
                 | GenerateError::StaleScene { .. }
                 | GenerateError::Scene(_) => None,
                 GenerateError::Constant { function, .. }
+                | GenerateError::Contradicted { function, .. }
                 | GenerateError::TooLarge { function, .. }
                 | GenerateError::SinCos(function, _)
                 | GenerateError::Disproved(function, _)
                 | GenerateError::Tolerance(function, _)
                 | GenerateError::Variant(function, _)
-                | GenerateError::Text(function, ..) => Some(*function),
+                | GenerateError::Text(function, ..)
+                | GenerateError::Vanishing(function, _) => Some(*function),
             };
-            let asked = invocation.outputs.iter();
+            let asked = invocation.outputs.iter().flatten();
             let at = asked
                 .filter(|(output, _)| Some(*output) == function)
                 .map(|(_, tokens)| tokens.clone())
                 .next();
-            let at = at.unwrap_or_else(|| match &invocation.robot {
-                RobotSource::File(path) => path.to_token_stream(),
-                RobotSource::Table(_) => invocation.name.to_token_stream(),
-            });
+            let at = at.unwrap_or_else(|| invocation.place());
             errors.say(at, &error.to_string(), "");
         })
         .ok()

@@ -12,9 +12,10 @@ use super::errors::Errors;
 use super::messages as m;
 use super::statement::{self, Pair, pairs, trees};
 use super::words::{self, Word};
-use crate::emit::ScalarType;
 use crate::function::Function;
-use crate::generate::Start;
+use crate::generate::Prefer;
+use crate::portfolio::Start;
+use crate::program::ScalarType;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
@@ -26,17 +27,16 @@ pub(super) struct Invocation {
     pub(super) name: Ident,
     pub(super) robot: RobotSource,
     /// With the tokens that asked for them; after an error those that were
-    /// probably meant.
-    pub(super) outputs: Vec<(Function, TokenStream)>,
-    pub(super) scalars: Vec<ScalarType>,
+    /// probably meant. The scene's if none were chosen.
+    pub(super) outputs: Option<Vec<(Function, TokenStream)>>,
+    pub(super) scalars: Option<Vec<ScalarType>>,
     pub(super) start: Start,
     pub(super) effort: Effort,
+    pub(super) prefer: Prefer,
     /// The error of polynomials stands in it once all clauses are read.
     pub(super) sincos: SinCos,
     /// The scene's name, and what it is if that stands here.
     pub(super) scene: Option<(Ident, Option<Group>)>,
-    /// Whether outputs and scalars were chosen: else they are the scene's.
-    pub(super) chose: [bool; 2],
     /// The path of the facade crate.
     pub(super) facade: TokenStream,
 }
@@ -48,11 +48,12 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 8] = [
+const CLAUSES: [&str; 9] = [
     "outputs",
     "scalar",
     "formulation",
     "effort",
+    "prefer",
     "sincos",
     "sincos_error",
     "scene",
@@ -79,13 +80,13 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         visibility,
         name,
         robot,
-        outputs: Vec::new(),
-        scalars: Vec::new(),
+        outputs: None,
+        scalars: None,
         start: Start::Auto,
         effort: Effort::Quick,
+        prefer: Prefer::Accuracy,
         sincos: SinCos::Auto,
         scene: None,
-        chose: [false; 2],
         facade: quote!(::dalembert),
     };
     let mut error = None;
@@ -94,8 +95,6 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         if key == Some("sincos_error") && !pair.value.is_empty() {
             error = sincos_error(&pair.value, errors).map(|value| (pair.key.clone(), value));
         }
-        invocation.chose[0] |= key == Some("outputs");
-        invocation.chose[1] |= key == Some("scalar");
         invocation.clause(key, &pair.value, errors);
     }
     match (&mut invocation.sincos, error) {
@@ -103,16 +102,8 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         (_, Some((key, _))) => errors.push(key, &m::NO_POLYNOMIALS),
         (_, None) => {}
     }
-    if !invocation.chose[0] && invocation.scene.is_none() {
+    if invocation.outputs.is_none() && invocation.scene.is_none() {
         errors.push(&invocation.name, &m::NO_OUTPUTS);
-    }
-    if invocation.outputs.is_empty() {
-        // For the stub: whatever the caller calls is there.
-        let all = Function::ALL.map(|f| (f, invocation.name.to_token_stream()));
-        invocation.outputs = all.to_vec();
-    }
-    if invocation.scalars.is_empty() {
-        invocation.scalars = vec![ScalarType::F64];
     }
     Some(invocation)
 }
@@ -170,28 +161,39 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
 }
 
 impl Invocation {
+    /// Where to report what is about the robot as a whole.
+    pub(super) fn place(&self) -> TokenStream {
+        match &self.robot {
+            RobotSource::File(path) => path.to_token_stream(),
+            RobotSource::Table(_) => self.name.to_token_stream(),
+        }
+    }
+
     fn clause(&mut self, key: Option<&str>, value: &[TokenTree], errors: &mut Errors) {
         match key {
             Some("outputs") => {
+                let chosen = self.outputs.get_or_insert_default();
                 for (output, at) in words::<Function>(value, errors) {
-                    if self.outputs.iter().any(|(earlier, _)| *earlier == output) {
+                    if chosen.iter().any(|(earlier, _)| *earlier == output) {
                         errors.twice(&at);
                     } else {
-                        self.outputs.push((output, at));
+                        chosen.push((output, at));
                     }
                 }
             }
             Some("scalar") => {
+                let chosen = self.scalars.get_or_insert_default();
                 for (scalar, at) in words::<ScalarType>(value, errors) {
-                    if self.scalars.contains(&scalar) {
+                    if chosen.contains(&scalar) {
                         errors.twice(&at);
                     } else {
-                        self.scalars.push(scalar);
+                        chosen.push(scalar);
                     }
                 }
             }
             Some("formulation") => self.start = word(value, errors).unwrap_or(self.start),
             Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
+            Some("prefer") => self.prefer = word(value, errors).unwrap_or(self.prefer),
             Some("sincos") => self.sincos = word(value, errors).unwrap_or(self.sincos),
             Some("scene") => match value {
                 [TokenTree::Ident(name)] => self.scene = Some((name.clone(), None)),
@@ -231,10 +233,20 @@ fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
     meant
 }
 
-/// Words with commas between; an unknown one counts as the one that was
-/// probably meant, so that its users are not told that it is missing.
+/// Words with commas between, in brackets as a scene has them or without; an
+/// unknown one counts as the one that was probably meant, so that its users are
+/// not told that it is missing.
 fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
     let mut read = Vec::new();
+    let list = match value {
+        [tree] => statement::group(tree, Delimiter::Bracket),
+        _ => None,
+    };
+    let inner = list.map(|list| trees(list.stream()));
+    if let (Some(list), Some([])) = (list, inner.as_deref()) {
+        errors.push(list, &m::NO_VALUE);
+    }
+    let value = inner.as_deref().unwrap_or(value);
     for item in statement::items(value) {
         let at: TokenStream = item.iter().cloned().collect();
         match item {

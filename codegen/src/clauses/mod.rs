@@ -1,12 +1,13 @@
 //! What users ask for, in whichever way they ask: the words of a request,
 //! the robot file, and `dynamics!` as a whole.
 //!
-//! - [`words`]: outputs, scalars, formulations, efforts and sources of sines by name
+//! - [`words`]: outputs, scalars, formulations, efforts, preferences, sources of sines
 //! - [`robot_file`]: a robot file from a path, with errors fit to show
 //! - [`expand`]: the tokens of `dynamics!` to the tokens of its modules, by
 //!   way of `invocation` (the grammar), `table` (a robot written in the
 //!   macro), `module` (the generated text as tokens) and `stub` (what stands
 //!   there instead after an error)
+//! - `warnings`: what is odd about a robot, as warnings of the compiler
 //! - `messages`, `errors`: what can be wrong with an invocation, and the list
 //!   of what is
 //!
@@ -21,6 +22,7 @@ pub mod robot_file;
 mod statement;
 mod stub;
 mod table;
+mod warnings;
 pub mod words;
 
 pub use expand::expand;

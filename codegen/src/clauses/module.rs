@@ -9,16 +9,18 @@ use quote::{ToTokens, quote};
 use syn::Attribute;
 
 use super::invocation::Invocation;
+use super::warnings::{self, Warning};
 
 /// Where the bodies find sine and cosine: an import of the module, so that a
 /// wrong path to the facade is one error and not one a call.
 pub(super) const MATH: &str = "__math";
 
-/// Dresses every module of the text; `notes` end its documentation.
+/// Dresses every module of the text; the warnings end its documentation, and
+/// the compiler gives those of the first module.
 pub(super) fn dress(
     text: &str,
     invocation: &Invocation,
-    notes: &[String],
+    warnings: &[Warning],
 ) -> Result<TokenStream, LexError> {
     let Invocation {
         attributes,
@@ -33,10 +35,11 @@ pub(super) fn dress(
     };
     let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
     let gap = attributes.iter().any(is_doc).then(|| quote!(#[doc = ""]));
+    let notes = warnings.iter().map(Warning::documentation);
     let notes: TokenStream = notes
-        .iter()
         .map(|note| quote!(#[doc = ""] #[doc = #note]))
         .collect();
+    let mut warnings = warnings::tokens(warnings);
 
     let mut tokens = TokenStream::new();
     let mut start = true;
@@ -46,16 +49,16 @@ pub(super) fn dress(
             start = false;
         }
         match tree {
-            // Not every caller calls all of it.
             TokenTree::Ident(word) if word == "pub" => {
-                tokens.extend(quote!(#notes #[allow(dead_code)] #visibility));
+                tokens.extend(quote!(#notes #visibility));
             }
             TokenTree::Ident(word) if word != "mod" => {
                 name(&word, invocation).to_tokens(&mut tokens);
             }
             TokenTree::Group(body) if body.delimiter() == Delimiter::Brace => {
                 let inner = body.stream();
-                let whole = Group::new(Delimiter::Brace, quote!(#import #inner));
+                let warnings = std::mem::take(&mut warnings);
+                let whole = Group::new(Delimiter::Brace, quote!(#import #warnings #inner));
                 whole.to_tokens(&mut tokens);
                 start = true;
             }

@@ -3,22 +3,39 @@
 
 use std::fmt::Write;
 
+use dalembert_model::outputs::Axis;
+
 use super::invocation::Invocation;
-use crate::emit::{ScalarType, module};
+use crate::emit::module;
 use crate::function::{Function, Quantity};
+use crate::program::ScalarType;
 
 /// The modules' text. Without a number of joints the functions take arrays
 /// of any length.
 pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
     let mut text = String::new();
-    for &scalar in &invocation.scalars {
+    let chosen = invocation.outputs.iter().flatten().map(|(f, _)| *f);
+    let chosen: Vec<Function> = chosen.collect();
+    let functions = match chosen.as_slice() {
+        // Whatever the caller calls is there.
+        [] => Function::ALL.as_slice(),
+        chosen => chosen,
+    };
+    let scalars = match invocation.scalars.as_deref() {
+        None | Some([]) => &[ScalarType::F64],
+        Some(chosen) => chosen,
+    };
+    for &scalar in scalars {
         let base = invocation.name.to_string();
-        let name = module::name(&base, scalar, &invocation.scalars);
+        let name = module::name(&base, scalar, scalars);
         let count = joints.unwrap_or(1);
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "pub mod {name} {{\npub const N: usize = {count};");
-        for (function, _) in &invocation.outputs {
-            text += &self::function(*function, joints, scalar);
+        let _ = writeln!(
+            text,
+            "#[allow(dead_code)]\npub mod {name} {{\npub const N: usize = {count};"
+        );
+        for &function in functions {
+            text += &self::function(function, joints, scalar);
         }
         text += "}\n";
     }
@@ -31,8 +48,10 @@ fn function(function: Function, joints: Option<usize>, scalar: ScalarType) -> St
         None => ("L".to_owned(), "<const L: usize>", "<L>"),
     };
     let array = |quantity: Quantity| {
-        (0..quantity.rank()).fold(scalar.to_string(), |inner, _| {
-            format!("[{inner}; {length}]")
+        let axes = quantity.shape().0.iter().rev();
+        axes.fold(scalar.to_string(), |inner, axis| match axis {
+            Axis::Joints => format!("[{inner}; {length}]"),
+            Axis::Fixed(length) => format!("[{inner}; {length}]"),
         })
     };
     let arguments: Vec<String> = function

@@ -14,12 +14,13 @@ use syn::Lit;
 use dalembert_model::number::Angle;
 use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
 use dalembert_model::read::{self, Diagnostic, Options};
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{Robot, Severity};
 use dalembert_model::scene::Scene;
 
 use super::errors::Errors;
 use super::messages as m;
 use super::statement::{self, Pair, group, pairs, trees};
+use super::warnings::Warning;
 
 /// A robot and what is worth knowing about it; or as much as its callers need
 /// to go on after an error.
@@ -27,7 +28,7 @@ pub(super) struct Read {
     pub(super) robot: Option<Robot>,
     pub(super) scenes: Vec<Scene>,
     pub(super) joints: usize,
-    pub(super) notes: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// Reads the block behind the module's name, and the scene of the clause.
@@ -68,8 +69,11 @@ pub(super) fn read(
         Ok(reading) => (Some(reading.robot), reading.scenes, reading.notes),
         Err(diagnostics) => (None, Vec::new(), diagnostics.0),
     };
-    let notes = match robot {
-        Some(_) => found.iter().map(|d| reword(&d.message)).collect(),
+    let warnings = match robot {
+        Some(_) => {
+            let odd = found.iter().filter(|d| d.severity == Severity::Warning);
+            odd.map(|found| file.warning(found, name)).collect()
+        }
         None => {
             for diagnostic in &found {
                 file.report(diagnostic, name, errors);
@@ -81,7 +85,7 @@ pub(super) fn read(
         robot,
         scenes,
         joints: joints.len(),
-        notes,
+        warnings,
     }
 }
 
@@ -353,13 +357,26 @@ impl File {
         if self.spoiled.iter().any(|range| range.contains(&at)) {
             return;
         }
+        let help = found.help.as_deref().map(reword).unwrap_or_default();
+        errors.say(self.tokens(found, name), &reword(&found.message), &help);
+    }
+
+    /// What is odd, at the innermost tokens that it is about.
+    fn warning(&self, found: &Diagnostic, name: &Ident) -> Warning {
+        Warning {
+            at: self.tokens(found, name),
+            text: reword(&found.message),
+            help: found.help.as_deref().map(reword),
+        }
+    }
+
+    fn tokens(&self, found: &Diagnostic, name: &Ident) -> TokenStream {
+        let at = found.span.start;
         let around = self.marks.iter().filter(|(range, _)| range.contains(&at));
-        let tokens = match around.min_by_key(|(range, _)| range.len()) {
+        match around.min_by_key(|(range, _)| range.len()) {
             Some((_, tokens)) => tokens.clone(),
             None => name.to_token_stream(),
-        };
-        let help = found.help.as_deref().map(reword).unwrap_or_default();
-        errors.say(tokens, &reword(&found.message), &help);
+        }
     }
 }
 

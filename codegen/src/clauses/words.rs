@@ -1,12 +1,14 @@
-//! Outputs, scalars, formulations, efforts and sources of sines by name.
+//! Outputs, scalars, formulations, efforts, preferences and sources of sines by
+//! name.
 
 use std::fmt;
 
 use dalembert_model::read::closest;
 
-use crate::emit::ScalarType;
 use crate::function::Function;
-use crate::generate::Start;
+use crate::generate::Prefer;
+use crate::portfolio::Start;
+use crate::program::ScalarType;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
@@ -40,6 +42,14 @@ impl Word for Effort {
 
     fn all() -> Vec<(&'static str, Self)> {
         Effort::ALL.map(|e| (e.name(), e)).to_vec()
+    }
+}
+
+impl Word for Prefer {
+    const WHAT: &'static str = "preference";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        Prefer::ALL.map(|p| (p.name(), p)).to_vec()
     }
 }
 
@@ -138,6 +148,7 @@ mod tests {
         check::<Function>();
         check::<ScalarType>();
         check::<Effort>();
+        check::<Prefer>();
         check::<Start>();
         check::<SinCos>();
         assert_eq!(SinCos::all().len(), SinCos::NAMES.len());

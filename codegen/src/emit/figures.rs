@@ -44,15 +44,29 @@ fn plain(x: f64) -> String {
 }
 
 /// Five digits, not below: an error relative to it stays a bound.
-pub(super) fn at_least(x: f64) -> String {
+pub fn at_least(x: f64) -> String {
     plain(rounded(x, 5, Side::Above))
 }
 
+/// A decimal as the robot file would have it; a fraction if it is none.
+pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
+    dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
+}
+
 /// Three digits, not below: what is read off is a bound too.
-pub(super) fn bound(x: f64) -> String {
+pub fn bound(x: f64) -> String {
+    bound_of(x, 3)
+}
+
+/// So many digits, not below.
+pub fn bound_of(x: f64, digits: usize) -> String {
     match x == 0.0 || !x.is_finite() {
         true => format!("{x}"),
-        false => format!("{:.2e}", rounded(x, 3, Side::Above)),
+        false => format!(
+            "{:.*e}",
+            digits.saturating_sub(1),
+            rounded(x, digits, Side::Above)
+        ),
     }
 }
 
@@ -67,7 +81,7 @@ pub fn inside(low: f64, high: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simplify::random::Random;
+    use crate::random::Random;
     use std::f64::consts::{FRAC_PI_2, PI};
 
     /// What is printed, read again, is where it must be, and near.

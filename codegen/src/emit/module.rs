@@ -4,9 +4,14 @@ use std::fmt::Write;
 
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
+use super::escape::escaped;
+use super::figures::decimal;
 use super::scene::describe;
-use super::{MathPath, ScalarType, function, sines, variant};
-use crate::generate::GeneratedFunction;
+use super::state_box::StateBox;
+use super::{sines, variant};
+use crate::backend::{MathPath, function};
+use crate::emit::GeneratedFunction;
+use crate::program::ScalarType;
 use crate::scene::Setting;
 
 /// How a robot's modules are printed.
@@ -18,7 +23,25 @@ pub struct ModuleOptions<'a> {
     pub math: &'a MathPath,
     /// The name of the f64 module.
     pub name: &'a str,
+    /// Whether modules stand around the functions.
+    pub layout: Layout,
 }
+
+/// What a generated file holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Layout {
+    /// A module for each scalar, for `include!` or a `pub use`.
+    #[default]
+    Modules,
+    /// What would stand inside the one module, for a file that the user takes
+    /// by `mod NAME;`: the file is the module.
+    Contents,
+}
+
+/// What generated code must not be told: that not every function is called or
+/// seen from outside, that literals carry all the digits they need, that names
+/// are the equations', that a flat function is as long as it is.
+const ALLOWED: &str = "dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery";
 
 /// The name of one scalar's module: `puma560`, `puma560_f32`. A module that
 /// was asked for alone keeps the plain name.
@@ -29,7 +52,7 @@ pub fn name(base: &str, scalar: ScalarType, all: &[ScalarType]) -> String {
     }
 }
 
-/// The part of a generated file that is one module.
+/// The part of a generated file that is one module, where it has modules.
 pub fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
     let head = format!("pub mod {module} {{\n");
     let start = text.find(&head)? + head.len();
@@ -67,15 +90,27 @@ fn module(
 ) -> String {
     let n = robot.joints.len();
     let mut text = String::new();
+    let mark = match options.layout {
+        Layout::Modules => "///",
+        Layout::Contents => "//!",
+    };
     for line in header(robot, setting, functions, scalar) {
         let space = if line.is_empty() { "" } else { " " };
-        let _ = writeln!(text, "///{space}{line}");
+        let _ = writeln!(text, "{mark}{space}{line}");
     }
-    // Literals carry all the digits they need, names are the equations', and
-    // a flat function is as long as it is.
-    text.push_str("#[allow(clippy::all, clippy::pedantic, clippy::nursery)]\n");
-    let name = name(options.name, scalar, options.scalars);
-    let _ = writeln!(text, "pub mod {name} {{");
+    // One operation a line, whatever the formatter of the user's crate thinks.
+    // Only this way of telling it so is stable as an inner attribute.
+    let _ = match options.layout {
+        Layout::Modules => writeln!(
+            text,
+            "#[rustfmt::skip]\n#[allow({ALLOWED})]\npub mod {} {{",
+            name(options.name, scalar, options.scalars)
+        ),
+        Layout::Contents => writeln!(
+            text,
+            "#![cfg_attr(rustfmt, rustfmt_skip)]\n#![allow({ALLOWED})]\n"
+        ),
+    };
     let _ = writeln!(text, "/// The number of joints.\npub const N: usize = {n};");
     let rows = setting.rows();
     if setting.scene().is_some() {
@@ -85,6 +120,9 @@ fn module(
              pub const JOINTS: [usize; {}] = {rows:?};",
             rows.len()
         );
+    }
+    if let Some(state_box) = StateBox::of(functions, setting, scalar) {
+        state_box.write(&mut text, scalar);
     }
     for generated in functions {
         text.push('\n');
@@ -101,7 +139,9 @@ fn module(
             &doc,
         ));
     }
-    text.push_str("}\n");
+    if options.layout == Layout::Modules {
+        text.push_str("}\n");
+    }
     text
 }
 
@@ -135,7 +175,7 @@ fn header(
     ];
     for (index, joint) in robot.joints.iter().enumerate() {
         let label = match &joint.name {
-            Some(name) => format!("{} {name}", index + 1),
+            Some(name) => format!("{} {}", index + 1, escaped(name)),
             None => (index + 1).to_string(),
         };
         let q = format!("q{}", index + 1);
@@ -183,16 +223,21 @@ fn header(
     let proved = match functions.iter().any(|function| function.admitted.is_some()) {
         false => [
             "Every function was proved before it was printed: with exact constants it equals",
-            "the equations of motion at random points of a prime field, and this text, read",
+            "the equations of motion at random points modulo random primes, and this text, read",
             "back, is the proved program with each constant rounded once.",
         ],
         true => [
             "Every function was proved before anything was left out of it: with exact",
-            "constants it equals the equations of motion at random points of a prime field.",
+            "constants it equals the equations of motion at random points modulo random primes.",
             "What was left out, within the scene's tolerance, each function says.",
         ],
     };
     lines.extend(proved.map(String::from));
+    let drawn = [
+        "Primes and points follow from the SHA-256 of robot, scene and program, so that nobody",
+        "can choose them. The chance of a miss is that of one attempt to be lucky.",
+    ];
+    lines.extend(drawn.map(String::from));
     lines
 }
 
@@ -218,9 +263,4 @@ fn function_doc(
         lines.extend(variant::describe(admitted, setting, scalar));
     }
     lines
-}
-
-/// A decimal as the robot file would have it; a fraction if it is none.
-pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
-    dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }

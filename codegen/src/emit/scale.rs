@@ -1,11 +1,11 @@
 //! What T is, in the words of a function's documentation: a sentence a kind of
 //! output, and the unit of each.
 
-use dalembert_model::robot::{JointKind, Robot};
+use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
-use crate::function::Quantity;
-use crate::schedule::Program;
+use crate::function::{ErrorScale, Quantity};
+use crate::program::Program;
 
 /// A line or two for each kind of output that the function has.
 pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> Vec<String> {
@@ -21,13 +21,9 @@ pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> 
 }
 
 fn actuators(quantities: &[Quantity]) -> Vec<String> {
-    let has = |quantity: Quantity| quantities.contains(&quantity);
-    let loads = [Quantity::Torque, Quantity::Coriolis, Quantity::Gravity];
-    let loads: Vec<&str> = loads
-        .into_iter()
-        .filter(|quantity| has(*quantity))
-        .map(Quantity::symbol)
-        .collect();
+    let has = |scale| quantities.iter().any(|quantity| quantity.scale() == scale);
+    let loads = quantities.iter().filter(|q| q.scale() == ErrorScale::Load);
+    let loads: Vec<&str> = loads.map(|quantity| quantity.symbol()).collect();
     let mut lines = Vec::new();
     if !loads.is_empty() {
         let of = loads.join(" and of ");
@@ -35,14 +31,14 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
             "T of {of} is T_i, the torque limit of the joint's actuator."
         ));
     }
-    if has(Quantity::Inertia) {
+    if has(ErrorScale::Inertia) {
         lines.push(
             "T of D_ik is min(T_i/q̈_k, T_k/q̈_i): the inertia that by itself takes the torque"
                 .into(),
         );
         lines.push("limit T_i of an actuator at the largest acceleration q̈_k of the box.".into());
     }
-    if has(Quantity::Christoffel) {
+    if has(ErrorScale::Coefficient) {
         lines.push(
             "T of h_ikm is T_i/(q̇_k q̇_m): the coefficient that by itself takes the torque limit"
                 .into(),
@@ -55,35 +51,12 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
 /// The unit of each output.
 pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
     let rows = &program.rows;
-    // A force over an axis is a torque: one metre more.
-    let turns = |joint: usize| {
-        let joint = robot.joints.get(joint);
-        i32::from(joint.is_some_and(|joint| joint.kind == JointKind::Revolute))
-    };
     let mut units = Vec::new();
     for quantity in program.function.quantities() {
-        for index in 0..quantity.len(rows.len()) {
-            let joints = quantity.indices(index, rows.len()).map(|at| rows[at]);
-            let metres: i32 = joints.map(turns).sum();
-            units.push(match (quantity, metres) {
-                (Quantity::Torque | Quantity::Coriolis | Quantity::Gravity, 0) => "N",
-                (Quantity::Torque | Quantity::Coriolis | Quantity::Gravity, _) => "N·m",
-                (Quantity::Inertia, metres) => kilograms(metres),
-                // Twice per metre where both rates are of length, the force once.
-                (Quantity::Christoffel, metres) => kilograms(metres - 1),
-            });
-        }
+        let entries = 0..quantity.len(rows.len());
+        units.extend(entries.map(|index| quantity.unit(index, rows, robot)));
     }
     units
-}
-
-fn kilograms(metres: i32) -> &'static str {
-    match metres {
-        ..0 => "kg/m",
-        0 => "kg",
-        1 => "kg·m",
-        _ => "kg·m²",
-    }
 }
 
 #[cfg(test)]
@@ -107,7 +80,7 @@ mod tests {
             function,
             joints: 2,
             rows: vec![0, 1],
-            arguments: function.arguments().to_vec(),
+            arguments: function.arguments(),
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),

@@ -3,7 +3,7 @@
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::Scene;
 
-use super::module::decimal;
+use crate::emit::figures::decimal;
 
 /// A line each.
 pub(super) fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {

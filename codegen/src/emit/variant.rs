@@ -1,12 +1,15 @@
 //! What a tolerance left of a function, in the words of its documentation.
 
+use std::cmp::Reverse;
+
 use super::figures::{at_least, bound as up, inside};
-use super::{ScalarType, scale};
-use crate::certify::certificate::{Certificate, Split};
+use super::scale;
+use crate::bound::Split;
+use crate::bound::interval::Interval;
+use crate::certify::certificate::Certificate;
 use crate::certify::choose::Admitted;
-use crate::certify::interval::Interval;
-use crate::certify::prune::omissions;
-use crate::function::Argument;
+use crate::certify::prune::{Omission, omissions};
+use crate::program::ScalarType;
 use crate::scene::Setting;
 
 /// A line each: the certificate, the box, what was left out.
@@ -20,7 +23,7 @@ pub(super) fn describe(admitted: &Admitted, setting: &Setting, scalar: ScalarTyp
         "Certified: inside the box, |this code - the full model| ≤ E·T, of which each cause has"
             .into(),
     );
-    lines.push("its part.".into());
+    lines.push("its part. Ask [`in_box`] whether a state is inside.".into());
     let quantities = certificate.emitted.function.quantities();
     lines.extend(scale::sentences(certificate.relative_to, quantities));
     lines.push(String::new());
@@ -32,18 +35,37 @@ pub(super) fn describe(admitted: &Admitted, setting: &Setting, scalar: ScalarTyp
     if left_out.is_empty() {
         lines.push("Nothing was left out.".into());
     } else {
-        lines.push("Left out, and the operations that each would bring back:".into());
-        lines.push(String::new());
-        lines.extend(
-            left_out
-                .iter()
-                .map(|omission| format!("- `{}`: {}", omission.words, saved(omission))),
-        );
+        lines.extend(omitted(left_out));
     }
     lines
 }
 
-fn saved(omission: &crate::certify::prune::Omission) -> String {
+/// How many omissions a function's documentation lists.
+const MAX_LISTED: usize = 3;
+
+/// How much was left out, and the omissions that save most.
+fn omitted(mut left_out: Vec<Omission>) -> Vec<String> {
+    let count = left_out.len();
+    // Stable: of equal ones the first.
+    left_out.sort_by_key(|omission| Reverse((omission.sincos, omission.operations)));
+    left_out.truncate(MAX_LISTED);
+    let mut lines = vec![
+        match count {
+            1 => "Left out, and the operations that it would bring back:".to_owned(),
+            2..=MAX_LISTED => "Left out, and the operations that each would bring back:".to_owned(),
+            _ => format!(
+                "Left out: {count} values, all of them in the certificate. The {MAX_LISTED} that save \
+                 most, and the operations that each would bring back:"
+            ),
+        },
+        String::new(),
+    ];
+    let listed = left_out.iter();
+    lines.extend(listed.map(|omission| format!("- `{}`: {}", omission.words, saved(omission))));
+    lines
+}
+
+fn saved(omission: &Omission) -> String {
     match omission.sincos {
         0 => omission.operations.to_string(),
         1 => format!("{} and a sine/cosine pair", omission.operations),
@@ -84,11 +106,7 @@ fn states(certificate: &Certificate, setting: &Setting) -> Vec<String> {
         .emitted
         .arguments
         .iter()
-        .map(|argument| match argument {
-            Argument::Position => ("q", limits.position.as_slice()),
-            Argument::Velocity => ("q̇", limits.velocity.as_slice()),
-            Argument::Acceleration => ("q̈", limits.acceleration.as_slice()),
-        })
+        .map(|&argument| (argument.symbol(), limits.of_argument(argument)))
         .collect();
     let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
     let mut lines = vec![

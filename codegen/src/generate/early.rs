@@ -4,9 +4,8 @@
 //! cheaper program stays, and an early end is never worse than no patience.
 
 use super::{GeneratedFunction, Request, all};
-use crate::emit::ScalarType;
+use crate::program::{Operation, Program, ScalarType};
 use crate::scene::Setting;
-use crate::schedule::{Operation, Program};
 use crate::simplify::{CostModel, Effort};
 use crate::watch::Watch;
 

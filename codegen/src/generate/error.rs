@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::certify::certificate::Refuted;
 use crate::certify::choose::Refusal;
-use crate::emit::ScalarType;
 use crate::function::Function;
+use crate::program::ScalarType;
 use crate::scene::SettingError;
 use crate::verify::exact::Disproof;
 
@@ -14,6 +14,11 @@ use crate::verify::exact::Disproof;
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,
+    /// More than one scalar was asked for where the text is to be the contents
+    /// of one module.
+    Contents,
+    /// There is nothing to explain of a function that regrouping does not reach.
+    Unexplained(Function),
     /// The plan is for another robot, or for this one before an edit.
     StalePlan {
         /// The robot that the plan names.
@@ -45,11 +50,24 @@ pub enum GenerateError {
         /// How many numbers it returns.
         outputs: usize,
     },
-    /// The program is not the formula: a defect of this library, or a
-    /// parameter that cannot be proved with.
+    /// The program is not the formula: a defect of this library, a plan's
+    /// program of something else, or parameters that cannot be proved with.
     Disproved(Function, Disproof),
+    /// The program is not the formula, because the search took a constant for
+    /// zero that is none.
+    Vanishing(Function, String),
     /// The printed text is not the program: a defect of this library.
     Text(Function, ScalarType, String),
+    /// The code was proved, and is wrong all the same at a state where it was
+    /// run: a defect of this library, or a proof that was aimed at.
+    Contradicted {
+        /// Which function.
+        function: Function,
+        /// Its scalar.
+        scalar: ScalarType,
+        /// What was seen.
+        why: String,
+    },
     /// No variant meets the scene's tolerance.
     Tolerance(Function, Refusal),
     /// The plan's variant is none of the plan's program.
@@ -60,16 +78,25 @@ impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
+            GenerateError::Contents => f.write_str(
+                "a file without modules has one scalar: choose f64 or f32, and write a file for each",
+            ),
+            GenerateError::Unexplained(function) => write!(
+                f,
+                "`{function}` has no steps to explain: none of its results comes from regrouped \
+                 parameters; `count` gives its operations"
+            ),
             GenerateError::StalePlan { robot } => write!(
                 f,
-                "the plan of `{robot}` no longer fits the robot: its parameters or limits changed; \
-                 make it anew with `dalembert generate --effort thorough --save-plan`, or delete it"
+                "the plan beside the robot file no longer fits `{robot}`: a parameter, a limit or a \
+                 name was changed since; make it anew with `dalembert generate ROBOT --save-plan` \
+                 and the effort that it was made with, or delete it"
             ),
             GenerateError::StaleScene { scene } => write!(
                 f,
                 "the plan no longer fits the scene `{scene}`: the scene was edited, the robot was \
-                 not; make its program anew with `dalembert generate --scene {scene} --effort \
-                 thorough --save-plan`, or delete the plan"
+                 not; make its program anew with `dalembert generate ROBOT --scene {scene} \
+                 --save-plan` and the effort that it was made with, or delete the plan"
             ),
             GenerateError::Scene(error) => error.fmt(f),
             GenerateError::Constant {
@@ -79,7 +106,11 @@ impl fmt::Display for GenerateError {
             } => write!(
                 f,
                 "`{function}` needs the constant {value}, which {scalar} cannot hold: \
-                 choose other units or a wider scalar"
+                 choose other units{}",
+                match scalar {
+                    ScalarType::F32 => " or a wider scalar",
+                    ScalarType::F64 => "",
+                }
             ),
             GenerateError::SinCos(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::TooLarge { function, outputs } => write!(
@@ -88,9 +119,22 @@ impl fmt::Display for GenerateError {
                  `inertia`, `coriolis` or `gravity` instead"
             ),
             GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
+            GenerateError::Vanishing(function, value) => write!(
+                f,
+                "`{function}`: the constant {value} is divisible by 2^61 - 1, modulo which the \
+                 search tells values apart: change its last digit"
+            ),
             GenerateError::Text(function, scalar, why) => {
                 write!(f, "`{function}` in {scalar}: {why}")
             }
+            GenerateError::Contradicted {
+                function,
+                scalar,
+                why,
+            } => write!(
+                f,
+                "`{function}` in {scalar} was proved, but not when it was run: {why}"
+            ),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
                 write!(f, "the plan's variant of `{function}`: {why}")

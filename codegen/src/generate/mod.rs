@@ -4,80 +4,42 @@
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`early`]: a search that was ended early, and what programs are compared by
+//! - `contradiction`: what was proved, tried
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated
 
+mod contradiction;
 pub mod early;
 pub mod error;
+pub mod in_scene;
 mod range;
 pub mod request;
-pub(crate) mod search;
-pub mod start;
-pub(crate) mod tolerate;
+#[doc(hidden)]
+pub mod search;
+#[doc(hidden)]
+pub mod tolerate;
 
 use dalembert_model::robot::Robot;
 
-use crate::certify::choose::Admitted;
-use crate::emit::ScalarType;
+use crate::backend::read::TextError;
+pub use crate::certify::choose::Refusal;
+pub use crate::emit::GeneratedFunction;
+use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::Function;
-use crate::graph::Counts;
 use crate::plan;
-use crate::portfolio::Source;
+use crate::program::{Lowered, ScalarType};
 use crate::scene::Setting;
-use crate::schedule::Program;
-use crate::simplify::{Effort, Stage};
-use crate::sincos::{self, AngleKernel, SinCos, Sines};
-use crate::verify::exact::{Proof, prove_in};
+use crate::simplify::Effort;
+use crate::sincos::{self, SinCos, Sines};
+use crate::verify::exact::prove_in;
 use crate::verify::floating::Emitted;
-use crate::verify::text::{TextError, TextProgram};
 pub use error::GenerateError;
-use range::{check_constants, warn_of_overflow};
+use range::{check_constants, vanishing, warn_of_overflow};
 pub use request::{Prefer, Request};
 use search::{found, replay};
-pub use start::Start;
+
 use tolerate::tolerate;
-
-/// A generated and proved function.
-#[derive(Clone, Debug)]
-pub struct GeneratedFunction {
-    /// Which function.
-    pub function: Function,
-    /// The formulation that the search started from.
-    pub source: Source,
-    /// Whether it is the plan's, and nothing was searched for.
-    pub planned: bool,
-    /// The final program with exact constants: what is emitted.
-    pub program: Program,
-    /// Its counts, without the polynomials of sines.
-    pub counts: Counts,
-    /// The polynomials of its sines in each scalar, if they are not libm's.
-    pub sines: Vec<(ScalarType, Sines)>,
-    /// Counts of the formula as executed, then after each step.
-    pub stages: Vec<Stage>,
-    /// That it is right; with a tolerance, that the program is that it was
-    /// made from.
-    pub proof: Proof,
-    /// With a tolerance: what was left out, and the certificates.
-    pub admitted: Option<Admitted>,
-}
-
-impl GeneratedFunction {
-    /// The polynomials of its sines in a scalar; none if they are libm's.
-    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
-        sincos::of(&self.sines, scalar)
-    }
-
-    /// Its counts with the polynomials of its sines in a scalar.
-    pub fn counts_in(&self, scalar: ScalarType) -> Counts {
-        let (trig_mul, trig_add) = sincos::counts(self.sines(scalar));
-        Counts {
-            trig_mul,
-            trig_add,
-            ..self.counts
-        }
-    }
-}
 
 /// Everything generated for a robot.
 #[derive(Clone, Debug)]
@@ -103,6 +65,9 @@ pub const MOST_OUTPUTS: usize = 20_000;
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::Empty);
+    }
+    if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.any_scalar {
+        return Err(GenerateError::Contents);
     }
     if let Some(plan) = &request.plan
         && plan.input != plan::input_hash(robot)
@@ -137,14 +102,20 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             scalars: &scalars,
             math: &request.math,
             name: &name,
+            layout: request.layout,
         },
     );
     let mut emitted = Vec::new();
     for &scalar in &scalars {
         for generated in &functions {
-            emitted.push(read_back(&text, generated, scalar, &name, &scalars)?);
+            let section = match request.layout {
+                Layout::Contents => Some(text.as_str()),
+                Layout::Modules => module::section(&text, &module::name(&name, scalar, &scalars)),
+            };
+            emitted.push(read_back(section, generated, scalar)?);
         }
     }
+    contradiction::check(&setting, &functions, &emitted)?;
     Ok(Generated {
         functions,
         text,
@@ -154,12 +125,28 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     })
 }
 
+type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
+
 /// Every function's program, with what a tolerance leaves of it, and the
-/// scalars to emit.
-fn all(
-    setting: &Setting,
-    request: &Request,
-) -> Result<(Vec<GeneratedFunction>, Vec<ScalarType>), GenerateError> {
+/// scalars to emit. With a tolerance the certificate says what rounding may
+/// cost, and the cheapest exact programs are what to start from; those that
+/// cost fewer digits have their turn if it refuses these.
+fn all(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
+    let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
+    if tolerance.is_none() || request.prefer == Prefer::Operations {
+        return attempt(setting, request);
+    }
+    let cheapest = Request {
+        prefer: Prefer::Operations,
+        ..request.clone()
+    };
+    match attempt(setting, &cheapest) {
+        Err(GenerateError::Tolerance(_, Refusal::Above { .. })) => attempt(setting, request),
+        found => found,
+    }
+}
+
+fn attempt(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
     let mut functions = Vec::new();
     for function in Function::ALL {
         if request.functions.contains(&function) {
@@ -180,11 +167,17 @@ fn one(
         return Err(GenerateError::TooLarge { function, outputs });
     }
     let entry = replay(setting, function, request)?;
-    let (source, stages, program) = match entry {
-        Some(entry) => (entry.source, entry.stages.clone(), entry.program.clone()),
+    let (source, stages, program, refused) = match entry {
+        Some(entry) => {
+            let program = entry.program.clone();
+            (entry.source, entry.stages.clone(), program, None)
+        }
         None => found(setting, function, request)?,
     };
-    let proof = prove_in(setting, &program).map_err(|d| GenerateError::Disproved(function, d))?;
+    let proof = prove_in(setting, &program).map_err(|disproof| match vanishing(setting) {
+        Some(value) => GenerateError::Vanishing(function, value.to_string()),
+        None => GenerateError::Disproved(function, disproof),
+    })?;
     Ok(GeneratedFunction {
         function,
         source,
@@ -194,6 +187,7 @@ fn one(
         program,
         stages,
         proof,
+        refused,
         admitted: None,
     })
 }
@@ -223,19 +217,15 @@ fn sines(
 }
 
 fn read_back(
-    text: &str,
+    section: Option<&str>,
     generated: &GeneratedFunction,
     scalar: ScalarType,
-    name: &str,
-    scalars: &[ScalarType],
 ) -> Result<Emitted, GenerateError> {
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
-    let module = module::name(name, scalar, scalars);
-    let section = module::section(text, &module)
-        .ok_or_else(|| fail(format!("there is no module `{module}`")))?;
-    let read = TextProgram::parse(section, generated.function, scalar)
+    let section = section.ok_or_else(|| fail("its module is not in the text".into()))?;
+    let read = Lowered::parse(section, generated.function, scalar)
         .map_err(|error: TextError| fail(error.to_string()))?;
-    read.matches_with(&generated.program, scalar, generated.sines(scalar))
+    read.matches(&generated.program, generated.sines(scalar))
         .map_err(fail)?;
     if read.counts() != generated.counts_in(scalar) {
         return Err(fail("the counts of the text differ".into()));

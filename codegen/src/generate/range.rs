@@ -1,6 +1,7 @@
 //! What a scalar cannot hold: constants out of its range, overflow inside the
 //! robot's limits.
 
+use dalembert_model::equations::Arm;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -8,8 +9,23 @@ use dalembert_model::scalar::Scalar;
 use super::GenerateError;
 use crate::certify::input_box::InputBox;
 use crate::certify::ranges::{Finding, ranges};
-use crate::emit::ScalarType;
-use crate::schedule::{Operand, Program};
+use crate::graph::Points;
+use crate::program::{Operand, Program, ScalarType};
+use crate::scene::Setting;
+
+/// A parameter that the search cannot tell from zero.
+pub(super) fn vanishing(setting: &Setting) -> Option<Exact> {
+    let mut lost = None;
+    let mut constant = |value: &Exact| {
+        if Points::lose(value) {
+            lost.get_or_insert_with(|| value.clone());
+        }
+        value.clone()
+    };
+    Arm::from_robot(setting.robot(), &mut constant);
+    setting.motion(|_| Exact::zero(), constant);
+    lost
+}
 
 /// A constant that becomes infinite or zero is an error, a subnormal one a
 /// warning: its relative rounding error is no longer bounded by u.

@@ -3,15 +3,17 @@
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use super::Start;
-use crate::emit::{MathPath, ScalarType};
+use crate::backend::MathPath;
+use crate::emit::Layout;
 use crate::function::Function;
 use crate::plan::Plan;
+use crate::portfolio::Start;
+use crate::program::ScalarType;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
 
-/// What to do about a program whose rounding error is more than
+/// What to do about a program whose estimated rounding error is more than
 /// [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Prefer {
@@ -21,6 +23,21 @@ pub enum Prefer {
     /// Take the cheapest.
     Operations,
 }
+
+impl Prefer {
+    /// Both, the default first.
+    pub const ALL: [Prefer; 2] = [Prefer::Accuracy, Prefer::Operations];
+
+    /// Its name on the command line and in the macro.
+    pub fn name(self) -> &'static str {
+        match self {
+            Prefer::Accuracy => "accuracy",
+            Prefer::Operations => "operations",
+        }
+    }
+}
+/// Some minutes where nothing is optimised.
+const WORK_WHILE_COMPILING: u64 = 400_000_000;
 
 /// What to generate.
 #[derive(Clone, Debug)]
@@ -48,15 +65,31 @@ pub struct Request {
     /// The module's name; the robot's and the scene's if `None`. The f32
     /// module of a pair has `_f32` appended.
     pub module: Option<String>,
+    /// Whether the text has modules, or is the contents of one.
+    pub layout: Layout,
     /// What the robot is used for; everything if `None`. Its outputs and
-    /// scalar are defaults that the ways in apply ([`Request::in_scene`]).
+    /// scalar are defaults that the ways in apply ([`Request::choose`]).
     pub scene: Option<Scene>,
     /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
     /// that it admits.
     pub any_scalar: bool,
+    /// Units of work that the search for what a tolerance allows may take; it
+    /// is refused where that is not enough. They are counted, never timed: the
+    /// same everywhere. No limit if `None`.
+    pub work: Option<u64>,
 }
 
 impl Request {
+    /// The units of [`work`](Request::work) of the ways in that keep a compiler
+    /// waiting, `dynamics!` and build scripts; no limit for who asks for a
+    /// thorough search there.
+    pub fn work_while_compiling(effort: Effort) -> Option<u64> {
+        match effort {
+            Effort::Quick => Some(WORK_WHILE_COMPILING),
+            Effort::Thorough => None,
+        }
+    }
+
     /// The module's name.
     pub fn module_name(&self, robot: &Robot) -> String {
         match (&self.module, &self.scene) {
@@ -70,7 +103,7 @@ impl Request {
 impl Default for Request {
     fn default() -> Self {
         Request {
-            functions: Function::ALL.to_vec(),
+            functions: Function::by_default(),
             scalars: ScalarType::ALL.to_vec(),
             start: Start::Auto,
             effort: Effort::Quick,
@@ -80,8 +113,10 @@ impl Default for Request {
             sincos: SinCos::default(),
             math: MathPath::default(),
             module: None,
+            layout: Layout::default(),
             scene: None,
             any_scalar: false,
+            work: None,
         }
     }
 }

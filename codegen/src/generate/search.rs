@@ -1,19 +1,22 @@
 //! A function's program: from the plan, or searched for.
 
-use super::{GenerateError, Prefer, Request, Start};
+use dalembert_model::equations::chain::Gauge;
+use dalembert_model::number::Exact;
+
+use super::{GenerateError, Prefer, Request};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::plan::{self, Entry};
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{self, Source, Sums, Variant};
+use crate::portfolio::{self, Limit, Source, Start, Sums, Variant};
+use crate::program::{Counts, Program};
 use crate::scene::Setting;
-use crate::schedule::Program;
 use crate::simplify::{self, Effort, Simplified, Stage};
-use crate::verify::accuracy::Judge;
-use crate::watch::Part;
+use crate::verify::accuracy::{Judge, Refused};
+use crate::watch::{Part, Vigil};
 
 /// The plan's program, the first requested scalar's that it has.
-pub(crate) fn replay<'r>(
+pub fn replay<'r>(
     setting: &Setting,
     function: Function,
     request: &'r Request,
@@ -47,7 +50,7 @@ pub(super) fn found(
     setting: &Setting,
     function: Function,
     request: &Request,
-) -> Result<(Source, Vec<Stage>, Program), GenerateError> {
+) -> Result<(Source, Vec<Stage>, Program, Option<Refused>), GenerateError> {
     let found = search(setting, function, request)?;
     let (seed, simplified) = (&found.variants[found.simplified.seed], &found.simplified);
     let mut stages = vec![Stage {
@@ -60,60 +63,134 @@ pub(super) fn found(
         name: "final",
         counts: program.counts(),
     });
-    Ok((seed.source, stages, program))
+    Ok((seed.source, stages, program, found.refused))
 }
 
 /// What a search found, and from what.
-pub(crate) struct Found {
+pub struct Found {
     /// The gauge of the regrouped variants, if there are such.
     pub tuned: Option<Tuned>,
     /// What it started from.
     pub variants: Vec<Variant>,
     /// Its program, and those on the way.
     pub simplified: Simplified,
+    /// What would be cheaper, but for its rounding error.
+    pub refused: Option<Refused>,
 }
 
 /// Searches for the cheapest program.
-pub(crate) fn search(
+///
+/// A thorough search contains the quick one: it is never dearer.
+pub fn search(
     setting: &Setting,
     function: Function,
     request: &Request,
 ) -> Result<Found, GenerateError> {
+    let search = Search {
+        setting,
+        function,
+        request,
+        judge: match request.prefer {
+            Prefer::Accuracy => Judge::new(setting, function),
+            Prefer::Operations => Judge::lenient(setting, function),
+        },
+    };
     let watch = request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it.
-    let (effort, watch) = match watch.is_over() {
-        true => (Effort::Quick, None),
-        false => (request.effort, Some(watch)),
-    };
-    let tell = |part, best| {
-        if let Some(watch) = watch {
-            watch.step(part, [0, 1], best);
-        }
-    };
-    tell(Part::Formulations, None);
-    let (tuned, variants) = request.start.variants(setting, function, effort, watch);
-    let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
-    let mut helpers = match request.start {
-        Start::Auto => vec![portfolio::angle_sums(setting, Sums::Products)],
-        Start::AngleSums => vec![portfolio::angle_sums(setting, Sums::Inputs)],
-        Start::Only(_) => Vec::new(),
-    };
-    if let Some(tuned) = &tuned
-        && effort == Effort::Thorough
-    {
-        helpers.extend(portfolio::neighbours(setting, function, tuned));
+    if watch.is_over() {
+        return search.quick(None);
     }
-    let judge = match request.prefer {
-        Prefer::Accuracy => Judge::new(setting, function),
-        Prefer::Operations => Judge::lenient(setting, function),
-    };
-    let accept = |graph: &Graph| judge.accepts(graph);
-    let simplified = simplify::watched(&graphs, &helpers, effort, &accept, watch);
-    let simplified = simplified.ok_or(GenerateError::Empty)?;
-    tell(Part::Proof, Some(simplified.graph.counts()));
-    Ok(Found {
-        tuned,
-        variants,
-        simplified,
-    })
+    let tell = |part, best| watch.step(part, [0, 1], best);
+    tell(Part::Formulations, None);
+    // Nobody ends the quick search inside a thorough one: that is at least as good.
+    let is_quick = request.effort == Effort::Quick;
+    let quick = search.quick(is_quick.then_some(watch))?;
+    if is_quick || watch.is_over() {
+        tell(Part::Proof, Some(quick.simplified.graph.counts()));
+        return Ok(quick);
+    }
+    tell(Part::Formulations, Some(quick.simplified.graph.counts()));
+    let mut found = search.run(Effort::Thorough, true, &[], Some(watch))?;
+    if found.cost() > quick.cost() {
+        found = quick;
+    } else {
+        found.refused = quick
+            .refused
+            .and_then(|refused| search.refused(refused.counts, refused.error, &found));
+    }
+    tell(Part::Proof, Some(found.simplified.graph.counts()));
+    Ok(found)
+}
+
+struct Search<'a> {
+    setting: &'a Setting,
+    function: Function,
+    request: &'a Request,
+    judge: Judge<'a>,
+}
+
+impl Search<'_> {
+    /// The quick search: without a limit first, since most robots need none.
+    /// Where that costs too many digits, again within the limit, also from
+    /// where the other one ended.
+    fn quick(&self, watch: Option<Vigil<'_>>) -> Result<Found, GenerateError> {
+        let free = self.run(Effort::Quick, false, &[], watch)?;
+        if self.judge.accepts(&free.simplified.graph) {
+            return Ok(free);
+        }
+        let from: Vec<Gauge<Exact>> = free.tuned.iter().map(|t| t.gauge.clone()).collect();
+        let mut found = self.run(Effort::Quick, true, &from, watch)?;
+        let graph = &free.simplified.graph;
+        found.refused = self.refused(graph.counts(), self.judge.error(graph), &found);
+        Ok(found)
+    }
+
+    /// A refused program, worth a word only where it is cheaper.
+    fn refused(&self, counts: Counts, error: f64, taken: &Found) -> Option<Refused> {
+        let graph = &taken.simplified.graph;
+        let is_cheaper = counts.operations() < graph.counts().operations();
+        is_cheaper.then(|| Refused {
+            counts,
+            error,
+            taken: self.judge.error(graph),
+        })
+    }
+
+    fn run(
+        &self,
+        effort: Effort,
+        limited: bool,
+        from: &[Gauge<Exact>],
+        watch: Option<Vigil<'_>>,
+    ) -> Result<Found, GenerateError> {
+        let (setting, function, start) = (self.setting, self.function, self.request.start);
+        let excess = |graph: &Graph| self.judge.excess(graph);
+        let limit: Option<Limit<'_>> = limited.then_some(&excess);
+        let (tuned, variants) = start.variants(setting, function, effort, limit, from, watch);
+        let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
+        let mut helpers = match start {
+            Start::Auto => vec![portfolio::angle_sums(setting, Sums::Products)],
+            Start::AngleSums => vec![portfolio::angle_sums(setting, Sums::Inputs)],
+            Start::Only(_) => Vec::new(),
+        };
+        if let Some(tuned) = &tuned
+            && effort == Effort::Thorough
+        {
+            helpers.extend(portfolio::neighbours(setting, function, tuned));
+        }
+        let accept = |graph: &Graph| !limited || self.judge.accepts(graph);
+        let simplified = simplify::watched(&graphs, &helpers, effort, &accept, watch);
+        Ok(Found {
+            tuned,
+            variants,
+            simplified: simplified.ok_or(GenerateError::Empty)?,
+            refused: None,
+        })
+    }
+}
+
+impl Found {
+    fn cost(&self) -> u64 {
+        simplify::cost(&self.simplified.graph)
+    }
 }

@@ -7,15 +7,16 @@
 use dalembert_model::scene::Tolerance;
 
 use crate::certify::certificate::Certificate;
-use crate::certify::certificate::subject::Fineness;
 use crate::certify::choose::{Admitted, Claim, Frame, NoPolynomials, Refusal};
 use crate::certify::prune::Settings;
-use crate::emit::ScalarType;
+use crate::certify::sensitivity::Fineness;
+use crate::certify::work::Meter;
 use crate::function::Function;
-use crate::generate::{GenerateError, GeneratedFunction, Request, Start};
+use crate::generate::{GenerateError, GeneratedFunction, Request};
 use crate::plan::{Edited, SceneKey};
+use crate::portfolio::Start;
+use crate::program::{Program, ScalarType};
 use crate::scene::Setting;
-use crate::schedule::Program;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
@@ -49,9 +50,9 @@ pub(super) fn tolerate(
 
 /// What the scene's tolerance admits in place of each exact program; `None` if
 /// it has none.
-pub(crate) fn admitted(
-    setting: &Setting,
-    programs: &[&Program],
+pub fn admitted<'p>(
+    setting: &'p Setting,
+    programs: &[&'p Program],
     request: &Request,
 ) -> Result<Option<Vec<Admitted>>, GenerateError> {
     let scene = setting.scene();
@@ -63,11 +64,22 @@ pub(crate) fn admitted(
         // The narrow one first: it is the cheaper, in time if not in counts.
         choices = vec![vec![ScalarType::F32], vec![ScalarType::F64]];
     }
+    if matches!(request.sincos, SinCos::Polynomial { error: Some(_) })
+        && let Some(program) = programs.first()
+    {
+        let why = "a scene's tolerance decides how exact its sines are: give no error for them";
+        return Err(GenerateError::SinCos(program.function, why.into()));
+    }
+    let frame = |program: &&'p Program| {
+        let frame = Frame::new(setting, program, tolerance.relative_to);
+        frame.map_err(|refusal| GenerateError::Tolerance(program.function, refusal))
+    };
+    let frames: Result<Vec<Frame<'_>>, GenerateError> = programs.iter().map(frame).collect();
+    let frames = frames?;
+    let meter = Meter::new(request.work);
     let last = choices.len() - 1;
     for (index, scalars) in choices.into_iter().enumerate() {
-        let admit = |program: &&Program| one(setting, program, tolerance, &scalars, request);
-        let admitted: Result<Vec<Admitted>, GenerateError> = programs.iter().map(admit).collect();
-        match admitted {
+        match all(&frames, tolerance, &scalars, request, meter) {
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
@@ -80,34 +92,75 @@ pub(crate) fn admitted(
     Err(GenerateError::Empty)
 }
 
-fn one(
-    setting: &Setting,
-    program: &Program,
+/// What a tolerance admits of every function in these scalars. Whether it admits
+/// the exact programs is seen first: a refusal comes before any search.
+fn all(
+    frames: &[Frame<'_>],
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
-) -> Result<Admitted, GenerateError> {
-    let function = program.function;
-    let fail = |refusal| GenerateError::Tolerance(function, refusal);
-    if matches!(request.sincos, SinCos::Polynomial { error: Some(_) }) {
-        let why = "a scene's tolerance decides how exact its sines are: give no error for them";
-        return Err(GenerateError::SinCos(function, why.into()));
+    meter: Meter,
+) -> Result<Vec<Admitted>, GenerateError> {
+    for frame in frames {
+        let tolerances = frame.tolerances(tolerance);
+        if usable(frame, &tolerances, scalars, request)?.is_none() {
+            let exact = frame.unedited(scalars, fineness(request));
+            let refused = exact.within(&tolerances);
+            refused.map_err(|why| GenerateError::Tolerance(frame.exact.function, why))?;
+        }
     }
+    let each = frames.iter();
+    each.map(|frame| one(frame, tolerance, scalars, request, meter))
+        .collect()
+}
+
+fn fineness(request: &Request) -> Fineness {
+    match request.effort {
+        Effort::Quick => Fineness::GLANCE,
+        Effort::Thorough => Fineness::CERTIFY,
+    }
+}
+
+/// The plan's variant, if the tolerances admit it: its bounds are not found
+/// anew, but they are compared.
+fn usable(
+    frame: &Frame<'_>,
+    tolerances: &[f64],
+    scalars: &[ScalarType],
+    request: &Request,
+) -> Result<Option<Admitted>, GenerateError> {
+    let kept = kept(frame, frame.exact.function, scalars, request)?;
+    Ok(kept.filter(|kept| kept.within(tolerances).is_ok()))
+}
+
+fn one(
+    frame: &Frame<'_>,
+    tolerance: &Tolerance,
+    scalars: &[ScalarType],
+    request: &Request,
+    meter: Meter,
+) -> Result<Admitted, GenerateError> {
+    let function = frame.exact.function;
+    let fail = |refusal| GenerateError::Tolerance(function, refusal);
     let watch = request.watch.over(function);
-    let frame = Frame::new(setting, program, tolerance.relative_to).map_err(fail)?;
     // Who wants an end before a function's turn gets the quick search for it,
     // which nobody ends: it would leave out nothing.
     let over = watch.is_over();
-    let frame = if over { frame } else { frame.watched(watch) };
-    let tolerances = frame.tolerances(tolerance);
-    let (settings, fineness) = match request.effort {
-        Effort::Quick => (QUICK, Fineness::GLANCE),
-        Effort::Thorough if over => (QUICK, Fineness::CERTIFY),
-        Effort::Thorough => (thorough(request), Fineness::CERTIFY),
+    let frame = match over {
+        true => frame.clone(),
+        false => frame.clone().watched(watch),
     };
-    // A plan's bounds are not found anew, but they are compared.
-    let kept = kept(&frame, function, scalars, request)?;
-    let admitted = match kept.filter(|kept| kept.within(&tolerances).is_ok()) {
+    let tolerances = frame.tolerances(tolerance);
+    let fineness = fineness(request);
+    let settings = match request.effort {
+        Effort::Thorough if !over => thorough(request),
+        _ => QUICK,
+    };
+    let settings = Settings {
+        work: request.work.map(|work| work.saturating_sub(meter.done())),
+        ..settings
+    };
+    let admitted = match usable(&frame, &tolerances, scalars, request)? {
         Some(kept) => kept,
         None => frame
             .choose(&tolerances, scalars, &settings, fineness)
@@ -173,6 +226,7 @@ const QUICK: Settings = Settings {
     budget: Fineness::GLANCE.budget,
     effort: Effort::Quick,
     refit: true,
+    work: None,
 };
 
 /// The plan's variant, if it has the same one for each of the scalars.

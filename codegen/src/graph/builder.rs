@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
-use super::{Counts, Edge, Graph, Input, Node, NodeId, Points, Print};
+use super::{Edge, Graph, Node, NodeId, Points, Print};
+use crate::program::{Counts, Input};
 
 /// Products of constants with more monomials stay two operations: long
 /// polynomials in odd angles would grow without end.

@@ -1,26 +1,26 @@
 //! The formulas as one hash-consed graph with exact constants.
 //!
 //! - this file: [`Graph`], its nodes and edges
-//! - [`input`]: what a program reads: sines, cosines, positions, rates
 //! - [`mod@print`]: semantic fingerprints: values at random points of a prime field
 //! - [`builder`]: the smart constructors: folding and sharing
 //! - [`symbol`]: the scalar that traces the equations into a builder
-//! - [`counts`]: operation counts
+//! - [`rules`]: what the constructors fold, as data
+//! - `counts`: operation counts
 //!
 //! A graph is a directed acyclic graph in topological order: operands come
 //! before their users. Negation is free, so it is no node: edges carry signs.
 
 pub mod builder;
-pub mod counts;
-pub mod input;
+mod counts;
 pub mod print;
+pub mod rules;
 pub mod symbol;
 
 use dalembert_model::number::Exact;
 
+use crate::program::Input;
+
 pub use builder::{Builder, Folding, Value};
-pub use counts::Counts;
-pub use input::{AngleSum, Input};
 pub use print::{Points, Print};
 
 /// The index of a node.

@@ -5,7 +5,7 @@
 //! polynomials of degree d in the points' parameters (d is below a few
 //! hundred); if they differ, they agree at one point with probability at most
 //! d/p ≈ 2⁻⁵³ (Schwartz–Zippel), and at all [`POINTS`] of them with the power
-//! of that. The search's points 0 and 1 share the constant angles: a node with
+//! of that. Points 0 and 1 share the constant angles: a node with
 //! equal values there does not depend on the state.
 
 use dalembert_model::equations::Rotor;
@@ -13,7 +13,7 @@ use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
-use super::input::{AngleSum, Input};
+use crate::program::input::Input;
 
 /// How many points a fingerprint has.
 pub const POINTS: usize = 3;
@@ -65,29 +65,16 @@ impl Print {
     }
 }
 
-/// Where fingerprints are taken: everything follows from the seed.
+/// Where fingerprints are taken: everything follows from the seed. Whoever
+/// knows it can aim at it, so no proof is made here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Points {
     seed: u64,
-    /// Whether points 0 and 1 share the constant angles.
-    shared: bool,
 }
 
 impl Points {
     /// The points that the simplifier uses.
-    pub const SEARCH: Points = Points {
-        seed: 0x5eed,
-        shared: true,
-    };
-
-    /// Other points, for proofs that do not trust the search: independent in
-    /// the state and in the constant angles.
-    pub fn independent(seed: u64) -> Self {
-        Points {
-            seed,
-            shared: false,
-        }
-    }
+    pub const SEARCH: Points = Points { seed: 0x5eed };
 
     /// The print of an input.
     pub fn input(&self, input: Input) -> Print {
@@ -99,27 +86,16 @@ impl Points {
             Field::new(mix([self.seed, point as u64, kind, joint as u64]))
         };
         match input {
-            Input::Sin(angle) => self.angle_at(angle, point).sin,
-            Input::Cos(angle) => self.angle_at(angle, point).cos,
+            Input::Sin(angle) => angle.pair(|joint| self.joint(joint, point)).sin,
+            Input::Cos(angle) => angle.pair(|joint| self.joint(joint, point)).cos,
             Input::Position(joint) => draw(2, joint),
             Input::Velocity(joint) => draw(3, joint),
             Input::Acceleration(joint) => draw(4, joint),
         }
     }
 
-    fn angle_at(&self, angle: AngleSum, point: usize) -> Rotor<Field> {
-        let mut sum = Rotor {
-            sin: Field::zero(),
-            cos: Field::one(),
-        };
-        for (joint, negative) in angle.terms() {
-            let mut pair = circle(mix([self.seed, point as u64, 1, joint as u64]));
-            if negative {
-                pair.sin = pair.sin.neg();
-            }
-            sum = sum.compose(&pair);
-        }
-        sum
+    fn joint(&self, joint: usize, point: usize) -> Rotor<Field> {
+        circle(mix([self.seed, point as u64, 1, joint as u64]))
     }
 
     /// The print of a constant; `None` if a denominator is divisible by the
@@ -130,12 +106,20 @@ impl Points {
         }
         let mut print = [Field::zero(); POINTS];
         for (point, x) in print.iter_mut().enumerate() {
-            let shared = if point == 1 && self.shared { 0 } else { point };
+            let shared = if point == 1 { 0 } else { point };
             *x = value.map(&mut Field::from_rational, &mut |angle| {
                 circle(mix([self.seed, shared as u64, 5, hash_angle(angle)]))
             })?;
         }
         Some(Print(print))
+    }
+
+    /// Whether the search cannot tell a constant from zero: the prime divides
+    /// one of its coefficients.
+    pub fn lose(value: &Exact) -> bool {
+        let coefficient = &mut |x: &Rational| Field::from_rational(x).filter(|x| *x != Field::ZERO);
+        let pair = &mut |_: &Angle| circle(0);
+        !value.is_zero() && value.map(coefficient, pair).is_none()
     }
 }
 
@@ -158,11 +142,12 @@ fn mix(words: [u64; 4]) -> u64 {
 
 /// The same on every machine: over the digits of the exact value.
 fn hash_angle(angle: &Angle) -> u64 {
+    // The number of digits tells where the numerator ends.
     let word = |kind: u64, value: &Rational| {
-        [value.numer(), value.denom()]
-            .into_iter()
-            .flat_map(|n| n.iter_u64_digits())
-            .fold(mix([kind, 0, 0, 0]), |hash, digit| mix([hash, digit, 0, 1]))
+        let digits = value.numer().iter_u64_digits();
+        let start = mix([kind, digits.len() as u64, 0, 0]);
+        let digits = digits.chain(value.denom().iter_u64_digits());
+        digits.fold(start, |hash, digit| mix([hash, digit, 0, 1]))
     };
     match angle {
         Angle::PiTimes(value) => word(0, value),

@@ -6,7 +6,8 @@ use std::rc::Rc;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
-use super::{Builder, Input, Value};
+use super::{Builder, Value};
+use crate::program::Input;
 
 /// A constant, which needs no context, or a node of a shared builder.
 ///

@@ -1,6 +1,6 @@
 //! The plan beside a robot file.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +12,20 @@ pub fn path(robot_file: &Path) -> PathBuf {
     robot_file.with_extension("plan")
 }
 
+/// Makes cargo notice a plan that was not there before.
+///
+/// A macro that was expanded without one could not name it to the compiler: of
+/// a file that is not there, nothing can be included. It did name the robot
+/// file, so that gets a new time, and everything that was made from it is made
+/// anew, with the plan.
+///
+/// # Errors
+/// The robot file's time cannot be set.
+pub fn announce(robot_file: &Path) -> std::io::Result<()> {
+    let file = File::options().append(true).open(robot_file)?;
+    file.set_modified(std::time::SystemTime::now())
+}
+
 /// Reads the plan beside a robot file; there need not be one.
 ///
 /// # Errors
@@ -19,6 +33,10 @@ pub fn path(robot_file: &Path) -> PathBuf {
 pub fn beside(robot_file: &Path) -> Result<Option<Plan>, String> {
     let path = path(robot_file);
     let shown = path.display();
+    // Opening a pipe would wait for somebody who writes into it.
+    if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+        return Err(format!("cannot read `{shown}`: a plan is a file"));
+    }
     let mut bytes = Vec::new();
     let read =
         File::open(&path).and_then(|file| file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes));

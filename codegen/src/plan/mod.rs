@@ -17,13 +17,11 @@ pub(crate) mod write;
 
 pub use parse::PlanError;
 
-use crate::certify::certificate::Split;
-use crate::certify::edits;
-use crate::emit::ScalarType;
+use crate::approximate::edits;
+use crate::bound::Split;
 use crate::function::Function;
-use crate::generate::Start;
-use crate::portfolio::Source;
-use crate::schedule::Program;
+use crate::portfolio::{Source, Start};
+use crate::program::{Program, ScalarType};
 use crate::simplify::Stage;
 use dalembert_model::scene::Scene;
 

@@ -3,17 +3,14 @@
 
 use std::fmt;
 
-use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 
 use super::variant::Variant;
 use super::{Entry, Plan, SceneKey};
-use crate::emit::ScalarType;
 use crate::function::Function;
-use crate::generate::Start;
-use crate::graph::{AngleSum, Counts, Input};
-use crate::portfolio::Source;
-use crate::schedule::{Operand, Operation, Output, Program, Step};
+use crate::portfolio::{Source, Start};
+use crate::program::text::{read_results, read_step};
+use crate::program::{Counts, Program, ScalarType};
 use crate::simplify::Stage;
 
 /// What is wrong with a plan's text.
@@ -108,11 +105,11 @@ impl Reader {
             ("scene", Some(entry)) => scene(&words[1..], entry)?,
             ("stage", Some(entry)) => entry.stages.push(stage(&words[1..])?),
             ("return", Some(entry)) => {
-                results(&words[1..], &mut entry.program)?;
+                read_results(&words[1..], &mut entry.program)?;
                 self.entries.extend(self.open.take());
             }
             (_, Some(entry)) => {
-                let step = step(&words, &entry.program)?;
+                let step = read_step(&words, &entry.program)?;
                 entry.program.steps.push(step);
             }
             (word, None) => return Err(format!("expected `program`, found `{word}`")),
@@ -133,25 +130,6 @@ impl Reader {
             entries: self.entries,
         })
     }
-}
-
-/// The results that end a program.
-pub(super) fn results(words: &[&str], program: &mut Program) -> Result<(), String> {
-    for word in words {
-        let (negative, word) = match word.strip_prefix('~') {
-            Some(rest) => (true, rest),
-            None => (false, *word),
-        };
-        let value = operand(word, program)?;
-        program.outputs.push(Output { negative, value });
-    }
-    let expected = program.function.outputs(program.rows.len());
-    if program.outputs.len() != expected {
-        let found = program.outputs.len();
-        return Err(format!("expected {expected} results, found {found}"));
-    }
-    program.collect_trig();
-    Ok(())
 }
 
 fn program(words: &[&str]) -> Result<Entry, String> {
@@ -176,7 +154,7 @@ fn program(words: &[&str]) -> Result<Entry, String> {
             function,
             joints,
             rows: (0..joints).collect(),
-            arguments: function.arguments().to_vec(),
+            arguments: function.arguments(),
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
@@ -232,68 +210,4 @@ fn stage(words: &[&str]) -> Result<Stage, String> {
             ..Counts::default()
         },
     })
-}
-
-pub(super) fn step(words: &[&str], program: &Program) -> Result<Step, String> {
-    let &[left, symbol, right] = words else {
-        return Err("expected an operation such as `t1 + s2`".into());
-    };
-    let operation = [Operation::Add, Operation::Sub, Operation::Mul]
-        .into_iter()
-        .find(|op| symbol.chars().eq([op.symbol()]))
-        .ok_or_else(|| format!("`{symbol}` is no operation"))?;
-    Ok(Step {
-        operation,
-        left: operand(left, program)?,
-        right: operand(right, program)?,
-    })
-}
-
-pub(crate) fn operand(word: &str, program: &Program) -> Result<Operand, String> {
-    if let Some(constant) = word.strip_prefix('#') {
-        return constant
-            .parse::<Exact>()
-            .map(Operand::Constant)
-            .map_err(|error| error.to_string());
-    }
-    if let Some(index) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
-        return match index {
-            1.. if index <= program.steps.len() => Ok(Operand::Step(index - 1)),
-            _ => Err(format!("`{word}` is not computed yet")),
-        };
-    }
-    input(word)
-        .filter(|input| input_fits(*input, program.joints))
-        .map(Operand::Input)
-        .ok_or_else(|| format!("`{word}` is neither an input, a step nor a constant"))
-}
-
-fn input(word: &str) -> Option<Input> {
-    for (array, input) in [
-        ("qdd", Input::Acceleration as fn(usize) -> Input),
-        ("qd", Input::Velocity),
-        ("q", Input::Position),
-    ] {
-        let index = word
-            .strip_prefix(array)
-            .and_then(|rest| rest.strip_prefix('['));
-        if let Some(index) = index {
-            return Some(input(index.strip_suffix(']')?.parse().ok()?));
-        }
-    }
-    let angle = |digits: &str| digits.parse::<AngleSum>().ok();
-    match word.split_at_checked(1)? {
-        ("s", digits) => angle(digits).map(Input::Sin),
-        ("c", digits) => angle(digits).map(Input::Cos),
-        _ => None,
-    }
-}
-
-fn input_fits(input: Input, joints: usize) -> bool {
-    match input {
-        Input::Sin(angle) | Input::Cos(angle) => angle.terms().all(|(joint, _)| joint < joints),
-        Input::Position(joint) | Input::Velocity(joint) | Input::Acceleration(joint) => {
-            joint < joints
-        }
-    }
 }

@@ -2,13 +2,12 @@
 //! its edits and, after `next`, what they gave; then the bounds, before them
 //! that of D's least eigenvalue where D was edited.
 
-use super::parse::{results, step};
 use super::{Edited, Entry};
-use crate::certify::certificate::Split;
-use crate::certify::definite::has_inertia;
-use crate::certify::edits::{Edit, Stage, has_edits};
-use crate::certify::json::read_edit;
-use crate::schedule::Program;
+use crate::approximate::edits::{Edit, Stage, has_edits};
+use crate::approximate::text::read_edit;
+use crate::bound::Split;
+use crate::program::text::{read_results, read_step};
+use crate::program::{Program, has_inertia};
 
 /// A variant that is being read.
 pub(super) struct Variant {
@@ -60,11 +59,11 @@ impl Variant {
                 self.is_open = true;
             }
             ("return", true) => {
-                results(&words[1..], &mut self.program)?;
+                read_results(&words[1..], &mut self.program)?;
                 self.is_open = false;
             }
             (_, true) => {
-                let step = step(words, &self.program)?;
+                let step = read_step(words, &self.program)?;
                 self.program.steps.push(step);
             }
             ("eigenvalue", false) if self.edits.is_empty() && self.bounds.is_empty() => {

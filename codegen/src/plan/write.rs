@@ -3,10 +3,9 @@
 use std::fmt::Write;
 
 use super::{Edited, Plan};
-use crate::certify::certificate::Split;
-use crate::certify::json::write_edit;
-use crate::emit::function::input_name;
-use crate::schedule::{Operand, Program};
+use crate::approximate::text::write_edit;
+use crate::bound::Split;
+use crate::program::text::write_steps;
 
 impl Plan {
     /// The text; [`Plan::parse`] reads it back.
@@ -49,26 +48,13 @@ impl Plan {
                     c.mul, c.add, c.div, c.sincos
                 );
             }
-            steps(&mut text, program);
+            write_steps(&mut text, program);
             if let Some(edited) = &entry.edited {
                 variant(&mut text, edited);
             }
         }
         text
     }
-}
-
-fn steps(text: &mut String, program: &Program) {
-    for step in &program.steps {
-        let (left, right) = (operand(&step.left), operand(&step.right));
-        let _ = writeln!(text, "{left} {} {right}", step.operation.symbol());
-    }
-    text.push_str("return");
-    for output in &program.outputs {
-        let sign = if output.negative { "~" } else { "" };
-        let _ = write!(text, " {sign}{}", operand(&output.value));
-    }
-    text.push('\n');
 }
 
 /// The edits of the program above, then program after program; the bounds.
@@ -80,7 +66,7 @@ fn variant(text: &mut String, edited: &Edited) {
         }
         text.push_str("next\n");
         let next = edited.stages.get(index + 1).map(|next| &next.program);
-        steps(text, next.unwrap_or(&edited.program));
+        write_steps(text, next.unwrap_or(&edited.program));
     }
     if let Some(least) = edited.lambda_min {
         let _ = writeln!(text, "eigenvalue {least:e}");
@@ -92,15 +78,5 @@ fn variant(text: &mut String, edited: &Edited) {
             rounding,
         } = bound;
         let _ = writeln!(text, "bound {model:e} {sincos:e} {rounding:e}");
-    }
-}
-
-/// Inputs as emitted code names them, `t1` for the first step, `#` before a
-/// constant.
-pub(crate) fn operand(operand: &Operand) -> String {
-    match operand {
-        Operand::Input(input) => input_name(*input),
-        Operand::Constant(constant) => format!("#{constant}"),
-        Operand::Step(index) => format!("t{}", index + 1),
     }
 }

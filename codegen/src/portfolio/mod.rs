@@ -4,141 +4,31 @@
 //! ([`dalembert_model::equations::chain`]) in a gauge that is tuned to the
 //! robot and the function ([`tune`]).
 
+pub mod start;
 pub mod tune;
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use dalembert_model::equations::chain::composite::{Composite, Travel};
-use dalembert_model::equations::chain::recursion::{Couple, Spin};
+use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Displacement, Gauge, Skeleton};
-use dalembert_model::equations::matrix::{plus, times, zero_vector, zeros};
 use dalembert_model::equations::{Arm, Formulation, Rotor};
 use dalembert_model::number::Exact;
+use dalembert_model::outputs::{Motion, Regrouped, Written};
 use dalembert_model::scalar::Scalar;
 
 use crate::function::{Function, Quantity};
 use crate::graph::symbol::Symbol;
-use crate::graph::{AngleSum, Builder, Counts, Folding, Graph, Input};
+use crate::graph::{Builder, Folding, Graph};
+use crate::program::{AngleSum, Counts, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
-use crate::trace::{Motion, trace_in};
+use crate::trace::trace_in;
 use crate::watch::{Part, Vigil};
+pub use start::Start;
 use tune::Tuned;
 
-/// One association of the chain formulas; all give the same values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Form {
-    /// How U is formed.
-    pub spin: Spin,
-    /// How a link's own moment is formed.
-    pub couple: Couple,
-    /// Which way D and c travel.
-    pub travel: Travel,
-    /// Whether h comes from composite bodies, or from the recursion.
-    pub composite_h: bool,
-}
-
-impl Form {
-    /// The forms that differ for a function, the usually cheapest first.
-    pub fn of(function: Function) -> Vec<Form> {
-        let mut forms = Vec::new();
-        let quantities = function.quantities();
-        let recursive = quantities
-            .iter()
-            .any(|q| matches!(q, Quantity::Torque | Quantity::Coriolis));
-        let composite = quantities.iter().any(|q| {
-            !matches!(
-                q,
-                Quantity::Torque | Quantity::Coriolis | Quantity::Christoffel
-            )
-        });
-        for travel in [Travel::Outward, Travel::Inward] {
-            for composite_h in [false, true] {
-                for spin in [Spin::Column, Spin::Rates] {
-                    for couple in [Couple::SecondMoments, Couple::Euler] {
-                        // A choice that the function does not read.
-                        let idle = (!recursive
-                            && (spin == Spin::Rates || couple == Couple::Euler || composite_h))
-                            || (!composite && travel == Travel::Inward)
-                            || (composite_h && couple == Couple::Euler);
-                        if !idle {
-                            forms.push(Form {
-                                spin,
-                                couple,
-                                travel,
-                                composite_h,
-                            });
-                        }
-                    }
-                }
-            }
-        }
-        forms
-    }
-}
-
-/// The outputs of a function by the chain formulas, flat.
-fn evaluate<S: Scalar>(
-    function: Function,
-    chain: &Chain<S>,
-    form: Form,
-    motion: &Motion<S>,
-) -> Vec<S> {
-    let (chain, at) = &chain.posed(&motion.q);
-    let composite = Composite::new(chain, at);
-    let mut outputs = Vec::new();
-    for quantity in function.quantities() {
-        match quantity {
-            Quantity::Torque if form.composite_h => {
-                let torques = composite.torques(&chain.gravity, &motion.qd, &motion.qdd, form.spin);
-                outputs.extend(chain.links.iter().zip(torques).enumerate().map(
-                    |(i, (link, torque))| {
-                        let drive = plus(
-                            &times(&link.armature, &motion.qdd[i]),
-                            &times(&link.viscous, &motion.qd[i]),
-                        );
-                        plus(&torque, &drive)
-                    },
-                ));
-            }
-            Quantity::Torque => outputs.extend(chain.inverse_dynamics(
-                at,
-                &motion.qd,
-                &motion.qdd,
-                form.spin,
-                form.couple,
-            )),
-            Quantity::Inertia => {
-                outputs.extend(composite.inertia(form.travel).into_iter().flatten());
-            }
-            Quantity::Coriolis if form.composite_h => {
-                let (still, rest) = (zero_vector(), zeros(chain.links.len()));
-                outputs.extend(composite.torques(&still, &motion.qd, &rest, form.spin));
-            }
-            Quantity::Coriolis => {
-                let mut still = chain.clone();
-                still.gravity = zero_vector();
-                for link in &mut still.links {
-                    link.viscous = S::zero();
-                }
-                let rest = zeros(chain.links.len());
-                outputs.extend(still.inverse_dynamics(
-                    at,
-                    &motion.qd,
-                    &rest,
-                    form.spin,
-                    form.couple,
-                ));
-            }
-            Quantity::Christoffel => {
-                outputs.extend(composite.christoffel().into_iter().flatten().flatten());
-            }
-            Quantity::Gravity => outputs.extend(composite.gravity(form.travel)),
-        }
-    }
-    outputs
-}
+pub use dalembert_model::equations::chain::Form;
 
 /// The motion of a setting in symbols.
 fn symbols(setting: &Setting, builder: &Rc<RefCell<Builder>>) -> Motion<Symbol> {
@@ -146,6 +36,18 @@ fn symbols(setting: &Setting, builder: &Rc<RefCell<Builder>>) -> Motion<Symbol> 
         |input: Input| Symbol::input(builder, input),
         |constant| Symbol::from(constant.clone()),
     )
+}
+
+/// A quantity that the chain formulas do not give, by the recursion in link
+/// axes.
+fn written(setting: &Setting, quantity: Quantity, motion: &Motion<Symbol>) -> Vec<Symbol> {
+    let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    quantity.written(&Written {
+        formulation: Formulation::NewtonEulerLink,
+        arm: &arm,
+        at: &arm.at(&motion.q),
+        motion,
+    })
 }
 
 /// Traces a function by the chain formulas; also the operations as executed.
@@ -158,13 +60,29 @@ pub fn trace_chain(
 ) -> (Graph, Counts) {
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let motion = symbols(setting, &builder).of_joints(setting.chained());
-    let outputs = evaluate(function, &chain, form, &motion);
-    let outputs: Vec<_> = setting
-        .select(function, setting.chained(), outputs)
-        .iter()
-        .map(Symbol::value)
-        .collect();
+    let whole = symbols(setting, &builder);
+    let motion = &whole.of_joints(setting.chained());
+    let (chain, at) = &chain.posed(&motion.q);
+    let composite = Composite::new(chain, at);
+    let regrouped = Regrouped {
+        chain,
+        at,
+        composite,
+        motion,
+        form,
+    };
+    let mut outputs = Vec::new();
+    for &quantity in function.quantities() {
+        let selected = match quantity.regrouped(&regrouped) {
+            Some(values) => setting.select_of(quantity, setting.chained(), values),
+            None => setting.select_of(
+                quantity,
+                setting.joints(),
+                written(setting, quantity, &whole),
+            ),
+        };
+        outputs.extend(selected.iter().map(Symbol::value));
+    }
     let traced = builder.borrow().asked();
     let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(folding));
     (graph.finish(&outputs), traced)
@@ -235,16 +153,39 @@ pub fn textbook(setting: &Setting, function: Function, formulation: Formulation)
 /// Longer chains are tuned by the price before the search alone.
 const MOST_GLANCES: usize = 10;
 
-/// The gauge that is cheapest for a function; the best so far where the watch
-/// is over.
+/// How far a program is above the error that is allowed: at most one where it
+/// is admitted.
+pub type Limit<'a> = &'a dyn Fn(&Graph) -> f64;
+
+/// Above every price of an admitted program. What is refused is compared by
+/// its error, so that a descent from there first goes where it is admitted.
+const REFUSED: u64 = 1 << 48;
+
+/// The price of a program under a limit; `below` is the price to beat.
+fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
+    let cost = simplify::cost(graph);
+    let Some(limit) = limit.filter(|_| cost < below) else {
+        return cost;
+    };
+    match limit(graph) {
+        admitted if admitted <= 1.0 => cost,
+        refused => REFUSED + (refused * 1e6) as u64,
+    }
+}
+
+/// The gauge that is cheapest for a function within a limit, if there is one;
+/// the best so far where the watch is over. `from` are gauges to start from,
+/// besides those that every robot has.
 pub fn tuned(
     setting: &Setting,
     function: Function,
     effort: Effort,
+    limit: Option<Limit<'_>>,
+    from: &[Gauge<Exact>],
     watch: Option<Vigil<'_>>,
 ) -> Tuned {
     let arm = skeleton(setting);
-    let forms = Form::of(function);
+    let forms = function.forms();
     let tried = Cell::new(0);
     let is_over = || {
         tried.set(tried.get() + 1);
@@ -256,9 +197,12 @@ pub fn tuned(
     let merged = |chain: &Chain<Exact>, form| merged(setting, function, chain, form);
     let helpers = [angle_sums(setting, Sums::Products)];
     // What the search makes of a gauge is not what the gauge costs at first.
-    let glance = |chain: &Chain<Exact>, form: Form| match is_over() {
+    let glance = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
-        false => simplify::cost(&simplify::search::glance(&merged(chain, form), &helpers)),
+        false => {
+            let graph = simplify::search::glance(&merged(chain, form), &helpers);
+            price(&graph, limit, below)
+        }
     };
     let start = tune::start(&arm);
     let with = |axes: Vec<i32>| {
@@ -274,24 +218,24 @@ pub fn tuned(
         .collect();
     if effort == Effort::Quick && starts.len() > 1 {
         // One descent: from where the others look dearer already.
-        starts.sort_by_cached_key(|from| glance(&Chain::new(&arm, from), forms[0]));
+        starts.sort_by_cached_key(|from| glance(&Chain::new(&arm, from), forms[0], u64::MAX));
         starts.truncate(1);
     }
+    starts.extend_from_slice(from);
     let mut tuned: Option<Tuned> = None;
     for from in starts {
-        let mut found =
-            tune::tune(
-                &arm,
-                from,
-                &forms,
-                effort.gauge_rounds(),
-                |chain, form| match is_over() {
-                    true => u64::MAX,
-                    false => simplify::cost(&merged(chain, form)),
-                },
-            );
+        let mut found = tune::tune(
+            &arm,
+            from,
+            &forms,
+            effort.gauge_rounds(),
+            |chain, form, below| match is_over() {
+                true => u64::MAX,
+                false => price(&merged(chain, form), limit, below),
+            },
+        );
         if arm.links.len() <= MOST_GLANCES {
-            found.price = glance(&Chain::new(&arm, &found.gauge), found.form);
+            found.price = glance(&Chain::new(&arm, &found.gauge), found.form, u64::MAX);
         }
         if tuned.as_ref().is_none_or(|best| found.price < best.price) {
             tuned = Some(found);
@@ -340,7 +284,7 @@ pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) ->
         for (link, axes) in chain.links.iter_mut().zip(axes) {
             link.axes = axes;
         }
-        for form in Form::of(function) {
+        for form in function.forms() {
             let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
             variants.push(Variant {
                 source: Source::Regrouped,

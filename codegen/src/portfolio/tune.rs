@@ -57,13 +57,14 @@ pub fn start(arm: &Skeleton<Exact>) -> Gauge<Exact> {
     gauge
 }
 
-/// Descends from a gauge; `price` must not depend on anything else.
+/// Descends from a gauge. `price` must not depend on anything else; above the
+/// last argument, which is the best price so far, it need not be exact.
 pub fn tune(
     arm: &Skeleton<Exact>,
     from: Gauge<Exact>,
     forms: &[Form],
     rounds: usize,
-    price: impl Fn(&Chain<Exact>, Form) -> u64,
+    price: impl Fn(&Chain<Exact>, Form, u64) -> u64,
 ) -> Tuned {
     let mut descent = Descent {
         arm,
@@ -97,13 +98,13 @@ struct Descent<'a, P> {
     best: Tuned,
 }
 
-impl<P: Fn(&Chain<Exact>, Form) -> u64> Descent<'_, P> {
+impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
     fn attempt(&mut self, gauge: Gauge<Exact>) {
         let chain = Chain::new(self.arm, &gauge);
         if is_large(&chain) {
             return;
         }
-        let price = (self.price)(&chain, self.best.form);
+        let price = (self.price)(&chain, self.best.form, self.best.price);
         if price < self.best.price {
             self.best.price = price;
             self.best.gauge = gauge;
@@ -113,7 +114,7 @@ impl<P: Fn(&Chain<Exact>, Form) -> u64> Descent<'_, P> {
     fn forms(&mut self, forms: &[Form]) {
         let chain = Chain::new(self.arm, &self.best.gauge);
         for &form in forms {
-            let price = (self.price)(&chain, form);
+            let price = (self.price)(&chain, form, self.best.price);
             if price < self.best.price {
                 self.best.price = price;
                 self.best.form = form;

@@ -16,21 +16,21 @@
 //! entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
-mod names;
+mod motion;
 
 use std::fmt;
 
 use dalembert_model::equations::JointPosition;
 use dalembert_model::number::Exact;
+use dalembert_model::outputs::{Axis, Motion};
 use dalembert_model::robot::{Position, Robot, Severity};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
-pub use names::{UnknownScene, find};
+pub use motion::motion;
 
-use crate::function::{Argument, Function};
-use crate::graph::Input;
-use crate::trace::Motion;
+use crate::function::{Argument, Function, Quantity};
+use crate::program::Input;
 
 /// A robot, whole or in a scene.
 #[derive(Clone, Debug)]
@@ -179,7 +179,7 @@ impl Setting {
                 Argument::Acceleration => scene.acceleration_zero,
             })
         };
-        let all = function.arguments().iter().copied();
+        let all = function.arguments().into_iter();
         all.filter(|&argument| !zero(argument)).collect()
     }
 
@@ -190,7 +190,7 @@ impl Setting {
         input: impl FnMut(Input) -> S,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Motion<S> {
-        let mut motion = Motion::of(&self.robot, input);
+        let mut motion = motion(&self.robot, input);
         for (joint, lock) in self.locks.iter().enumerate() {
             let Some(lock) = lock else { continue };
             motion.q[joint] = match lock {
@@ -215,29 +215,44 @@ impl Setting {
         &self,
         function: Function,
         joints: &[usize],
-        outputs: Vec<S>,
+        mut outputs: Vec<S>,
     ) -> Vec<S> {
         if joints == self.rows {
             return outputs;
         }
+        let mut selected = Vec::with_capacity(function.outputs(self.rows.len()));
+        for &quantity in function.quantities() {
+            let rest = outputs.split_off(quantity.len(joints.len()));
+            selected.extend(self.select_of(quantity, joints, outputs));
+            outputs = rest;
+        }
+        selected
+    }
+
+    /// The entries of one quantity over the rows, from those over these joints.
+    pub fn select_of<S: Clone>(
+        &self,
+        quantity: Quantity,
+        joints: &[usize],
+        values: Vec<S>,
+    ) -> Vec<S> {
+        if joints == self.rows {
+            return values;
+        }
         let place = |row: &usize| joints.iter().position(|joint| joint == row);
         let places: Vec<usize> = self.rows.iter().filter_map(place).collect();
         let (n, k) = (joints.len(), places.len());
-        let mut selected = Vec::with_capacity(function.outputs(k));
-        let mut start = 0;
-        for quantity in function.quantities() {
-            for index in 0..quantity.len(k) {
-                // The digits of the index to base k, to base n.
-                let (mut from, mut weight) = (start, 1);
-                for at in quantity.indices(index, k) {
-                    from += places[at] * weight;
-                    weight *= n;
-                }
-                selected.push(outputs[from].clone());
-            }
-            start += quantity.len(n);
-        }
-        selected
+        let shape = quantity.shape();
+        let entry = |index: usize| {
+            let axes = shape.0.iter().zip(shape.places(index, k));
+            // The place of the entry among those over all joints.
+            let from = axes.fold(0, |from, (axis, place)| match axis {
+                Axis::Joints => from * n + places[place],
+                Axis::Fixed(length) => from * length + place,
+            });
+            values[from].clone()
+        };
+        (0..shape.len(k)).map(entry).collect()
     }
 }
 

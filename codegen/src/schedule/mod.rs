@@ -1,96 +1,10 @@
-//! From a graph to straight-line code: sines and cosines first, once for each
-//! angle, then arithmetic in an order that keeps few values alive.
+//! From a graph to straight-line code: arithmetic in an order that keeps few
+//! values alive.
 
-use std::collections::BTreeMap;
-
-use dalembert_model::number::Exact;
-
-use crate::function::{Argument, Function};
-use crate::graph::{AngleSum, Counts, Edge, Graph, Input, Node, NodeId};
+use crate::function::Function;
+use crate::graph::{Edge, Graph, Node, NodeId};
+use crate::program::{Operand, Operation, Output, Program, Step};
 use crate::scene::Setting;
-
-/// Straight-line code with exact constants: what is proved and emitted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Program {
-    /// What it computes.
-    pub function: Function,
-    /// n: the length of every argument.
-    pub joints: usize,
-    /// The joints that the results are over, zero-based, in their order.
-    pub rows: Vec<usize>,
-    /// The arguments there are, in order.
-    pub arguments: Vec<Argument>,
-    /// The angles whose sine or cosine it needs, ascending.
-    pub trig: Vec<Trig>,
-    /// The arithmetic, operands before users.
-    pub steps: Vec<Step>,
-    /// The results in the order of the function's quantities.
-    pub outputs: Vec<Output>,
-}
-
-/// One sine/cosine evaluation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Trig {
-    /// The angle.
-    pub angle: AngleSum,
-    /// Whether the sine is needed.
-    pub sin: bool,
-    /// Whether the cosine is needed.
-    pub cos: bool,
-}
-
-/// One operation.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Step {
-    /// What is done.
-    pub operation: Operation,
-    /// Left operand.
-    pub left: Operand,
-    /// Right operand.
-    pub right: Operand,
-}
-
-/// The operations of emitted code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Operation {
-    /// left + right
-    Add,
-    /// left − right
-    Sub,
-    /// left · right
-    Mul,
-}
-
-/// What a step reads.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Operand {
-    /// An input.
-    Input(Input),
-    /// An exact constant, rounded once when it is printed.
-    Constant(Exact),
-    /// The result of an earlier step.
-    Step(usize),
-}
-
-/// A result, negated or not: negation is free.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Output {
-    /// Whether it is negated.
-    pub negative: bool,
-    /// The value.
-    pub value: Operand,
-}
-
-impl Operation {
-    /// Its symbol in Rust.
-    pub fn symbol(self) -> char {
-        match self {
-            Operation::Add => '+',
-            Operation::Sub => '-',
-            Operation::Mul => '*',
-        }
-    }
-}
 
 impl Program {
     /// Straight-line code for the graph of a function of a whole robot.
@@ -99,7 +13,7 @@ impl Program {
             function,
             joints,
             rows: (0..joints).collect(),
-            arguments: function.arguments().to_vec(),
+            arguments: function.arguments(),
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
@@ -155,49 +69,6 @@ impl Program {
         };
         program.collect_trig();
         program
-    }
-
-    /// Lists the sines and cosines that steps and outputs read.
-    pub(crate) fn collect_trig(&mut self) {
-        let mut trig: BTreeMap<AngleSum, Trig> = BTreeMap::new();
-        let operands = self.steps.iter().flat_map(|step| [&step.left, &step.right]);
-        for operand in operands.chain(self.outputs.iter().map(|output| &output.value)) {
-            if let Operand::Input(input) = operand {
-                note_trig(&mut trig, *input);
-            }
-        }
-        self.trig = trig.into_values().collect();
-    }
-
-    /// What it costs.
-    pub fn counts(&self) -> Counts {
-        let mul = self
-            .steps
-            .iter()
-            .filter(|step| step.operation == Operation::Mul)
-            .count();
-        let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
-        Counts {
-            mul,
-            add: self.steps.len() - mul + angles,
-            div: 0,
-            sincos: self.trig.len(),
-            ..Counts::default()
-        }
-    }
-}
-
-fn note_trig(trig: &mut BTreeMap<AngleSum, Trig>, input: Input) {
-    if let Some(angle) = input.angle() {
-        let entry = trig.entry(angle).or_insert(Trig {
-            angle,
-            sin: false,
-            cos: false,
-        });
-        match input {
-            Input::Sin(_) => entry.sin = true,
-            _ => entry.cos = true,
-        }
     }
 }
 

@@ -9,7 +9,8 @@ use std::collections::HashMap;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::graph::{Builder, Edge, Folding, Graph, Input, Node, Points, Print, Value};
+use crate::graph::{Builder, Edge, Folding, Graph, Node, Points, Print, Value};
+use crate::program::Input;
 
 /// The index of a class.
 pub type ClassId = u32;
@@ -316,4 +317,118 @@ fn signed(values: &[Option<Signed>], edge: Edge) -> Option<Signed> {
         class: value.class,
         negative: value.negative != edge.is_negative(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::rules::pattern::graph;
+
+    fn class_of(classes: &Classes, output: usize) -> Signed {
+        classes.outputs[output].expect("no output of these tests is zero")
+    }
+
+    #[test]
+    fn equal_values_are_one_class_with_a_way_for_each_formula() {
+        let classes = Classes::new(&graph(&["(* ?a (+ ?b ?c))", "(+ (* ?a ?b) (* ?a ?c))"]));
+        let (first, second) = (class_of(&classes, 0), class_of(&classes, 1));
+        assert_eq!(first, second);
+        let ways = &classes.get(first.class).ways;
+        assert!(matches!(ways.as_slice(), [Way::Product(..), Way::Sum(..)]));
+    }
+
+    #[test]
+    fn opposite_values_are_one_class_and_the_outputs_keep_their_signs() {
+        let classes = Classes::new(&graph(&[
+            "(- ?a ?b)",
+            "(- (* ?b ?c) (* ?a ?c))",
+            "(* (- ?a ?b) ?c)",
+        ]));
+        let (second, third) = (class_of(&classes, 1), class_of(&classes, 2));
+        assert_eq!(second.class, third.class);
+        assert_ne!(second.negative, third.negative);
+    }
+
+    #[test]
+    fn what_is_zero_at_every_point_is_no_class() {
+        let classes = Classes::new(&graph(&["(- (* ?a (+ ?b ?c)) (+ (* ?a ?b) (* ?a ?c)))"]));
+        assert_eq!(classes.outputs, [None]);
+    }
+
+    #[test]
+    fn an_operation_on_two_constants_makes_a_leaf_of_its_class() {
+        let mut classes = Classes::default();
+        let constant = |number: i64| {
+            Exact::from(dalembert_model::number::Rational::from_integer(
+                number.into(),
+            ))
+        };
+        let points = Points::SEARCH;
+        let ids = [3, 4].map(|number| {
+            let class = classes
+                .intern(&points.constant(&constant(number)).unwrap())
+                .class;
+            let leaf = match classes.get(class).print == points.constant(&constant(number)).unwrap()
+            {
+                true => constant(number),
+                false => constant(-number),
+            };
+            classes.set_leaf(class, Leaf::Constant(leaf));
+            class
+        });
+        let way = Way::Product(ids[0], ids[1]);
+        let product = classes.intern(&classes.way_print(way)).class;
+        assert!(!classes.add_way(product, way), "a leaf needs no way");
+        let Some(Leaf::Constant(leaf)) = &classes.get(product).leaf else {
+            panic!("the product of two constants is a constant");
+        };
+        assert_eq!(points.constant(leaf), Some(classes.get(product).print));
+    }
+
+    #[test]
+    fn a_class_takes_no_way_through_itself_and_none_twice() {
+        let mut classes = Classes::new(&graph(&["(* ?a ?b)"]));
+        let id = class_of(&classes, 0).class;
+        let [a, b] = classes.get(id).ways[0].operands();
+        assert!(!classes.add_way(id, Way::Sum(a, id)));
+        assert!(
+            !classes.add_way(id, Way::Product(b, a)),
+            "the same way, operands exchanged"
+        );
+        assert_eq!(classes.get(id).ways.len(), 1);
+    }
+
+    #[test]
+    fn every_choice_of_ways_gives_the_same_values() {
+        let graph = graph(&[
+            "(* ?a (+ ?b ?c))",
+            "(- (* ?c ?d) (* ?b ?d))",
+            "(+ (* ?a ?b) (* ?a ?c))",
+            "(* ?d (- ?b ?c))",
+        ]);
+        let classes = Classes::new(&graph);
+        let count = |id: usize| classes.get(id as ClassId).ways.len().max(1);
+        let choices: usize = (0..classes.len()).map(count).product();
+        assert!(choices >= 4, "several programs: {choices}");
+        let prints = |graph: &Graph| {
+            let mut builder = Builder::new(Folding::Semantic);
+            let values = graph.replay(&mut builder);
+            let output = |edge: &Edge| {
+                let value = builder.negate_if(&values[edge.node().index()], edge.is_negative());
+                builder.print(&value)
+            };
+            graph.outputs.iter().map(output).collect::<Vec<_>>()
+        };
+        let expected = prints(&graph);
+        for mut choice in 0..choices {
+            let chosen = (0..classes.len()).map(|id| {
+                let ways = &classes.get(id as ClassId).ways;
+                let index = choice % ways.len().max(1);
+                choice /= ways.len().max(1);
+                ways.get(index).copied()
+            });
+            let chosen: Vec<Option<Way>> = chosen.collect();
+            assert_eq!(prints(&classes.graph(&chosen)), expected);
+        }
+    }
 }

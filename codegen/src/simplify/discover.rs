@@ -15,7 +15,8 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
 use super::classes::{ClassId, Classes, Leaf, Way};
-use crate::graph::{Input, Print};
+use crate::graph::Print;
+use crate::program::Input;
 
 /// Tries every pair of the pool; returns how many new ways there are.
 pub fn pairs(classes: &mut Classes, pool: &[ClassId]) -> usize {
@@ -288,7 +289,7 @@ impl<'a> Values<'a> {
 /// from their joints, so that identities between them hold.
 fn sample(input: Input) -> Rational {
     let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
-    let pair = |angle: crate::graph::AngleSum| {
+    let pair = |angle: crate::program::AngleSum| {
         let (mut sin, mut cos) = (ratio(0, 1), ratio(1, 1));
         for (joint, negative) in angle.terms() {
             // t/(t + 3) as the half angle's tangent: small, distinct per joint.

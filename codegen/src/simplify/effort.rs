@@ -62,7 +62,7 @@ impl Effort {
                 Effort::Quick => 0,
                 Effort::Thorough => 500_000,
             },
-            ..COOLING
+            ..Schedule::COOLING
         }
     }
 
@@ -75,7 +75,7 @@ impl Effort {
                 substitutes: 700,
                 schedule: Schedule {
                     moves: 40_000,
-                    ..COOLING
+                    ..Schedule::COOLING
                 },
             },
             Effort::Thorough => Settings {
@@ -85,16 +85,9 @@ impl Effort {
                 substitutes: 3_000,
                 schedule: Schedule {
                     moves: 150_000,
-                    ..COOLING
+                    ..Schedule::COOLING
                 },
             },
         }
     }
 }
-
-/// No moves yet. Hotter than this destroys a program of 300 operations.
-pub(super) const COOLING: Schedule = Schedule {
-    moves: 0,
-    hot: 0.2,
-    cold: 0.04,
-};

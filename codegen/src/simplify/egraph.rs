@@ -13,7 +13,7 @@ use std::str::FromStr;
 use egg::{Analysis, DidMerge, EGraph, Id, Language, Rewrite, SimpleScheduler, define_language};
 
 use super::classes::{ClassId, Classes, Way};
-use super::rules::{Phase, RULES};
+use super::rules::{Phase, SATURATION};
 use crate::graph::Print;
 
 /// How far saturation goes.
@@ -113,10 +113,10 @@ pub fn saturate(classes: &mut Classes, choice: &[Option<Way>], budget: Budget) {
 
 /// The rules of a phase; signs are always among them.
 fn rewrites(phase: Phase) -> Vec<Rewrite<Term, Prints>> {
-    RULES
+    SATURATION
         .iter()
-        .filter(|rule| rule.phase == phase || rule.phase == Phase::Sign)
-        .filter_map(|rule| {
+        .filter(|(own, _)| *own == phase || *own == Phase::Sign)
+        .filter_map(|(_, rule)| {
             let from: egg::Pattern<Term> = rule.from.parse().ok()?;
             let to: egg::Pattern<Term> = rule.to.parse().ok()?;
             Rewrite::new(rule.name, from, to).ok()
@@ -249,43 +249,13 @@ fn harvest(egraph: &EGraph<Term, Prints>, classes: &mut Classes) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dalembert_model::scalar::Scalar;
-    use dalembert_model::scalar::field::Field;
-    use egg::{ENodeOrVar, PatternAst};
-
-    fn value(pattern: &PatternAst<Term>, point: u64) -> Field {
-        let mut values: Vec<Field> = Vec::new();
-        for node in pattern.as_ref() {
-            let of = |id: &Id| values[usize::from(*id)];
-            values.push(match node {
-                ENodeOrVar::Var(var) => {
-                    let letter = var.to_string().bytes().map(u64::from).sum::<u64>();
-                    Field::new(letter).pow(point)
-                }
-                ENodeOrVar::ENode(Term::Add([a, b])) => of(a).add(&of(b)),
-                ENodeOrVar::ENode(Term::Sub([a, b])) => of(a).sub(&of(b)),
-                ENodeOrVar::ENode(Term::Mul([a, b])) => of(a).mul(&of(b)),
-                ENodeOrVar::ENode(Term::Neg([a])) => of(a).neg(),
-                ENodeOrVar::ENode(Term::Leaf(_)) => unreachable!("rules have no leaves"),
-            });
-        }
-        values[values.len() - 1]
-    }
 
     #[test]
-    fn every_rule_parses_and_both_sides_agree() {
-        for rule in RULES {
-            let from: PatternAst<Term> = rule.from.parse().unwrap();
-            let to: PatternAst<Term> = rule.to.parse().unwrap();
-            for point in 1..=5 {
-                assert_eq!(value(&from, point), value(&to, point), "{}", rule.name);
-            }
-        }
+    fn egg_reads_every_rule() {
         for phase in [Phase::Sign, Phase::Factor, Phase::Regroup] {
-            let listed = RULES
-                .iter()
-                .filter(|r| r.phase == phase || r.phase == Phase::Sign);
-            assert_eq!(rewrites(phase).len(), listed.count());
+            let listed = SATURATION.iter();
+            let listed = listed.filter(|(own, _)| *own == phase || *own == Phase::Sign);
+            assert_eq!(rewrites(phase).len(), listed.count(), "{phase:?}");
         }
     }
 }

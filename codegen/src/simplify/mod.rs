@@ -13,18 +13,18 @@ pub mod discover;
 pub mod effort;
 pub mod egraph;
 pub mod extract;
-pub mod random;
 pub mod rules;
 pub mod search;
 
 use std::fmt;
 
-use crate::graph::{Counts, Folding, Graph};
+use crate::graph::{Folding, Graph};
+use crate::program::Counts;
+use crate::random::Random;
 use crate::watch::{Part, Vigil};
 use classes::Classes;
 pub use effort::Effort;
 pub use extract::{CostModel, Extraction, Schedule};
-use random::Random;
 
 /// What one step left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,10 +3,9 @@
 use super::classes::{ClassId, Classes, Way};
 use super::cost;
 use super::discover;
-use super::effort::COOLING;
 use super::extract::{CostModel, Extraction, Schedule};
-use super::random::Random;
 use crate::graph::Graph;
+use crate::random::Random;
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +64,7 @@ pub fn glance(program: &Graph, helpers: &[Graph]) -> Graph {
         patience: 0,
         pairs: 500,
         substitutes: 1_000,
-        schedule: COOLING,
+        schedule: Schedule::COOLING,
     };
     round(program, &[], helpers, &settings, &mut Random::new(1))
 }

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::forms::{Centre, Form, Need};
-use super::kernel::Kernel;
 use super::proof::{Errors, prove};
 use super::series::{FARTHEST, Fit};
-use crate::certify::interval::Interval;
-use crate::emit::ScalarType;
+use crate::bound::interval::Interval;
+use crate::program::ScalarType;
+use crate::program::kernel::Kernel;
 use crate::sincos::reduction;
 
 /// A kernel with its proof.
@@ -78,7 +78,7 @@ impl Candidates {
         }
         let written = {
             let mut kernel = Kernel::default();
-            kernel.sin = Some(super::kernel::Value::of(reduction::write(
+            kernel.sin = Some(crate::program::kernel::Value::of(reduction::write(
                 &mut kernel,
                 scalar,
             )));

@@ -17,11 +17,10 @@ use dalembert_model::number::{Angle, Rational, Rounded};
 use num_bigint::BigInt;
 use num_traits::One;
 
-use super::kernel::{Kernel, Term, Value};
 use super::reduction;
 use super::series::{Fit, Wave};
-use crate::emit::ScalarType;
-use crate::schedule::Operation;
+use crate::program::kernel::{ANGLE, Kernel, Value, literal};
+use crate::program::{Operation, ScalarType};
 
 /// Where a polynomial's variable is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +79,7 @@ impl Form {
         let mut kernel = Kernel::default();
         let rest = match self.reduced {
             true => reduction::write(&mut kernel, scalar),
-            false => Term::Angle,
+            false => ANGLE,
         };
         let shift = match self.centre {
             Centre::Quarter(0) => None,
@@ -112,7 +111,7 @@ impl Form {
         };
         for level in (0..self.halvings as usize).rev() {
             let squared = kernel.mul(s, s);
-            let lambda = Term::Literal(round(&lambdas[level], scalar));
+            let lambda = literal(round(&lambdas[level], scalar));
             (s, c) = (
                 kernel.mul(s, c),
                 kernel.push(Operation::Sub, lambda, squared),
@@ -122,7 +121,10 @@ impl Form {
             Centre::Quarter(k) => k.rem_euclid(4),
             Centre::At(_) => 0,
         };
-        let value = |negative, term| Value { negative, term };
+        let value = |negative, term| Value {
+            negative,
+            value: term,
+        };
         let (sin, cos) = match turned {
             0 => (value(false, s), value(false, c)),
             1 => (value(false, c), value(true, s)),

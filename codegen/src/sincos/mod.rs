@@ -1,7 +1,6 @@
 //! Sine and cosine by polynomials with proved errors, instead of libm.
 //!
 //! - this file: [`SinCos`], the choice; [`Sines`], the code of each angle
-//! - [`kernel`]: straight-line code in one angle: printed, read back, run
 //! - [`proof`]: how far a kernel is from sine and cosine
 //! - [`choose`]: the cheapest kernel of [`forms`] that is near enough
 //! - [`series`]: Taylor's series and near-minimax fits
@@ -13,7 +12,6 @@
 
 pub mod choose;
 pub mod forms;
-pub mod kernel;
 pub mod poly;
 pub mod proof;
 pub mod reduction;
@@ -23,15 +21,13 @@ mod tests;
 
 use std::fmt;
 
-use crate::certify::interval::Interval;
-use crate::emit::ScalarType;
-use crate::graph::AngleSum;
-use crate::schedule::{Program, Trig};
+use crate::bound::interval::Interval;
+use crate::program::kernel::Kernel;
+use crate::program::{AngleSum, Program, ScalarType, Trig};
 use choose::Candidates;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::{JointKind, Position, Robot};
 use forms::Need;
-use kernel::Kernel;
 use proof::Errors;
 
 /// How emitted code gets sines and cosines.

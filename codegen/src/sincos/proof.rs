@@ -17,14 +17,13 @@
 use num_bigint::BigInt;
 use num_traits::One;
 
-use super::kernel::{Kernel, Term, Value};
 use super::poly::Poly;
 use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
-use crate::certify::interval::Interval;
-use crate::certify::sensitivity::underflow;
-use crate::emit::ScalarType;
-use crate::schedule::Operation;
+use crate::bound::interval::Interval;
+use crate::program::kernel::{Kernel, Term, Value};
+use crate::program::scalar_type::underflow;
+use crate::program::{Operation, ScalarType};
 
 /// Proved bounds of |computed − true|; zero for what is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -116,14 +115,14 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
 
 fn read(term: Term, values: &[Poly]) -> Option<Poly> {
     match term {
-        Term::Angle => Some(Poly::variable()),
-        Term::Literal(value) => Poly::constant(value),
+        Term::Input(_) => Some(Poly::variable()),
+        Term::Constant(value) => Poly::constant(value.0),
         Term::Step(step) => values.get(step).cloned(),
     }
 }
 
 fn result(value: Value, values: &[Poly]) -> Option<Poly> {
-    let poly = read(value.term, values)?;
+    let poly = read(value.value, values)?;
     Some(if value.negative {
         Poly::integers(Vec::new()).sub(&poly)
     } else {
@@ -172,7 +171,7 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
         let cell = Interval::new(end(cell), high).unwrap_or(range);
         let (values, own) = forward(kernel, scalar, cell);
         let one = |value: Option<Value>| match value {
-            Some(value) => backward(kernel, &values, &own, value.term, cell),
+            Some(value) => backward(kernel, &values, &own, value.value, cell),
             None => 0.0,
         };
         worst.sin = worst.sin.max(one(kernel.sin));
@@ -183,8 +182,8 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
 
 fn interval(term: Term, values: &[Interval], angle: Interval) -> Interval {
     match term {
-        Term::Angle => angle,
-        Term::Literal(value) => Interval::point(value),
+        Term::Input(_) => angle,
+        Term::Constant(value) => Interval::point(value.0),
         Term::Step(step) => values.get(step).copied().unwrap_or(Interval::ALL),
     }
 }

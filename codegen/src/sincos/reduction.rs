@@ -6,11 +6,10 @@
 
 use dalembert_model::number::{Angle, Rational, Rounded};
 
-use super::kernel::{Kernel, Step, Term};
-use crate::certify::interval::Interval;
-use crate::certify::sensitivity::underflow;
-use crate::emit::ScalarType;
-use crate::schedule::Operation;
+use crate::bound::interval::Interval;
+use crate::program::kernel::{ANGLE, Kernel, KernelStep, Term, literal};
+use crate::program::scalar_type::underflow;
+use crate::program::{Literal, Operand, Operation, ScalarType};
 
 /// Steps that it takes.
 pub const STEPS: usize = 7;
@@ -56,45 +55,46 @@ pub fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
     let (whole, grid) = (turn(), libm::exp2(f64::from(kept - 3)));
     let coarse = libm::floor(f64::nearest_rational(&whole) * grid) / grid;
     let exact = Rational::from_float(coarse).unwrap_or_default();
-    let magic = Term::Literal(magic(scalar));
-    let turns = kernel.mul(Term::Angle, Term::Literal(round(&whole.recip())));
+    let magic = literal(magic(scalar));
+    let turns = kernel.mul(ANGLE, literal(round(&whole.recip())));
     let shifted = kernel.push(Operation::Add, turns, magic);
     let k = kernel.push(Operation::Sub, shifted, magic);
-    let much = kernel.mul(k, Term::Literal(coarse));
-    let rest = kernel.push(Operation::Sub, Term::Angle, much);
-    let little = kernel.mul(k, Term::Literal(round(&(whole - exact))));
+    let much = kernel.mul(k, literal(coarse));
+    let rest = kernel.push(Operation::Sub, ANGLE, much);
+    let little = kernel.mul(k, literal(round(&(whole - exact))));
     kernel.push(Operation::Sub, rest, little)
 }
 
 /// The reduction that a kernel begins with, as (ι, A, B), and the kernel of
 /// what is left; `None` if it begins with none.
 pub fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
+    use Operand::{Constant, Input, Step as At};
     use Operation::{Add, Mul, Sub};
-    use Term::{Angle, Literal, Step as At};
     let [s1, s2, s3, s4, s5, s6, s7, rest @ ..] = kernel.steps.as_slice() else {
         return None;
     };
-    let parts = |s: &Step| (s.operation, s.left, s.right);
-    let (Mul, Angle, Literal(inverse)) = parts(s1) else {
+    let parts = |s: &KernelStep| (s.operation, s.left, s.right);
+    let (Mul, Input(_), Constant(Literal(inverse))) = parts(s1) else {
         return None;
     };
-    let magic = Literal(magic(scalar));
+    let magic = literal(magic(scalar));
     let rounds = parts(s2) == (Add, At(0), magic) && parts(s3) == (Sub, At(1), magic);
-    let ((Mul, At(2), Literal(much)), (Mul, At(2), Literal(little))) = (parts(s4), parts(s6))
+    let ((Mul, At(2), Constant(Literal(much))), (Mul, At(2), Constant(Literal(little)))) =
+        (parts(s4), parts(s6))
     else {
         return None;
     };
-    let subtracts = parts(s5) == (Sub, Angle, At(3)) && parts(s7) == (Sub, At(4), At(5));
+    let subtracts = parts(s5) == (Sub, ANGLE, At(3)) && parts(s7) == (Sub, At(4), At(5));
     if !rounds || !subtracts {
         return None;
     }
     // Nothing else may read what came before.
     let last = STEPS - 1;
     let moved = |term| match term {
-        Angle => None,
-        Literal(_) => Some(term),
+        Input(_) => None,
+        Constant(_) => Some(term),
         At(step) if step < last => None,
-        At(step) if step == last => Some(Angle),
+        At(step) if step == last => Some(ANGLE),
         At(step) => Some(At(step - STEPS)),
     };
     let mut left = Kernel::default();
@@ -103,7 +103,7 @@ pub fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> 
     }
     for (value, place) in [(kernel.sin, &mut left.sin), (kernel.cos, &mut left.cos)] {
         if let Some(mut value) = value {
-            value.term = moved(value.term)?;
+            value.value = moved(value.value)?;
             *place = Some(value);
         }
     }
@@ -175,17 +175,17 @@ mod tests {
     fn reduced(scalar: ScalarType) -> Kernel {
         let mut kernel = Kernel::default();
         let rest = write(&mut kernel, scalar);
-        kernel.sin = Some(super::super::kernel::Value::of(rest));
+        kernel.sin = Some(crate::program::kernel::Value::of(rest));
         kernel
     }
 
     #[test]
     fn the_rest_is_as_near_as_proved() {
-        let mut random = crate::simplify::random::Random::new(5);
+        let mut random = crate::random::Random::new(5);
         for (scalar, reach) in [(ScalarType::F64, 1e6), (ScalarType::F32, 1e3)] {
             let kernel = reduced(scalar);
             let (constants, left) = split(&kernel, scalar).unwrap();
-            assert_eq!(left.sin.map(|v| v.term), Some(Term::Angle));
+            assert_eq!(left.sin.map(|v| v.value), Some(ANGLE));
             let rest = rest(constants, scalar, Interval::symmetric(reach)).unwrap();
             let u = scalar.unit_roundoff();
             assert!(
@@ -213,11 +213,11 @@ mod tests {
         let kernel = reduced(ScalarType::F64);
         assert!(split(&kernel, ScalarType::F32).is_none());
         let mut other = kernel.clone();
-        other.steps[4].left = Term::Literal(1.0);
+        other.steps[4].left = literal(1.0);
         assert!(split(&other, ScalarType::F64).is_none());
         // Who still reads the whole angle has not taken the turns off.
         let mut angle = kernel.clone();
-        angle.mul(Term::Step(6), Term::Angle);
+        angle.mul(Term::Step(6), ANGLE);
         assert!(split(&angle, ScalarType::F64).is_none());
         let (mut constants, _) = split(&kernel, ScalarType::F64).unwrap();
         let range = Interval::symmetric(100.0);

@@ -12,7 +12,7 @@ use num_traits::One;
 use dalembert_model::number::{Rational, Rounded};
 
 use super::poly::Poly;
-use crate::emit::ScalarType;
+use crate::program::ScalarType;
 
 /// Beyond this |angle| Taylor's series is no way to prove anything.
 pub const FARTHEST: f64 = 40.0;

@@ -2,10 +2,10 @@
 
 use super::choose::{Candidates, Choice};
 use super::forms::Need;
-use super::kernel::{Kernel, Term};
 use super::proof::prove;
 use super::*;
-use crate::simplify::random::Random;
+use crate::program::kernel::{self, Kernel, Term, literal};
+use crate::random::Random;
 
 const BOTH: Need = Need {
     sin: true,
@@ -97,8 +97,8 @@ fn a_changed_literal_shows() {
             let mut kernel = honest.kernel.clone();
             let step = &mut kernel.steps[index];
             let changed = [&mut step.left, &mut step.right].into_iter().any(|term| {
-                if let Term::Literal(value) = term {
-                    *value = scalar.nearest(*value * 1.01);
+                if let Term::Constant(value) = term {
+                    value.0 = scalar.nearest(value.0 * 1.01);
                     return true;
                 }
                 false
@@ -174,13 +174,13 @@ fn what_cannot_be_reached_is_said() {
 #[test]
 fn nothing_unbounded_is_proved() {
     let mut kernel = Kernel::default();
-    let mut term = Term::Literal(1.5);
+    let mut term = literal(1.5);
     for _ in 0..100 {
         term = kernel.mul(term, term);
     }
     kernel.sin = Some(kernel::Value::of(term));
     assert_eq!(prove(&kernel, ScalarType::F64, range(0.0, 1.0)), None);
-    for term in [Term::Literal(f64::INFINITY), Term::Step(7)] {
+    for term in [literal(f64::INFINITY), Term::Step(7)] {
         let wild = Kernel {
             sin: Some(kernel::Value::of(term)),
             ..Kernel::default()

@@ -1,33 +1,57 @@
-//! How likely a random point is to miss a difference.
+//! Degree and height of a program's and a formula's outputs, from above.
 //!
-//! A program is a polynomial in its inputs. With every sine and cosine of
-//! joint j a rational function of one parameter t_j of numerator degree 2
-//! over 1 + t_j², a polynomial whose degree in the pair of joint j is e_j
-//! becomes, times Π (1 + t_j²)^e_j, a polynomial of degree at most Σ 2e_j +
-//! (the degree in everything else). Two different ones agree at a random
-//! point of the field with probability at most degree/p (Schwartz–Zippel).
-//! Constant angles are parameters like any other.
+//! A program is a polynomial in its inputs and in the pairs of constant
+//! angles. With every sine and cosine of an angle a rational function of one
+//! parameter, of numerator degree 2 over 1 + t², a polynomial whose degree in
+//! the pair of joint j is e_j becomes, times Π (1 + t_j²)^e_j, a polynomial of
+//! degree at most Σ 2e_j + (the degree in everything else).
+//!
+//! Its coefficients are rationals. If every constant is an integer over a
+//! common denominator E, a polynomial of degree k in the constants is, times
+//! E^k, one with integers; they are no larger than E^k times the sum of the
+//! coefficients' magnitudes, which products multiply and sums add, and which
+//! an angle's parameter at most doubles for each degree in its pair. [`height`]
+//! is the number of bits of that. Halving, which formulas do, counts by itself.
+//!
+//! [`height`]: Degree::height
 
+use dalembert_model::equations::Rotor;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::field::Field;
 
-use crate::graph::Input;
-use crate::schedule::{Operand, Operation, Program};
+use super::size::{Denominators, Size};
+use crate::program::{Input, Program};
 
-/// Degrees of a polynomial: an upper bound, cancellation is not seen.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
+/// Degrees of a polynomial and the size of its coefficients: upper bounds,
+/// cancellation is not seen.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Degree {
-    zero: bool,
+    /// The sum of the coefficients' magnitudes; none if it is zero.
+    size: Option<Size>,
     /// In the sine and cosine of each joint.
     joints: Vec<u32>,
     /// In all other inputs together.
     other: u32,
     /// In the sines and cosines of constant angles together.
     angles: u32,
+    /// In constants that are no integers.
+    constants: u32,
+    /// How often it was halved.
+    halvings: u32,
 }
 
 impl Degree {
+    fn of(size: Option<Size>) -> Degree {
+        Degree {
+            size,
+            joints: Vec::new(),
+            other: 0,
+            angles: 0,
+            constants: 0,
+            halvings: 0,
+        }
+    }
+
     /// Of an input.
     pub fn input(input: Input) -> Degree {
         let mut degree = Degree::one();
@@ -37,112 +61,114 @@ impl Degree {
                     degree.joints.resize(joint + 1, 0);
                     degree.joints[joint] = 1;
                 }
+                // sin(a + b) is two products, and so on.
+                for _ in 0..angle.additions() {
+                    degree = degree.double();
+                }
             }
             None => degree.other = 1,
         }
         degree
     }
 
-    /// Of a constant: its degree in the pairs of constant angles.
-    pub fn constant(constant: &Exact) -> Degree {
+    /// Of a constant, whose denominators are noted.
+    pub fn constant(constant: &Exact, denominators: &mut Denominators) -> Degree {
+        if constant.is_zero() {
+            return Degree::zero();
+        }
         let generator = Degree {
             angles: 1,
             ..Degree::one()
         };
-        constant
-            .map(&mut |_| Some(Degree::one()), &mut |_| {
-                dalembert_model::equations::Rotor {
-                    sin: generator.clone(),
-                    cos: generator.clone(),
-                }
+        let mut coefficient = |x: &_| {
+            Some(Degree {
+                constants: u32::from(denominators.note(x)),
+                ..Degree::of(Some(Size::of(x)))
             })
-            .unwrap_or_else(Degree::one)
+        };
+        let degree = constant.map(&mut coefficient, &mut |_| Rotor {
+            sin: generator.clone(),
+            cos: generator.clone(),
+        });
+        degree.unwrap_or_else(Degree::one)
     }
 
     /// The degree in the random parameters.
     pub fn bound(&self) -> u64 {
-        let pairs: u64 = self.joints.iter().map(|&e| 2 * u64::from(e)).sum();
-        pairs + u64::from(self.other) + 2 * u64::from(self.angles)
+        self.pairs() * 2 + u64::from(self.other)
     }
 
-    fn combine(&self, other: &Degree, f: impl Fn(u32, u32) -> u32) -> Degree {
+    /// The bits of its coefficients once they are integers.
+    pub fn height(&self, denominators: &Denominators) -> u64 {
+        let size = self.size.map_or(0, |size| size.bits());
+        let shared = denominators.bits().saturating_mul(self.constants.into());
+        let bits = size.saturating_add(shared);
+        bits.saturating_add(self.pairs() + u64::from(self.halvings))
+    }
+
+    /// The degree in all pairs together.
+    fn pairs(&self) -> u64 {
+        let joints = self.joints.iter().map(|&degree| u64::from(degree));
+        joints.sum::<u64>() + u64::from(self.angles)
+    }
+
+    fn combine(&self, other: &Degree, size: Option<Size>, f: impl Fn(u32, u32) -> u32) -> Degree {
         let n = self.joints.len().max(other.joints.len());
         let at = |degree: &Degree, i: usize| degree.joints.get(i).copied().unwrap_or(0);
         Degree {
-            zero: false,
+            size,
             joints: (0..n).map(|i| f(at(self, i), at(other, i))).collect(),
             other: f(self.other, other.other),
             angles: f(self.angles, other.angles),
+            constants: f(self.constants, other.constants),
+            halvings: f(self.halvings, other.halvings),
         }
     }
 }
 
 impl Scalar for Degree {
     fn zero() -> Self {
-        Degree {
-            zero: true,
-            ..Degree::default()
-        }
+        Degree::of(None)
     }
     fn one() -> Self {
-        Degree::default()
+        Degree::of(Some(Size::ONE))
     }
     fn add(&self, other: &Self) -> Self {
-        match (self.zero, other.zero) {
-            (true, _) => other.clone(),
-            (_, true) => self.clone(),
-            _ => self.combine(other, u32::max),
+        match (self.size, other.size) {
+            (None, _) => other.clone(),
+            (_, None) => self.clone(),
+            (Some(a), Some(b)) => self.combine(other, Some(a.add(b)), u32::max),
         }
     }
     fn sub(&self, other: &Self) -> Self {
         self.add(other)
     }
     fn mul(&self, other: &Self) -> Self {
-        if self.zero || other.zero {
-            return Degree::zero();
+        match (self.size, other.size) {
+            (Some(a), Some(b)) => self.combine(other, Some(a.mul(b)), u32::saturating_add),
+            _ => Degree::zero(),
         }
-        self.combine(other, u32::saturating_add)
     }
     fn neg(&self) -> Self {
         self.clone()
     }
     fn half(&self) -> Self {
-        self.clone()
+        Degree {
+            halvings: self.halvings.saturating_add(1),
+            ..self.clone()
+        }
     }
     fn is_zero(&self) -> bool {
-        self.zero
+        self.size.is_none()
     }
 }
 
 impl Program {
-    /// The degrees of every output.
-    pub fn degrees(&self) -> Vec<Degree> {
-        let mut steps: Vec<Degree> = Vec::with_capacity(self.steps.len());
-        let of = |operand: &Operand, steps: &[Degree]| match operand {
-            Operand::Input(input) => Degree::input(*input),
-            Operand::Constant(c) if c.is_zero() => Degree::zero(),
-            Operand::Constant(c) => Degree::constant(c),
-            Operand::Step(index) => steps[*index].clone(),
-        };
-        for step in &self.steps {
-            let (left, right) = (of(&step.left, &steps), of(&step.right, &steps));
-            steps.push(match step.operation {
-                Operation::Mul => left.mul(&right),
-                Operation::Add | Operation::Sub => left.add(&right),
-            });
-        }
-        self.outputs
-            .iter()
-            .map(|output| of(&output.value, &steps))
-            .collect()
+    /// The degrees of every output; the denominators of its constants are
+    /// noted.
+    pub fn degrees(&self, denominators: &mut Denominators) -> Vec<Degree> {
+        let constant = |constant: &Exact| Some(Degree::constant(constant, denominators));
+        let degrees = self.evaluate(|input| Some(Degree::input(*input)), constant);
+        degrees.unwrap_or_default()
     }
-}
-
-/// log₁₀ of the probability that `outputs` differences of this degree are all
-/// missed at `points` points, from above.
-pub fn failure_exponent(degree: u64, outputs: usize, points: usize) -> i32 {
-    // Decimal logarithms rounded up in integers: no libm in a stated bound.
-    let digits = |x: u64| x.max(1).ilog10() as i32 + 1;
-    let prime = Field::P.ilog10() as i32;
-    points as i32 * (digits(degree) - prime) + digits(outputs as u64)
 }

@@ -1,42 +1,58 @@
 //! The exact proof: the final program equals Lagrange–Euler as written.
 //!
-//! Both are evaluated at random points of the field of integers modulo
-//! 2⁶¹ − 1, with the exact constants. The points differ from those of the
-//! search's fingerprints. Above [`WRITTEN_LIMIT`] joints the yardstick is the
-//! link-frame recursion in the field, itself proved against Lagrange–Euler
-//! for every joint kind and convention at up to that many joints by tests.
+//! Both are evaluated with their exact constants modulo [`PRIMES`] primes of
+//! 63 bits, each with a random point of its own. Above [`WRITTEN_LIMIT`] joints
+//! the yardstick is the link-frame recursion modulo the same primes, itself
+//! proved against Lagrange–Euler for every joint kind and convention at up to
+//! that many joints by tests.
+//!
+//! **Against whom.** Somebody may choose robot, scene and program freely and
+//! knows this code, but primes and points follow from the SHA-256 of what was
+//! chosen ([`challenge`](super::challenge)), so that all there is to do is to
+//! change a choice and hope for better ones. The chance of a miss that is
+//! stated is that of one such attempt ([`miss`](super::miss)); a proof for
+//! which it is not below 1e-9 after 2⁶⁴ attempts is refused.
+//!
+//! A prime that divides a denominator, or a coefficient that is not zero, is
+//! unfit: the next is drawn instead.
 
+use std::cell::{Cell, RefCell};
 use std::fmt;
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::field::Field;
+use dalembert_model::scalar::residue::Residue;
 
-use super::degree::{Degree, failure_exponent};
-use crate::graph::Points;
-use crate::graph::print::POINTS;
+use super::challenge::{Point, Transcript};
+use super::degree::Degree;
+use super::miss;
+use super::size::Denominators;
+use crate::program::Program;
 use crate::scene::Setting;
-use crate::schedule::{Operand, Operation, Program};
-use crate::trace::evaluate;
 
 /// The most joints for which Lagrange–Euler itself is the yardstick: its cost
 /// grows with n⁴ to n⁵.
 pub const WRITTEN_LIMIT: usize = 10;
 
-/// The seed of the proof's points: not the search's.
-const SEED: u64 = 0x0070_7265_7566;
+/// At how many primes, each with its point, a statement is proved.
+pub const PRIMES: usize = 4;
+
+/// Primes to draw before a statement is given up for want of fit ones.
+const MAX_DRAWS: usize = 64;
 
 /// What was proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Proof {
     /// The formula that the program equals.
     pub yardstick: Formulation,
-    /// At how many random points.
-    pub points: usize,
+    /// At how many primes and points.
+    pub primes: usize,
     /// Degree of the difference in the random parameters, from above.
     pub degree: u64,
+    /// Bits of the difference's coefficients as integers, from above.
+    pub height: u64,
     /// The probability of a miss is below 10 to the power of this.
     pub failure_exponent: i32,
 }
@@ -53,8 +69,15 @@ pub enum Disproof {
     },
     /// The program has another number of outputs.
     Shape,
-    /// A parameter's denominator is divisible by 2⁶¹ − 1.
-    Denominator,
+    /// Constants vanish, or have no value, modulo prime after prime.
+    Unfit,
+    /// Degree or coefficients are so large that a miss is not unlikely.
+    Large {
+        /// Of the difference in the random parameters.
+        degree: u64,
+        /// Bits of its coefficients.
+        height: u64,
+    },
 }
 
 impl fmt::Display for Proof {
@@ -65,8 +88,9 @@ impl fmt::Display for Proof {
         };
         write!(
             f,
-            "equals {formula} at {} random points modulo 2^61 - 1 (degree {}, chance of a miss below 1e{})",
-            self.points, self.degree, self.failure_exponent
+            "equals {formula} at random points modulo {} random primes of 63 bits \
+             (degree {}, {} bits, chance of a miss below 1e{})",
+            self.primes, self.degree, self.height, self.failure_exponent
         )
     }
 }
@@ -78,8 +102,15 @@ impl fmt::Display for Disproof {
                 write!(f, "{entry} differs from the formula as written")
             }
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
-            Disproof::Denominator => f.write_str(
-                "a parameter has a denominator divisible by 2^61 - 1: write it as a decimal",
+            Disproof::Unfit => write!(
+                f,
+                "constants vanish modulo too many of {MAX_DRAWS} random primes: \
+                 write parameters as short decimals"
+            ),
+            Disproof::Large { degree, height } => write!(
+                f,
+                "the program is of degree {degree} with coefficients of {height} bits, \
+                 which is too large to be proved: write parameters as short decimals"
             ),
         }
     }
@@ -98,75 +129,141 @@ pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof>
     if program.rows != setting.rows() {
         return Err(Disproof::Shape);
     }
-    let robot = setting.robot();
-    let yardstick = if robot.joints.len() <= WRITTEN_LIMIT {
+    let yardstick = if setting.robot().joints.len() <= WRITTEN_LIMIT {
         Formulation::LagrangeEuler
     } else {
         Formulation::NewtonEulerLink
     };
-    let points = Points::independent(SEED);
-    for point in 0..POINTS {
-        let expected = points
-            .evaluate(setting, program.function, yardstick, point)
-            .ok_or(Disproof::Denominator)?;
-        let actual = run(program, &points, point).ok_or(Disproof::Denominator)?;
-        if expected.len() != actual.len() {
-            return Err(Disproof::Shape);
-        }
-        if let Some(index) = (0..actual.len()).find(|&i| actual[i] != expected[i]) {
-            let entry = program.entry(index);
-            return Err(Disproof::Output { index, entry });
-        }
-    }
-    let constant = |constant: &Exact| {
-        if constant.is_zero() {
-            Degree::zero()
-        } else {
-            Degree::constant(constant)
-        }
+    let mut transcript = Transcript::new("program");
+    transcript.setting(setting);
+    transcript.program(program);
+    let expected = |point: &Point| {
+        let constant = |constant: &Exact| point.constant(constant);
+        formula(
+            setting,
+            program,
+            yardstick,
+            |input| point.input(input),
+            constant,
+        )
     };
-    let arm = Arm::from_robot(robot, &mut { constant });
-    let motion = setting.motion(Degree::input, constant);
-    let formula = evaluate(program.function, yardstick, &arm, &motion);
-    let formula = setting.select(program.function, setting.joints(), formula);
-    let degree = formula
-        .iter()
-        .zip(&program.degrees())
-        .map(|(a, b)| a.add(b).bound())
-        .max()
-        .unwrap_or(0);
+    compare(transcript, program, expected)?;
+    let denominators = RefCell::default();
+    let constant = |constant: &Exact| {
+        let degree = Degree::constant(constant, &mut denominators.borrow_mut());
+        Some(degree)
+    };
+    let formula = formula(setting, program, yardstick, Degree::input, constant);
+    let formula = formula.unwrap_or_default();
+    let mut denominators = denominators.borrow().clone();
+    let (degree, height) = bounded(program, &formula, &mut denominators)?;
     Ok(Proof {
         yardstick,
-        points: POINTS,
+        primes: PRIMES,
         degree,
-        failure_exponent: failure_exponent(degree, program.outputs.len(), POINTS),
+        height,
+        failure_exponent: miss::exponent(degree, height, PRIMES),
     })
 }
 
-/// The program in the field; `None` if a constant has no residue.
-pub(crate) fn run(program: &Program, points: &Points, point: usize) -> Option<Vec<Field>> {
-    let read = |operand: &Operand, steps: &[Field]| match operand {
-        Operand::Input(input) => Some(points.input(*input).0[point]),
-        Operand::Constant(constant) => Some(points.constant(constant)?.0[point]),
-        Operand::Step(index) => Some(steps[*index]),
-    };
-    let mut steps = Vec::with_capacity(program.steps.len());
-    for step in &program.steps {
-        let (left, right) = (read(&step.left, &steps)?, read(&step.right, &steps)?);
-        steps.push(match step.operation {
-            Operation::Add => left.add(&right),
-            Operation::Sub => left.sub(&right),
-            Operation::Mul => left.mul(&right),
-        });
-    }
-    program
-        .outputs
-        .iter()
-        .map(|output| {
-            let value = read(&output.value, &steps)?;
-            Some(if output.negative { value.neg() } else { value })
+/// Proves that two programs compute the same.
+///
+/// # Errors
+/// The first output that differs.
+pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
+    let mut transcript = Transcript::new("two programs");
+    transcript.program(a);
+    transcript.program(b);
+    compare(transcript, b, |point| run(a, point))?;
+    let mut denominators = Denominators::default();
+    let degrees = a.degrees(&mut denominators);
+    bounded(b, &degrees, &mut denominators).map(drop)
+}
+
+/// The outputs by a formula, from the values of inputs and constants; `None`
+/// if a constant has none.
+///
+/// The formula runs on the whole arm: a locked joint is one whose pair or
+/// position is constant and whose rates are zero.
+fn formula<S: Scalar>(
+    setting: &Setting,
+    program: &Program,
+    yardstick: Formulation,
+    input: impl FnMut(crate::program::Input) -> S,
+    constant: impl Fn(&Exact) -> Option<S>,
+) -> Option<Vec<S>> {
+    let failed = Cell::new(false);
+    let constant = |value: &Exact| {
+        constant(value).unwrap_or_else(|| {
+            failed.set(true);
+            S::zero()
         })
-        .collect()
+    };
+    let arm = Arm::from_robot(setting.robot(), &mut { constant });
+    let motion = setting.motion(input, constant);
+    if failed.get() {
+        return None;
+    }
+    let outputs = program.function.evaluate(yardstick, &arm, &motion);
+    Some(setting.select(program.function, setting.joints(), outputs))
+}
+
+/// Compares a program's outputs with what is expected at [`PRIMES`] primes.
+fn compare(
+    transcript: Transcript,
+    program: &Program,
+    expected: impl Fn(&Point) -> Option<Vec<Residue>>,
+) -> Result<(), Disproof> {
+    let challenge = transcript.seal();
+    let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
+    let mut good = 0;
+    for point in points {
+        let values = run(program, &point).zip(expected(&point));
+        let Some((actual, expected)) = values else {
+            continue;
+        };
+        if expected.len() != actual.len() {
+            return Err(Disproof::Shape);
+        }
+        // What has no value equals nothing.
+        let value = |x: &Residue| x.value(point.prime());
+        let equal = |a: &Residue, b: &Residue| value(a).is_some() && value(a) == value(b);
+        let mut pairs = actual.iter().zip(&expected);
+        if let Some(index) = pairs.position(|(a, b)| !equal(a, b)) {
+            let entry = program.entry(index);
+            return Err(Disproof::Output { index, entry });
+        }
+        good += 1;
+        if good == PRIMES {
+            return Ok(());
+        }
+    }
+    Err(Disproof::Unfit)
+}
+
+/// Degree and height of the differences between a program's outputs and
+/// others, if a miss is unlikely.
+fn bounded(
+    program: &Program,
+    others: &[Degree],
+    denominators: &mut Denominators,
+) -> Result<(u64, u64), Disproof> {
+    let own = program.degrees(denominators);
+    let differences = || own.iter().zip(others).map(|(a, b)| a.add(b));
+    let degree = differences().map(|d| d.bound()).max().unwrap_or(0);
+    let heights = differences().map(|d| d.height(denominators));
+    let height = heights.max().unwrap_or(0);
+    match miss::is_small(degree, height, PRIMES) {
+        true => Ok((degree, height)),
+        false => Err(Disproof::Large { degree, height }),
+    }
+}
+
+/// The program at a point; `None` if a constant has no value there, or a step
+/// reads one that comes later.
+fn run(program: &Program, point: &Point) -> Option<Vec<Residue>> {
+    let constant = |constant: &Exact| point.constant(constant);
+    program.evaluate(|input| Some(point.input(*input)), constant)
 }
 
 impl Program {

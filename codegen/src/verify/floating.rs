@@ -1,31 +1,24 @@
 //! What rounding costs: the emitted text, run bit for bit, against the generic
-//! runtime in f64 and against given states.
+//! runtime in f64.
 //!
 //! The error of a quantity is normwise, max_i |error_i| / max_i |reference_i|,
 //! the worst over the states. f32 code is compared at the f32-rounded state,
 //! so that only the rounding of its own arithmetic and constants counts.
 
-use std::collections::BTreeMap;
-
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 
-use super::interpret::{Machine, State, angle_value};
-use super::states::JointState;
-use super::text::{TextOperand, TextProgram, TextTrig};
-use crate::emit::ScalarType;
 use crate::function::{Function, Quantity};
-use crate::graph::{AngleSum, Input};
+use crate::program::kernel::Kernel;
+use crate::program::machine::Machine;
+use crate::program::run::angle_value;
+use crate::program::{AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, ScalarType};
 use crate::scene::Setting;
-use crate::sincos::kernel::Kernel;
-use crate::trace::evaluate;
+use crate::states::JointState;
 
 /// The bound on the normwise error against the runtime, in units of u.
 pub const BOUND: f64 = 100.0;
-
-/// The bound on the normwise error against given states, absolute.
-pub const GIVEN_BOUND: f64 = 1e-12;
 
 /// A seeded state counts relative to at least this part of the largest
 /// reference met. Next to balance, where every torque passes through zero,
@@ -40,16 +33,7 @@ pub struct Emitted {
     /// Its scalar.
     pub scalar: ScalarType,
     /// Its text.
-    pub text: TextProgram,
-}
-
-/// A state with what is known about it.
-#[derive(Clone, Debug)]
-pub struct GivenState {
-    /// The state.
-    pub state: JointState,
-    /// τ, D (row by row), h and c, as far as they are known.
-    pub known: BTreeMap<Quantity, Vec<f64>>,
+    pub text: Lowered,
 }
 
 /// The worst normwise error of one quantity of one function.
@@ -77,6 +61,8 @@ impl Measure {
 #[derive(Clone, Debug)]
 pub struct Runtime {
     arm: Arm<f64>,
+    /// With the lengths that no torque depends on.
+    whole: Arm<f64>,
     setting: Setting,
 }
 
@@ -91,6 +77,7 @@ impl Runtime {
     pub fn in_setting(setting: Setting) -> Runtime {
         let exact: Arm<Exact> = Arm::from_robot(setting.robot(), &mut Exact::clone);
         Runtime {
+            whole: exact.map(f64::nearest),
             arm: exact.fold_base().map(f64::nearest),
             setting,
         }
@@ -100,7 +87,7 @@ impl Runtime {
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
         let input = |input| {
             // A motion reads the angles of single joints only.
-            let angle = |sum: crate::graph::AngleSum| {
+            let angle = |sum: crate::program::AngleSum| {
                 sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>()
             };
             match input {
@@ -112,7 +99,12 @@ impl Runtime {
             }
         };
         let motion = self.setting.motion(input, f64::nearest);
-        let results = evaluate(function, Formulation::NewtonEulerLink, &self.arm, &motion);
+        let mut quantities = function.quantities().iter();
+        let arm = match quantities.any(|quantity| quantity.feels_base()) {
+            true => &self.whole,
+            false => &self.arm,
+        };
+        let results = function.evaluate(Formulation::NewtonEulerLink, arm, &motion);
         let joints = self.setting.joints();
         self.setting.select(function, joints, results)
     }
@@ -121,24 +113,12 @@ impl Runtime {
 impl Emitted {
     /// The results at a state, flat, as doubles that hold them exactly.
     pub fn run(&self, state: &JointState) -> Vec<f64> {
-        match self.scalar {
-            ScalarType::F64 => self.run_in::<f64>(state),
-            ScalarType::F32 => self.run_in::<f32>(state),
-        }
+        self.text.run_at(state)
     }
 
-    fn run_in<T: Machine>(&self, state: &JointState) -> Vec<f64> {
-        let single = |values: &[f64]| values.iter().map(|&x| T::literal(x)).collect::<Vec<T>>();
-        let (q, qd, qdd) = (single(&state.q), single(&state.qd), single(&state.qdd));
-        let state = State {
-            q: &q,
-            qd: &qd,
-            qdd: &qdd,
-        };
-        self.text.run(state).into_iter().map(T::to_f64).collect()
-    }
-
-    fn with_libm(&self) -> Emitted {
+    /// The same with libm's sines in the place of polynomials.
+    #[must_use]
+    pub fn with_libm(&self) -> Emitted {
         Emitted {
             text: self.text.with_libm(),
             ..*self
@@ -159,8 +139,8 @@ impl Emitted {
             let mut reference = runtime.run(self.function, &state);
             // What was proved to vanish is compared with zero, not with the
             // dust that the runtime leaves there.
-            for (value, (_, operand)) in reference.iter_mut().zip(&self.text.outputs) {
-                if *operand == TextOperand::Literal(0.0) {
+            for (value, output) in reference.iter_mut().zip(&self.text.outputs) {
+                if output.value == Operand::Constant(Literal(0.0)) {
                     *value = 0.0;
                 }
             }
@@ -177,37 +157,6 @@ impl Emitted {
             measures.push(self.measure(quantity, worst(&pairs, least)));
         }
         measures
-    }
-
-    /// The errors against given states, a known quantity each. The symbols
-    /// h_ikm are compared as the load h that they give; sines are libm's.
-    pub fn against_given(&self, states: &[GivenState]) -> Vec<Measure> {
-        let own = self.with_libm();
-        let mut pairs: BTreeMap<Quantity, Vec<Pair>> = BTreeMap::new();
-        for given in states {
-            let results = own.run(&given.state);
-            let n = given.state.q.len();
-            let mut start = 0;
-            for &quantity in self.function.quantities() {
-                let values = &results[start..start + quantity.len(n)];
-                start += quantity.len(n);
-                let (quantity, values) = match quantity {
-                    Quantity::Christoffel => {
-                        (Quantity::Coriolis, contract(values, &given.state.qd))
-                    }
-                    other => (other, values.to_vec()),
-                };
-                if let Some(known) = given.known.get(&quantity) {
-                    let list = pairs.entry(quantity).or_default();
-                    list.push((values, known.clone()));
-                }
-            }
-        }
-        let measure = |(quantity, pairs): (Quantity, Vec<Pair>)| {
-            // Given states are taken as they are, each by its own size.
-            self.measure(quantity, worst(&pairs, 0.0))
-        };
-        pairs.into_iter().map(measure).collect()
     }
 
     /// The largest |polynomial − libm's f64| of each angle over the states, in
@@ -245,7 +194,7 @@ impl Emitted {
 }
 
 /// How far an angle's polynomials are from libm at a state.
-fn off<T: Machine>(trig: &TextTrig, kernel: &Kernel, state: &JointState) -> f64 {
+fn off<T: Machine>(trig: &LoweredTrig, kernel: &Kernel, state: &JointState) -> f64 {
     let q: Vec<T> = state.q.iter().map(|&x| T::literal(x)).collect();
     let angle = angle_value(trig.angle, &q);
     let (sin, cos) = kernel.run(angle);
@@ -261,17 +210,6 @@ fn off<T: Machine>(trig: &TextTrig, kernel: &Kernel, state: &JointState) -> f64 
 
 /// Actual and expected values.
 type Pair = (Vec<f64>, Vec<f64>);
-
-/// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
-fn contract(symbols: &[f64], qd: &[f64]) -> Vec<f64> {
-    let n = qd.len();
-    let row = |row: &[f64]| row.iter().zip(qd).map(|(h, v)| h * v).sum::<f64>();
-    let load = |matrix: &[f64]| {
-        let rows = matrix.chunks(n.max(1));
-        rows.zip(qd).map(|(r, v)| row(r) * v).sum::<f64>()
-    };
-    symbols.chunks((n * n).max(1)).map(load).collect()
-}
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| most.max(x.abs()))

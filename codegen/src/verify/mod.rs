@@ -1,19 +1,21 @@
 //! Checks that trust neither the search nor the printer.
 //!
-//! - [`accuracy`]: what rounding costs a program, for choices between them
-//! - [`exact`]: the program equals Lagrange–Euler as written, in a prime field
-//! - [`degree`]: how likely that check is to miss a difference
-//! - [`text`]: the printed text is the program, every literal rounded once
-//! - [`interpret`]: the printed text run bit for bit
-//! - [`columns`]: the same at many states at once
-//! - [`states`]: seeded states inside a robot's limits
+//! - [`accuracy`]: which programs round well enough, for choices between them
+//! - [`rounding`]: what rounding costs a program, estimated
+//! - [`exact`]: the program equals Lagrange–Euler as written, modulo primes
+//! - [`challenge`]: which primes and points, drawn from what is to be proved
+//! - [`miss`], [`degree`], `size`: how likely that check is to miss a difference
+//! - [`reference`](mod@reference): true values, to 60 digits
+//! - [`running`]: how far code may be off at a state, from its own numbers
 //! - [`floating`]: what rounding costs: against the runtime and given states
 
 pub mod accuracy;
-pub mod columns;
+pub mod challenge;
 pub mod degree;
 pub mod exact;
 pub mod floating;
-pub mod interpret;
-pub mod states;
-pub mod text;
+pub mod miss;
+pub mod reference;
+pub mod rounding;
+pub mod running;
+mod size;

@@ -5,9 +5,10 @@ pub mod draw;
 
 use std::path::Path;
 
-use dalembert_codegen::emit::ScalarType;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Generated, Request, Start, generate};
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::ScalarType;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
@@ -27,6 +28,12 @@ pub fn reading_with(name: &str, more: &str) -> Reading {
     let source = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
     let source = source + more;
     read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The file of an arm that the tests have besides the checked-in robots.
+pub fn arm_file(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap()
 }
 
 /// A robot from the text of its file.

@@ -17,6 +17,8 @@ use plant::{Plant, State};
 
 dalembert::dynamics! {
     /// The arm as the controller knows it.
+    // Its table leaves out moments that no torque depends on, which warns.
+    #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
     outputs: inverse_dynamics, manipulator_equation;
     scalar: f64;
@@ -24,6 +26,8 @@ dalembert::dynamics! {
 
 dalembert::dynamics! {
     /// The arm with a payload in its hand.
+    // Its table leaves out moments that no torque depends on, which warns.
+    #[allow(deprecated)]
     pub mod loaded = "robots/loaded.toml";
     outputs: manipulator_equation;
     scalar: f64;

@@ -2,18 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{Columns, Vector, minus, plus, times};
+use super::matrix::{Columns, Vector, plus};
 use crate::robot::{Convention, Inertia, JointKind};
-use crate::scalar::Scalar;
-
-/// Sine and cosine of one angle.
-#[derive(Clone, Debug)]
-pub struct Rotor<S> {
-    /// sin
-    pub sin: S,
-    /// cos
-    pub cos: S,
-}
+use crate::scalar::{Rotor, Scalar};
 
 /// The parameters of an arm in the scalar of a computation.
 #[derive(Clone, Debug)]
@@ -69,16 +60,6 @@ pub struct DhVariables<S> {
     pub d: S,
 }
 
-impl<S: Scalar> Rotor<S> {
-    /// The pair of the sum of two angles.
-    pub fn compose(&self, other: &Self) -> Self {
-        Rotor {
-            sin: plus(&times(&self.sin, &other.cos), &times(&self.cos, &other.sin)),
-            cos: minus(&times(&self.cos, &other.cos), &times(&self.sin, &other.sin)),
-        }
-    }
-}
-
 impl<S: Scalar> Arm<S> {
     /// θ_i and d_i of every row at a position.
     ///
@@ -131,16 +112,6 @@ impl<S> Link<S> {
             inertia: self.inertia.map(&mut f),
             viscous: f(&self.viscous),
             armature: f(&self.armature),
-        }
-    }
-}
-
-impl<S> Rotor<S> {
-    /// Both entries through `f`.
-    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Rotor<T> {
-        Rotor {
-            sin: f(&self.sin),
-            cos: f(&self.cos),
         }
     }
 }

@@ -26,6 +26,31 @@ pub struct Split<T> {
     pub translation: T,
 }
 
+/// What moves with a link, taken by itself. As each is an arm, D and h of either
+/// may come from any formulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Its rotation, through I_s: a link without mass.
+    Rotation,
+    /// The translation of its centre of mass: all mass is there.
+    Translation,
+}
+
+impl Part {
+    /// The arm whose links have this alone; drives left out.
+    pub fn of<S: Scalar>(self, arm: &Arm<S>) -> Arm<S> {
+        let mut arm = arm.clone();
+        for link in &mut arm.links {
+            (link.armature, link.viscous) = (S::zero(), S::zero());
+            match self {
+                Part::Rotation => link.mass = S::zero(),
+                Part::Translation => link.inertia = link.inertia.map(|_| S::zero()),
+            }
+        }
+        arm
+    }
+}
+
 /// Axes, levers and Jacobians at one position, which all terms share.
 #[derive(Clone, Debug)]
 pub struct Dalembert<'a, S> {

@@ -85,7 +85,7 @@ fn unit<S: Scalar>(n: usize, k: usize) -> Vec<S> {
 }
 
 /// The arm without gravity.
-fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
+pub(super) fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     Arm {
         gravity: zero_vector(),
         ..arm.clone()

@@ -135,7 +135,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
 ///
 /// In blocks [[S, m s̄], [m s̄ᵀ, m]] with S = ½tr(I_O)·1 − I_O and
 /// I_O = I + m(s̄·s̄ 1 − s̄ s̄ᵀ), hence S = ½tr(I)·1 − I + m s̄ s̄ᵀ.
-struct PseudoInertia<S> {
+pub(super) struct PseudoInertia<S> {
     /// Columns of S.
     second: [Vector<S>; 3],
     /// m s̄
@@ -145,7 +145,7 @@ struct PseudoInertia<S> {
 }
 
 impl<S: Scalar> PseudoInertia<S> {
-    fn of(link: &Link<S>) -> Self {
+    pub(super) fn of(link: &Link<S>) -> Self {
         let i = &link.inertia;
         let first = scaled(&link.mass, &link.com);
         let half_trace = halved(&plus(&plus(&i.xx, &i.yy), &i.zz));
@@ -171,7 +171,7 @@ impl<S: Scalar> PseudoInertia<S> {
     }
 
     /// U J
-    fn after(&self, u: &Columns<S>) -> Columns<S> {
+    pub(super) fn after(&self, u: &Columns<S>) -> Columns<S> {
         let [x, y, z] = &self.second;
         let column = |column: &Vector<S>, last: &S| u.apply(column, last);
         Columns {

@@ -12,59 +12,10 @@ use alloc::vec::Vec;
 use super::Rotor;
 use crate::robot::{Inertia, JointKind};
 use crate::scalar::Scalar;
+pub use crate::scalar::structural::{halved, minus, negative, plus, times, twice};
 
 /// A vector of three components.
 pub type Vector<S> = [S; 3];
-
-/// `a · b`, not made when a factor is zero or one by structure.
-pub fn times<S: Scalar>(a: &S, b: &S) -> S {
-    if a.is_zero() || b.is_zero() {
-        S::zero()
-    } else if a.is_one() {
-        b.clone()
-    } else if b.is_one() {
-        a.clone()
-    } else {
-        a.mul(b)
-    }
-}
-
-/// `a + b`, not made when a term is zero by structure.
-pub fn plus<S: Scalar>(a: &S, b: &S) -> S {
-    if a.is_zero() {
-        b.clone()
-    } else if b.is_zero() {
-        a.clone()
-    } else {
-        a.add(b)
-    }
-}
-
-/// `a − b`, not made when a term is zero by structure.
-pub fn minus<S: Scalar>(a: &S, b: &S) -> S {
-    if b.is_zero() {
-        a.clone()
-    } else if a.is_zero() {
-        b.neg()
-    } else {
-        a.sub(b)
-    }
-}
-
-/// `−a`; a structural zero stays one.
-pub fn negative<S: Scalar>(a: &S) -> S {
-    if a.is_zero() { S::zero() } else { a.neg() }
-}
-
-/// `2 a`; a structural zero stays one.
-pub fn twice<S: Scalar>(a: &S) -> S {
-    if a.is_zero() { S::zero() } else { a.double() }
-}
-
-/// `a / 2`; a structural zero stays one.
-pub fn halved<S: Scalar>(a: &S) -> S {
-    if a.is_zero() { S::zero() } else { a.half() }
-}
 
 /// The zero vector.
 pub fn zero_vector<S: Scalar>() -> Vector<S> {
@@ -239,6 +190,13 @@ impl<S: Scalar> Columns<S> {
                 origin: z.clone(),
             },
         }
+    }
+
+    /// The entries row by row, 3×4.
+    pub fn rows(&self) -> Vec<S> {
+        let columns = || self.axes.iter().chain([&self.origin]);
+        let row = |row: usize| columns().map(move |column| column[row].clone());
+        (0..3).flat_map(row).collect()
     }
 
     /// The rotation's columns applied to a vector of the last frame.

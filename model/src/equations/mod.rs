@@ -6,6 +6,8 @@
 //! | [`lagrange_euler`] | U_ij, U_ijk, J_i, D_ik, h_ikm, c_i, eqs. 2.2–2.15 |
 //! | [`newton_euler`] | the recursions, Table 1 (base axes) and Table 2 (link axes) |
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
+//! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
+//! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
 //! | [`Arm::from_robot`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
@@ -24,12 +26,15 @@ mod arm;
 mod base;
 pub mod chain;
 pub mod dalembert;
+pub mod energy;
 mod formulation;
 mod from_robot;
 pub mod from_torques;
+pub mod kinematics;
 pub mod lagrange_euler;
 pub mod matrix;
 pub mod newton_euler;
 
-pub use arm::{Arm, DhVariables, JointPosition, Link, Rotor};
+pub use crate::scalar::Rotor;
+pub use arm::{Arm, DhVariables, JointPosition, Link};
 pub use formulation::Formulation;

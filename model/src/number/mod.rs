@@ -4,6 +4,7 @@
 //! - [`parse`]: decimal literals, read and written exactly
 //! - [`Exact`]: polynomials over ℚ in the sin and cos of constant angles
 //! - `trig`, `round`: their correctly rounded floating-point values
+//! - [`Wide`]: a float of 256 bits, which errors are measured against
 
 mod angle;
 mod exact;
@@ -11,11 +12,13 @@ pub mod parse;
 mod round;
 mod text;
 mod trig;
+mod wide;
 
 pub use angle::{Angle, Snap, Snapped};
-pub use exact::Exact;
+pub use exact::{Exact, Extent};
 pub use round::Rounded;
 pub use text::NotExact;
+pub use wide::Wide;
 
 /// An exact rational number.
 pub type Rational = num_rational::BigRational;

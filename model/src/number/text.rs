@@ -3,13 +3,13 @@
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 use core::fmt;
 use core::str::FromStr;
 
 use super::exact::{Monomial, Power};
+use num_traits::Zero;
+
 use super::{Angle, Exact, Rational};
-use crate::scalar::Scalar;
 
 impl fmt::Display for Exact {
     /// No blanks; angles are in radians, or multiples of `pi`.
@@ -71,15 +71,16 @@ impl FromStr for Exact {
         if text.len() > MOST_BYTES {
             return Err(NotExact);
         }
-        let mut sum = Exact::zero();
+        let mut terms: BTreeMap<Monomial, Rational> = BTreeMap::new();
         for term in text.split('+') {
-            sum = sum.add(&parse_term(term)?);
+            let (monomial, coefficient) = parse_term(term)?;
+            *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient;
         }
-        Ok(sum)
+        Ok(Exact::from_terms(terms))
     }
 }
 
-fn parse_term(text: &str) -> Result<Exact, NotExact> {
+fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
     // `sin(1*pi/5)` holds a `*` of its own.
     let (coefficient, factors) = match text.split_once("*sin(") {
         Some((coefficient, _)) if !coefficient.contains("cos(") => split_at(text, coefficient),
@@ -88,7 +89,8 @@ fn parse_term(text: &str) -> Result<Exact, NotExact> {
             None => (text, ""),
         },
     };
-    let mut product = Exact::from(rational(coefficient)?);
+    let coefficient = rational(coefficient)?;
+    let mut monomial = Monomial::new();
     let mut rest = factors;
     while !rest.is_empty() {
         rest = rest.strip_prefix('*').ok_or(NotExact)?;
@@ -107,26 +109,25 @@ fn parse_term(text: &str) -> Result<Exact, NotExact> {
             }
             None => (1, after),
         };
-        // Powers come from at most 64 joints.
-        if exponent > 1024 {
+        // Powers come from at most 64 joints; a squared sine is never written.
+        if exponent > if is_sin { 1 } else { 1024 } || exponent == 0 {
             return Err(NotExact);
         }
-        let angle = Arc::new(parse_angle(angle)?);
-        let power = Power {
-            angle,
-            sin: u32::from(is_sin),
-            cos: u32::from(!is_sin),
-        };
-        let factor = Exact::from_terms(BTreeMap::from([(
-            Monomial::from(Vec::from([power])),
-            Rational::from_integer(1.into()),
-        )]));
-        for _ in 0..exponent {
-            product = product.mul(&factor);
+        let angle = parse_angle(angle)?;
+        let (sin, cos) = (exponent * u32::from(is_sin), exponent * u32::from(!is_sin));
+        match monomial.last_mut() {
+            Some(last) if *last.angle == angle && last.cos == 0 && cos > 0 => last.cos = cos,
+            // Ascending, each once: reading must not multiply polynomials out.
+            Some(last) if *last.angle >= angle => return Err(NotExact),
+            _ => monomial.push(Power {
+                angle: Arc::new(angle),
+                sin,
+                cos,
+            }),
         }
         rest = after;
     }
-    Ok(product)
+    Ok((monomial, coefficient))
 }
 
 fn split_at<'a>(text: &'a str, head: &'a str) -> (&'a str, &'a str) {
@@ -162,6 +163,7 @@ fn rational(text: &str) -> Result<Rational, NotExact> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scalar::Scalar;
 
     #[test]
     fn constants_read_back() {
@@ -186,6 +188,9 @@ mod tests {
             "1/-2",
             "1*tan(1)",
             "1*cos(1)^9999",
+            "1*sin(1)^2",
+            "1*sin(1)*sin(1)",
+            "1*cos(2)*cos(1)",
         ] {
             assert_eq!(wrong.parse::<Exact>(), Err(NotExact), "{wrong}");
         }

@@ -1,14 +1,13 @@
 //! The file as a whole: the robot's own keys, and the list of joints.
 
-use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use num_traits::Zero;
 use toml_span::Value;
 
+use super::places::Places;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
@@ -16,42 +15,6 @@ use super::{Options, guard, joint, scene, syntax};
 use crate::number::Rational;
 use crate::robot::{Convention, Joint, Place, Robot};
 use crate::scene::Scene;
-
-/// Where each part of the robot is in the file.
-#[derive(Default)]
-pub(super) struct Places {
-    spans: BTreeMap<Place, Range<usize>>,
-    /// Parts that could not be read: their values are made up, so nothing is
-    /// to be said about those.
-    unread: BTreeSet<Place>,
-}
-
-impl Places {
-    /// Notes where a part is and whether it was read, and fills in for it.
-    pub(super) fn keep<T>(
-        &mut self,
-        place: Place,
-        span: Range<usize>,
-        read: Option<T>,
-        or: impl FnOnce() -> T,
-    ) -> T {
-        self.spans.insert(place, span);
-        read.unwrap_or_else(|| {
-            self.unread.insert(place);
-            or()
-        })
-    }
-
-    /// Whether a part is as the file says, and not made up.
-    pub(super) fn was_read(&self, place: Place) -> bool {
-        !self.unread.contains(&place)
-    }
-
-    /// Where a part is, if the file has it.
-    pub(super) fn span(&self, place: Place) -> Option<Range<usize>> {
-        self.spans.get(&place).cloned()
-    }
-}
 
 /// Reads a robot, reporting to the sink; `None` only after an error.
 pub(super) fn read<'s>(

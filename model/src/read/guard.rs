@@ -21,11 +21,9 @@ const MAX_STRING: usize = 4096;
 /// Says whether the text may be parsed.
 pub(super) fn admits(source: &str, sink: &mut Sink) -> bool {
     if source.len() > MAX_BYTES {
-        let message = format!(
-            "the file has {} bytes; a robot file has at most {MAX_BYTES}",
-            source.len()
-        );
-        sink.error(0..0, message, "");
+        // How long it is nobody knows: no more than this is read of a file.
+        let message = format!("the file is too long: a robot file has at most {MAX_BYTES} bytes");
+        sink.error(0..0, message, "is this the right file?");
         return false;
     }
     let mut tokens = Tokenizer::new(source);

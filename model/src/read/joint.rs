@@ -7,7 +7,7 @@ use core::ops::Range;
 use num_traits::Zero;
 use toml_span::Value;
 
-use super::file::Places;
+use super::places::Places;
 use super::table::Keys;
 use super::value::{Context, first_line};
 use crate::number::{Angle, Rational};

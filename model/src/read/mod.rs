@@ -8,11 +8,13 @@
 //! - [`Robot::validate`]: what is wrong whoever made the robot
 //!
 //! `report` collects and prints what was found; `suggest` finds the word that
-//! was meant.
+//! was meant, `foreign` what was meant where the text is no TOML.
 
 mod file;
+mod foreign;
 mod guard;
 mod joint;
+mod places;
 mod report;
 mod scene;
 mod suggest;

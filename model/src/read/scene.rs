@@ -8,14 +8,15 @@ use core::ops::Range;
 
 use toml_span::Value;
 
-use super::file::Places;
+use super::places::Places;
 use super::report::quote;
 use super::suggest;
 use super::table::Keys;
 use super::value::{Context, first_line};
 use crate::number::Rational;
+use crate::outputs::Function;
 use crate::robot::{Field, Inertia, JointKind, Place, Position, Robot};
-use crate::scene::{Float, MotionBox, Output, Part, Payload, Scale, Scene, Tolerance};
+use crate::scene::{Float, MotionBox, Part, Payload, Scale, Scene, Tolerance};
 
 const KEYS: [&str; 10] = [
     "outputs",
@@ -157,21 +158,22 @@ impl Reader<'_, '_, '_> {
         Some(inner)
     }
 
-    fn outputs(&mut self, keys: &Keys) -> Vec<Output> {
+    fn outputs(&mut self, keys: &Keys) -> Vec<Function> {
         const HELP: &str = "outputs = [\"inverse_dynamics\"]";
         let Some(value) = keys.get("outputs") else {
             return Vec::new();
         };
         self.mark(Part::Outputs, value);
         let items = self.list(value, HELP).unwrap_or_default();
+        let words = Function::ALL.map(|function| (function.name(), function));
         let mut outputs = Vec::new();
         for item in items {
-            let read = self.cx.word(item, &Output::WORDS);
+            let read = self.cx.word(item, &words);
             let Some(output) = self.noted(read) else {
                 continue;
             };
             if outputs.contains(&output) {
-                let message = format!("`{}` is in the list already", output.word());
+                let message = format!("`{}` is in the list already", output.name());
                 let span = Context::span(item);
                 self.cx.sink.error(span, message, "once is enough");
             } else {

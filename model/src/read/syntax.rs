@@ -5,14 +5,24 @@ use alloc::string::ToString;
 
 use toml_span::{Error, ErrorKind};
 
+use super::foreign;
 use super::report::{Sink, quote};
 use crate::number::Angle;
 
 /// Reports an error of the TOML parser.
 pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
+    if let Some((format, help)) = foreign::format_of(source) {
+        sink.error(0..1, format!("the file is {format}, not TOML"), help);
+        return;
+    }
     let start = error.span.start.min(source.len());
     let end = error.span.end.clamp(start, source.len());
     let word = word_at(source, start);
+    // The parser points behind the zeros that a number begins with.
+    let digits = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.');
+    let before = source.get(..start).unwrap_or_default();
+    let whole = word_at(source, before.trim_end_matches(digits).len());
+    let zeros = foreign::leading_zeros(whole);
     let earlier = |byte: usize| format!("it is first defined on line {}", sink.position(byte).0);
     let (message, help) = match &error.kind {
         // What is no number may be an angle without its quotes: -pi/2, 90deg.
@@ -24,6 +34,17 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
             format!("expected the end of the value, found `{c}`"),
             "angles and fractions are written in quotes: \"3*pi/4\", \"1/3\"".to_string(),
         ),
+        ErrorKind::InvalidNumber if zeros.is_some() => (
+            format!(
+                "{} begins with a zero, which no number of TOML does",
+                quote(whole)
+            ),
+            format!("write {}", zeros.unwrap_or_default()),
+        ),
+        ErrorKind::Unexpected(c) if foreign::character(*c).is_some() => {
+            let (message, help) = foreign::character(*c).unwrap_or_default();
+            (message, help.to_string())
+        }
         ErrorKind::InvalidNumber => (
             format!("{} is not a number that TOML can hold", quote(word)),
             "write 0.5 for .5, 5.0 for 5., and integers beyond 64 bits as 1e30".to_string(),
@@ -69,9 +90,11 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
             } else {
                 found
             };
+            let meant = foreign::decimal_comma_at(source, start);
+            let help = meant.map(|meant| format!("decimals have a point: {meant}"));
             (
                 format!("expected {expected}, found {found}"),
-                "".to_string(),
+                help.unwrap_or_default(),
             )
         }
         _ => (error.to_string(), "".to_string()),

@@ -12,7 +12,7 @@ use toml_span::Value;
 use toml_span::value::{Table, ValueInner};
 
 use super::report::{Sink, quote};
-use super::{Severity, suggest};
+use super::{Severity, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
 use crate::robot::Inertia;
@@ -91,6 +91,11 @@ impl<'s> Context<'s, '_> {
                 self.wanted(value, "a number", "this value is no angle");
                 return None;
             }
+            ValueInner::String(text) if foreign::in_text(text).is_some() => {
+                let help = foreign::in_text(text).unwrap_or_default();
+                self.wanted(value, "a number", &help);
+                return None;
+            }
             _ => {
                 self.wanted(value, "a number", help);
                 return None;
@@ -120,7 +125,9 @@ impl<'s> Context<'s, '_> {
                     return None;
                 }
                 Err(_) => {
-                    self.wanted(value, "an angle", &format!("write {FORMS}"));
+                    let help = foreign::in_text(text);
+                    let help = help.unwrap_or_else(|| format!("write {FORMS}"));
+                    self.wanted(value, "an angle", &help);
                     return None;
                 }
             },
@@ -218,7 +225,14 @@ impl<'s> Context<'s, '_> {
     ) -> Option<[T; N]> {
         let items = value.as_array().filter(|items| items.len() == N);
         let Some(items) = items else {
-            self.wanted(value, &format!("an array of {N}"), help);
+            let comma = foreign::decimal_comma_in(self.literal(value));
+            let comma = comma.filter(|_| value.as_array().is_some());
+            let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
+            self.wanted(
+                value,
+                &format!("an array of {N}"),
+                comma.as_deref().unwrap_or(help),
+            );
             return None;
         };
         let read: Vec<Option<T>> = items.iter().map(|v| item(self, v)).collect();
@@ -239,7 +253,11 @@ impl<'s> Context<'s, '_> {
             return self.symmetric(value, rows);
         }
         if items.len() != 6 {
-            self.wanted(value, "6 numbers or 3 rows of 3", HELP);
+            let comma = foreign::decimal_comma_in(self.literal(value));
+            let comma = comma.filter(|_| value.as_array().is_some());
+            let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
+            let help = comma.as_deref().unwrap_or(HELP);
+            self.wanted(value, "6 numbers or 3 rows of 3", help);
             return None;
         }
         let [xx, yy, zz, xy, yz, xz] = self.array(value, HELP, Self::number)?;

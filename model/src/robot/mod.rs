@@ -4,22 +4,28 @@
 //! ([`Angle`]), all other numbers are exact rationals.
 //!
 //! - `place`: names of the parts of a robot, for findings
+//! - `findings`: what is said of a robot, and how much it matters
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
+//! - `units`: sizes that were probably meant in another unit
 //! - `body`: which inertia tensors a body can have
 //! - `write`: the robot file that says the same ([`write`](write())), and its hash
 
 mod body;
+mod findings;
 mod place;
+mod units;
 mod validate;
 mod write;
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::number::{Angle, Rational};
 
+pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
-pub use validate::{Finding, Severity};
+
 pub use write::write;
 
 /// Which of the two DH conventions the table is written in.
@@ -74,6 +80,16 @@ impl Robot {
     pub const MAX_JOINTS: usize = 64;
     /// The longest name of a robot or a joint, in characters.
     pub const MAX_NAME: usize = 64;
+
+    /// What a message calls a joint, from its zero-based index: `joint 2`, or
+    /// `joint 2 (elbow)` where it has a name.
+    pub fn joint_label(&self, index: usize) -> String {
+        let name = self.joints.get(index).and_then(|joint| joint.name.as_ref());
+        match name {
+            Some(name) => format!("joint {} ({name})", index + 1),
+            None => format!("joint {}", index + 1),
+        }
+    }
 }
 
 /// One joint and the link that it moves.

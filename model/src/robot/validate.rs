@@ -9,64 +9,25 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
-use core::fmt;
 
 use num_traits::Signed;
 
 use super::body::Defect;
-use super::{Field, Joint, JointKind, Place, Position, Robot};
+use super::findings::{Finding, Findings, Severity};
+use super::{Field, Joint, JointKind, Place, Position, Robot, units};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational};
-
-/// How much a finding matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// Nothing can be generated.
-    Error,
-    /// Probably a slip; taken as it stands.
-    Warning,
-    /// Said so that nobody has to guess.
-    Note,
-}
-
-impl fmt::Display for Severity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        })
-    }
-}
-
-/// Something wrong, or odd, about a robot.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// Error or warning.
-    pub severity: Severity,
-    /// Which part of the robot.
-    pub place: Place,
-    /// What is wrong.
-    pub message: String,
-    /// What would be right.
-    pub help: Option<String>,
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.severity, self.place, self.message)
-    }
-}
 
 impl Robot {
     /// Everything that is wrong or odd about the robot; without an error among
     /// it, every later stage accepts the robot.
     pub fn validate(&self) -> Vec<Finding> {
-        let mut findings = Findings(Vec::new());
+        let mut findings = Findings::default();
         findings.robot_name(&self.name);
         for value in &self.gravity {
             findings.size(Place::Gravity, value);
         }
+        findings.doubtful_gravity(&self.gravity);
         if self.joints.is_empty() || self.joints.len() > Robot::MAX_JOINTS {
             findings.error(
                 Place::Joints,
@@ -81,6 +42,7 @@ impl Robot {
         let mut names = BTreeMap::new();
         for (index, joint) in self.joints.iter().enumerate() {
             findings.joint(index, joint);
+            findings.doubtful_joint(index, joint);
             let Some(name) = joint.name.as_deref() else {
                 continue;
             };
@@ -96,26 +58,11 @@ impl Robot {
                 names.insert(name, index);
             }
         }
-        findings.0
+        findings.into_all()
     }
 }
 
-struct Findings(Vec<Finding>);
-
 impl Findings {
-    fn push(&mut self, severity: Severity, place: Place, message: String, help: &str) {
-        self.0.push(Finding {
-            severity,
-            place,
-            message,
-            help: (!help.is_empty()).then(|| help.to_owned()),
-        });
-    }
-
-    fn error(&mut self, place: Place, message: String, help: &str) {
-        self.push(Severity::Error, place, message, help);
-    }
-
     fn robot_name(&mut self, name: &str) {
         let message = if name.is_empty() {
             "the name is empty".to_string()
@@ -145,6 +92,12 @@ impl Findings {
                     Robot::MAX_NAME
                 ),
                 "leave the name out if the joint has none",
+            );
+        } else if name.chars().any(units::turns_text) {
+            self.error(
+                place,
+                "a joint's name has no character that turns the direction of text".to_owned(),
+                &units::without_turns(name),
             );
         }
     }

@@ -2,7 +2,7 @@
 //! text as the formula.
 
 use super::Scalar;
-use crate::equations::Rotor;
+use crate::scalar::Rotor;
 
 /// x and ẋ.
 #[derive(Clone, Copy, Debug, PartialEq)]

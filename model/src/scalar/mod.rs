@@ -5,8 +5,11 @@
 //! and counting scalars can fold them without a global state.
 //!
 //! - floats (this file): the generic runtime
-//! - [`field`]: integers modulo 2⁶¹ − 1, for exact identity checks
+//! - [`field`]: integers modulo 2⁶¹ − 1: what the search tells values apart by
+//! - [`prime`], [`residue`]: integers modulo a prime chosen at run time: proofs
 //! - [`dual`]: a value with its rate of change, for derivatives
+//! - [`rotor`]: sine and cosine of an angle
+//! - [`structural`]: sums and products without structural zeros and ones
 //! - [`count`]: counts the operations of a formula as written
 //! - `big`: a big float, the reference of tests and reports (feature `bigfloat`)
 
@@ -15,6 +18,12 @@ pub mod big;
 pub mod count;
 pub mod dual;
 pub mod field;
+pub mod prime;
+pub mod residue;
+pub mod rotor;
+pub mod structural;
+
+pub use rotor::Rotor;
 
 /// A commutative ring with a half, enough for every dynamics formula.
 ///

@@ -13,6 +13,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::number::Rational;
+use crate::outputs::Function;
 use crate::robot::{Inertia, Position};
 
 pub use validate::{Part, SceneFinding};
@@ -24,7 +25,7 @@ pub struct Scene {
     /// Its name; the generated module is called after robot and scene.
     pub name: String,
     /// The functions wanted; empty if the scene leaves that to the request.
-    pub outputs: Vec<Output>,
+    pub outputs: Vec<Function>,
     /// The joints whose torques are wanted, in this order; `None` for every
     /// joint that is not locked. Every quantity has these rows *and* columns.
     pub joints: Option<Vec<usize>>,
@@ -115,43 +116,6 @@ impl Scale {
             Scale::Actuator => "actuator",
             Scale::Range => "range",
         }
-    }
-}
-
-/// A function that a scene asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Output {
-    /// τ(q, q̇, q̈)
-    InverseDynamics,
-    /// c(q)
-    Gravity,
-    /// D(q)
-    Inertia,
-    /// h(q, q̇)
-    Coriolis,
-    /// D, h and c
-    ManipulatorEquation,
-    /// D, h_ikm and c
-    DynamicCoefficients,
-}
-
-impl Output {
-    /// Every output with its word.
-    pub const WORDS: [(&'static str, Self); 6] = [
-        ("inverse_dynamics", Output::InverseDynamics),
-        ("gravity", Output::Gravity),
-        ("inertia", Output::Inertia),
-        ("coriolis", Output::Coriolis),
-        ("manipulator_equation", Output::ManipulatorEquation),
-        ("dynamic_coefficients", Output::DynamicCoefficients),
-    ];
-
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        Self::WORDS
-            .into_iter()
-            .find(|(_, output)| *output == self)
-            .map_or("", |(word, _)| word)
     }
 }
 

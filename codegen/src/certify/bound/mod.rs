@@ -126,9 +126,10 @@ pub fn relative(x: f64, scale: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certify::interval::Interval;
+    use crate::bound::interval::Interval;
     use crate::graph::builder::Value;
-    use crate::graph::{AngleSum, Builder, Folding, Input};
+    use crate::graph::{Builder, Folding};
+    use crate::program::{AngleSum, Input};
     use dalembert_model::number::{Exact, Rational};
 
     /// A rate that is always zero: its terms are nothing, not the least double.

@@ -2,48 +2,18 @@
 
 use dalembert_model::scene::Scale;
 
-use super::{Certificate, Split};
-use crate::certify::bound::{Budget, magnitudes, relative};
-use crate::certify::definite::{has_inertia, least_eigenvalue_with};
-use crate::certify::edits::{Stage, difference, has_edits};
+use super::Certificate;
+use crate::approximate::edits::{Stage, difference, has_edits};
+use crate::backend::{MathPath, function};
+use crate::bound::Split;
+use crate::certify::bound::{magnitudes, relative};
+use crate::certify::definite::least_eigenvalue_with;
 use crate::certify::input_box::InputBox;
-use crate::certify::sensitivity::Sensitivity;
-use crate::emit::{MathPath, ScalarType, function};
+use crate::certify::sensitivity::{Fineness, Sensitivity};
 use crate::plan::{SceneKey, input_hash};
+use crate::program::{Program, ScalarType, has_inertia};
 use crate::scene::Setting;
-use crate::schedule::Program;
 use crate::sincos::{self, AngleKernel, Sines};
-
-/// How fine a bound is: the finer, the tighter and the dearer. Every one is
-/// sound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fineness {
-    /// For the bound of the edits.
-    pub budget: Budget,
-    /// Sub-boxes of the rounding bound by intervals.
-    pub boxes: usize,
-    /// Points of a grid for each value and adjoint that rounding counts with.
-    pub points: usize,
-}
-
-impl Fineness {
-    /// For certificates: seconds for a six-joint arm.
-    pub const CERTIFY: Fineness = Fineness {
-        budget: Budget::CERTIFY,
-        boxes: 512,
-        points: 1 << 14,
-    };
-    /// For who waits, as a compiler does.
-    pub const GLANCE: Fineness = Fineness {
-        budget: Budget {
-            boxes: 2_000,
-            points: 1 << 18,
-            ..Budget::GLANCE
-        },
-        boxes: 64,
-        points: 1 << 8,
-    };
-}
 
 /// What a claim is about, whatever the scalar.
 #[derive(Clone, Copy, Debug)]
@@ -99,9 +69,9 @@ impl Subject<'_> {
     }
 
     /// A lower bound of the least eigenvalue of S D S, if D is an output and
-    /// something was edited; `None` as well if there is none above zero.
+    /// not the model's; `None` as well if there is none above zero.
     pub fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
-        if !has_edits(self.stages) || !has_inertia(self.emitted) {
+        if !changes_inertia(self.stages, self.emitted, self.sines(scalar)) {
             return None;
         }
         least_eigenvalue_with(self.emitted, scalar, self.sines(scalar), self.limits).ok()
@@ -123,13 +93,7 @@ impl Subject<'_> {
                 stages => stages.to_vec(),
             },
             emitted: self.emitted.clone(),
-            text: function::with_sines(
-                self.emitted,
-                scalar,
-                &MathPath::default(),
-                self.sines(scalar),
-                &[],
-            ),
+            text: printed(self.emitted, scalar, self.sines(scalar)),
             sines: self.sines(scalar).to_vec(),
             bounds,
             lambda_min: None,
@@ -140,4 +104,15 @@ impl Subject<'_> {
     pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
         sincos::of(self.sines, scalar)
     }
+}
+
+/// Whether D is an output and differs from the model's by more than rounding:
+/// something was left out of it, or its sines are polynomials.
+pub(super) fn changes_inertia(stages: &[Stage], emitted: &Program, sines: &[AngleKernel]) -> bool {
+    has_inertia(emitted) && (has_edits(stages) || !sines.is_empty())
+}
+
+/// The text of a claim: a program and its sines, printed by themselves.
+pub(super) fn printed(program: &Program, scalar: ScalarType, sines: &[AngleKernel]) -> String {
+    function::with_sines(program, scalar, &MathPath::default(), sines, &[])
 }

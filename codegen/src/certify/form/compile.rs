@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::{Forms, Monomial, Work};
-use crate::certify::interval::Interval;
-use crate::graph::{AngleSum, Graph, Input, Node};
+use crate::bound::interval::Interval;
+use crate::graph::{Graph, Node};
+use crate::program::{AngleSum, Input};
 
 /// Above this much work a product, rates are taken as plain intervals.
 const MOST_PRODUCTS: usize = 400_000;

@@ -1,9 +1,9 @@
 //! Coefficients over a sub-box.
 
 use super::{Forms, Scratch, Work};
+use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
-use crate::graph::{AngleSum, Input};
+use crate::program::{AngleSum, Input};
 
 /// Where the Taylor polynomial of a sine is worse than its range.
 const FARTHEST: f64 = 0.8;

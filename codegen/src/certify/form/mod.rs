@@ -26,8 +26,9 @@
 mod compile;
 mod evaluate;
 
-use super::interval::Interval;
-use crate::graph::{Graph, Input};
+use crate::bound::interval::Interval;
+use crate::graph::Graph;
+use crate::program::Input;
 
 /// At most two rates and one position; 0 is none. Rates are 1 … 2n, sorted.
 type Monomial = ([u8; 2], u8);

@@ -4,11 +4,15 @@ use std::f64::consts::PI;
 
 use super::layout::{LANES, Layout};
 use super::{FINEST, FIRST};
+use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
+use crate::certify::work;
 
 /// Terms that are put together in about the time of a point.
 const TERMS: usize = 64;
+
+/// A bound where so many angles are put in, from the values there.
+pub(super) type Crude<'a> = dyn Fn(usize, &[f64]) -> f64 + 'a;
 
 /// A bound to show.
 pub(super) struct Cells<'a> {
@@ -18,8 +22,16 @@ pub(super) struct Cells<'a> {
     buffers: Vec<Vec<f64>>,
     /// Whether the value at a point is at most a bound.
     accept: &'a dyn Fn(&[f64], f64) -> bool,
-    /// Whether a value is at most what its terms are without sines.
-    pub crude: bool,
+    /// What the maximum over the joints from a level on is at most, no angle
+    /// looked at.
+    pub crude: Option<&'a Crude<'a>>,
+    /// Joints whose angles are looked at, the first ones: for the others what is
+    /// without them has to do.
+    pub depth: usize,
+    /// Of each joint: the degree of what is bounded.
+    pub degrees: Vec<u32>,
+    /// d·δ of the first cells is π over this.
+    pub first: usize,
     /// F, if the box is a part of the circles.
     whole: Option<f64>,
     ranges: Vec<Interval>,
@@ -47,7 +59,10 @@ impl<'a> Cells<'a> {
             layout,
             buffers,
             accept,
-            crude: false,
+            crude: None,
+            depth: layout.joints.len(),
+            degrees: layout.degrees.clone(),
+            first: FIRST,
             whole,
             ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
             points: 0,
@@ -83,22 +98,25 @@ impl<'a> Cells<'a> {
     /// What takes about as long as a point counts as one.
     pub(super) fn charge(&mut self, level: usize) {
         let points = 1 + self.layout.len(level) / TERMS;
+        work::count(points);
         self.points = self.points.saturating_sub(points);
     }
 
     /// Whether the maximum over the joints from `level` on is at most a bound:
     /// `true` is a proof.
     pub(super) fn below(&mut self, level: usize, bound: f64) -> bool {
-        if level == self.layout.joints.len() {
+        if level == self.depth {
             return (self.accept)(self.values(level), bound);
         }
-        if self.crude && self.layout.crude(level, self.values(level)) <= bound {
+        if let Some(crude) = self.crude
+            && crude(level, self.values(level)) <= bound
+        {
             return true;
         }
         if bound <= 0.0 || self.points == 0 {
             return false;
         }
-        let degree = f64::from(self.layout.degrees[level]);
+        let degree = f64::from(self.degrees[level]);
         let part = self.part(level);
         let (from, width) = match part {
             Some((range, _)) => {
@@ -114,7 +132,7 @@ impl<'a> Cells<'a> {
             None => (0.0, 2.0 * PI),
         };
         let rounded = 4.0 * f64::EPSILON * (from.abs() + width);
-        let count = FIRST * self.layout.degrees[level] as usize;
+        let count = self.first * self.degrees[level] as usize;
         let mut first = (0..count).map(|k| Cell {
             middle: from + width * (k as f64 + 0.5) / count as f64,
             half: 0.5 * width / count as f64,

@@ -13,14 +13,14 @@
 //! (n + 1)·u·trace; four times that, and what the entries' arithmetic costs,
 //! are taken off t.
 
+use super::NEGLIGIBLE;
 use super::cells::Cells;
 use super::harmonics::harmonics;
 use super::layout::Layout;
-use super::{NEGLIGIBLE, SLACK};
+use crate::bound::interval::Interval;
 use crate::certify::expand::{Key, Polynomial};
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
-use crate::simplify::random::Random;
+use crate::random::Random;
 
 /// Sampled positions for a first guess.
 const SAMPLES: usize = 500;
@@ -60,7 +60,7 @@ pub(in crate::certify) fn least_eigenvalue(
                 true => x.magnitude(),
                 false => x.radius(),
             };
-            off[index] += (radius + SLACK * x.magnitude()) * (1.0 + 1e-9);
+            off[index] += radius * (1.0 + 1e-9);
             all.push((key | index as Key, x));
         }
     }
@@ -68,8 +68,11 @@ pub(in crate::certify) fn least_eigenvalue(
         let row = |i: usize| (0..n).map(|j| of[place(i, j)]).sum::<f64>();
         (0..n).map(row).fold(0.0, f64::max) * (1.0 + 1e-12)
     };
-    let (most, lost) = (row_sum(&size), row_sum(&off));
     let layout = Layout::new(&all, limits, sliding, &|_| Interval::ONE, least);
+    for (off, size) in off.iter_mut().zip(&size) {
+        *off += layout.rounding * size;
+    }
+    let (most, lost) = (row_sum(&size), row_sum(&off));
     let matrix = |values: &[f64]| {
         let mut matrix = vec![0.0; entries.len()];
         for (x, key) in values.iter().zip(&layout.rest) {

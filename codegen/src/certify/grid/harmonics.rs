@@ -10,8 +10,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::bound::interval::Interval;
 use crate::certify::expand::{Key, Polynomial, powers, shift};
-use crate::certify::interval::Interval;
 
 /// Of a key whose joints have multiples in place of powers: the multiple k of
 /// a joint's angle, and whether it is sin kθ.
@@ -33,7 +33,7 @@ pub(super) fn bits(joint: usize) -> Key {
 
 /// The polynomial in multiples of its angles: in each key a joint's power of
 /// the cosine is replaced by the multiple. `None` if a multiple does not fit.
-pub(super) fn harmonics(polynomial: &Polynomial, joints: usize) -> Option<Polynomial> {
+pub(in crate::certify) fn harmonics(polynomial: &Polynomial, joints: usize) -> Option<Polynomial> {
     let mut terms = polynomial.clone();
     for joint in 0..joints {
         let mut next: BTreeMap<Key, Interval> = BTreeMap::new();

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use super::SLACK;
 use super::harmonics::{bits, multiple, unphased};
+use crate::bound::interval::Interval;
 use crate::certify::expand::Key;
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
 
 /// Angles that are put in side by side.
 pub(super) const LANES: usize = 8;
@@ -15,10 +14,22 @@ pub(super) const LANES: usize = 8;
 /// Multiples of an angle up to the 15th: their cosines and sines, and 1.
 const BASES: usize = 32;
 
+/// Values that differ by sine and cosine alone.
+pub(super) struct Group {
+    /// Where it ends.
+    pub end: u32,
+    /// How large its rates are.
+    pub size: f64,
+    /// The key of its first value.
+    pub key: Key,
+}
+
 /// Trigonometric polynomials in multiples of their angles, angle after angle.
 pub(super) struct Layout {
     pub joints: Vec<usize>,
     pub degrees: Vec<u32>,
+    /// What rounding costs, against the sum of all terms' magnitudes.
+    pub rounding: f64,
     /// Of each joint: the multiples that occur, and whether of the sine.
     bases: Vec<Vec<(u32, bool)>>,
     pub coefficients: Vec<f64>,
@@ -26,10 +37,10 @@ pub(super) struct Layout {
     /// out.
     folds: Vec<(Vec<[u32; 2]>, usize)>,
     /// Of each joint: values that go in and differ by sine and cosine alone,
-    /// one after the other: where they end, and how large their rates are.
-    groups: Vec<Vec<(u32, f64)>>,
+    /// one after the other.
+    pub groups: Vec<Vec<Group>>,
     /// The range of the rates of each value that comes out.
-    output: Vec<(f64, f64)>,
+    pub output: Vec<(f64, f64)>,
     /// What is left of the key of each value that comes out.
     pub rest: Vec<Key>,
     pub slack: f64,
@@ -39,7 +50,8 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Of a polynomial in multiples; `range` of what is not an angle in a key.
-    /// Terms of at most `least` are left to the slack.
+    /// Terms of at most `least` are left to the slack. The joint of the highest
+    /// degree is the last one: its sums are the shortest.
     pub(super) fn new(
         polynomial: &[(Key, Interval)],
         limits: &InputBox,
@@ -47,8 +59,20 @@ impl Layout {
         range: &dyn Fn(Key) -> Interval,
         least: f64,
     ) -> Layout {
+        Layout::ordered(polynomial, limits, sliding, range, least, &[])
+    }
+
+    /// The same, some joints first.
+    pub(super) fn ordered(
+        polynomial: &[(Key, Interval)],
+        limits: &InputBox,
+        sliding: &[bool],
+        range: &dyn Fn(Key) -> Interval,
+        least: f64,
+        first: &[usize],
+    ) -> Layout {
         let n = limits.joints();
-        let mut slack = 0.0;
+        let (mut slack, mut sizes) = (0.0, 0.0);
         let mut terms: Vec<(Key, f64)> = Vec::new();
         for &(key, coefficient) in polynomial {
             let most = range(key).magnitude();
@@ -56,13 +80,14 @@ impl Layout {
                 continue;
             }
             let size = (coefficient.magnitude() * most).next_up();
-            if size <= least {
+            if size <= least || coefficient.mid() == 0.0 {
                 slack += size;
                 continue;
             }
             // Lengths of groups lose what is too small to be squared.
             let tiny = f64::MIN_POSITIVE.sqrt() * most;
-            slack += (coefficient.radius() * most + SLACK * size + tiny) * (1.0 + 1e-9);
+            slack += (coefficient.radius() * most + tiny) * (1.0 + 1e-9);
+            sizes += size;
             terms.push((key, coefficient.mid()));
         }
         let degree = |joint: usize| {
@@ -70,8 +95,10 @@ impl Layout {
             multiples.max().unwrap_or(0)
         };
         let mut joints: Vec<usize> = (0..n).filter(|&j| degree(j) > 0).collect();
-        // The joint of the highest degree last: its sums are the shortest.
-        joints.sort_by_key(|&joint| degree(joint));
+        joints.sort_by_key(|&joint| {
+            let place = first.iter().position(|&early| early == joint);
+            (place.unwrap_or(first.len()), degree(joint))
+        });
         let degrees: Vec<u32> = joints.iter().map(|&j| degree(j)).collect();
         let part = joints
             .iter()
@@ -90,7 +117,11 @@ impl Layout {
                 together
                     .map(|group| {
                         end += group.len() as u32;
-                        (end, range(group[0]).magnitude())
+                        Group {
+                            end,
+                            size: range(group[0]).magnitude(),
+                            key: group[0],
+                        }
                     })
                     .collect(),
             );
@@ -112,12 +143,15 @@ impl Layout {
             terms = after;
             folds.push((fold, terms.len()));
         }
+        let rounding = roundings(&degrees, &folds, terms.len());
+        slack += sizes * rounding;
         let output = terms.iter().map(|&key| {
             let range = range(key);
             (range.low(), range.high())
         });
         Layout {
             output: output.collect(),
+            rounding,
             rest: terms.clone(),
             joints,
             degrees,
@@ -146,10 +180,10 @@ impl Layout {
             return self.value(values) * (1.0 + 1e-9);
         };
         let (mut sum, mut from) = (self.slack, 0);
-        for &(end, size) in groups {
-            let end = end as usize;
+        for group in groups {
+            let end = group.end as usize;
             let squares: f64 = values[from..end].iter().map(|x| x * x).sum();
-            sum += squares.sqrt() * size;
+            sum += squares.sqrt() * group.size;
             from = end;
         }
         sum * (1.0 + 1e-9)
@@ -212,4 +246,31 @@ impl Layout {
         }
         f64::max(high, -low) + self.slack
     }
+}
+
+/// What rounding costs a value at a point, against the sum of the magnitudes
+/// of all its terms.
+///
+/// For each angle a term is multiplied by a sine or cosine of a multiple and
+/// added to others:
+///
+/// - libm's pair errs by less than 2·√2·u; each addition theorem adds to the
+///   last multiple's error (as a vector) the first's and its own roundings,
+///   2·√2·u at most: together less than 6·u for each unit of the degree;
+/// - the product takes one rounding;
+/// - the sum takes as many as it has terms.
+///
+/// Then rates: one product, and one addition for each value that is left. The
+/// little on top is for products of these errors, which are below 1e-9.
+fn roundings(degrees: &[u32], folds: &[(Vec<[u32; 2]>, usize)], left: usize) -> f64 {
+    let mut count = 1 + left;
+    for (&degree, (fold, len)) in degrees.iter().zip(folds) {
+        let mut terms = vec![0; *len];
+        for &[_, to] in fold {
+            terms[to as usize] += 1;
+        }
+        let longest = terms.into_iter().max().unwrap_or(0);
+        count += 6 * degree as usize + 1 + longest;
+    }
+    count as f64 * (f64::EPSILON / 2.0) * (1.0 + 1e-6)
 }

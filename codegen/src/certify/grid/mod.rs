@@ -17,11 +17,12 @@
 //! worst, monomial by monomial.
 //!
 //! What the arithmetic costs: coefficients are intervals, of which the points
-//! take the middle; their radii are added to each value, and so is
-//! [`SLACK`] times the sum of all |coefficient · monomial|, which covers the
-//! few dozen roundings between a coefficient and a value, since every sine and
-//! cosine is at most 1.
+//! take the middle; their radii are added to each value, and so is what
+//! rounding costs on the way from coefficients to a value (`layout`).
 //!
+//! - `narrow`: angles of small ranges, written in multiples of another that
+//!   goes round
+//! - `products`: the largest sum of products of two polynomials
 //! - `harmonics`: multiples of angles in place of powers
 //! - `layout`: terms regrouped so that points are quick
 //! - `cells`: the bound; where sines cannot make up the difference any more, no
@@ -32,26 +33,32 @@ mod cells;
 mod definite;
 mod harmonics;
 mod layout;
+mod narrow;
+mod products;
 
 use std::f64::consts::PI;
 
 use super::expand::{Key, Polynomial, rates};
 use super::input_box::InputBox;
-use super::interval::Interval;
-use crate::graph::{Graph, Input, Node};
-use crate::simplify::random::Random;
+use crate::bound::interval::Interval;
+use crate::graph::{Graph, Node};
+use crate::program::Input;
+use crate::random::Random;
 use cells::Cells;
 pub(super) use definite::least_eigenvalue;
-use harmonics::harmonics;
+pub(super) use harmonics::harmonics;
 use layout::Layout;
-
-/// More than a hundred roundings of double precision, relative.
-const SLACK: f64 = 1e-13;
+use narrow::narrowed;
+pub(super) use products::{Largest, Product, Products};
 
 /// Terms smaller than this part of the largest are not looked at one by one:
 /// most are what rounding left of terms that cancel, and would make the degree
 /// higher.
 const NEGLIGIBLE: f64 = 1e-8;
+
+/// What the highest multiples of narrow angles may come to, against what a bound
+/// may exceed a value by.
+const CUT: f64 = 0.3;
 
 /// The least bound that is tried, against the one without angles.
 const LEAST: f64 = 1e-15;
@@ -120,10 +127,21 @@ pub(super) fn magnitude(
 ) -> Option<f64> {
     let range = |key: Key| range(key, limits);
     let polynomial = harmonics(polynomial, limits.joints())?;
-    let sizes = polynomial.iter();
-    let sizes = sizes.map(|&(key, x)| x.magnitude() * range(key).magnitude());
-    let least = NEGLIGIBLE * sizes.fold(0.0, f64::max);
-    let layout = Layout::new(&polynomial, limits, sliding, &range, least);
+    let (mut polynomial, narrow) = narrowed(polynomial, limits, sliding);
+    let sliding: Vec<bool> = (0..sliding.len())
+        .map(|joint| sliding[joint] || narrow.contains(&joint))
+        .collect();
+    let size = |&(key, x): &(Key, Interval)| x.magnitude() * range(key).magnitude();
+    let least = NEGLIGIBLE * polynomial.iter().map(size).fold(0.0, f64::max);
+    let mut layout = Layout::new(&polynomial, limits, &sliding, &range, least);
+    if !narrow.is_empty() && closeness.points > 0 {
+        let mut cells = Cells::new(&layout, limits, None, &|_, _| false);
+        cells.points = closeness.points;
+        let taken = climb(&mut cells, closeness.starts, &|values| layout.value(values));
+        let allowance = CUT * closeness.close * taken;
+        narrow::cut(&mut polynomial, &narrow, allowance, &size);
+        layout = Layout::new(&polynomial, limits, &sliding, &range, least);
+    }
     if !layout.part.contains(&true) {
         return Some(bound(&layout, limits, None, aim, closeness));
     }
@@ -155,24 +173,13 @@ fn bound(
         return crude;
     }
     let accept = |values: &[f64], bound| layout.value(values) <= bound;
+    let without = |level: usize, values: &[f64]| layout.crude(level, values);
     let mut cells = Cells::new(layout, limits, whole, &accept);
-    cells.crude = true;
+    cells.crude = Some(&without);
     cells.points = points;
-    let least = climb(&mut cells, closeness.starts);
-    let mut tries = Vec::new();
-    let mut more = closeness.close;
-    // From so far below the crude bound that no smaller one matters, and a step
-    // up is one.
-    let mut next = (least * (1.0 + more) + 2.0 * layout.slack).max(LEAST * crude);
-    while f64::MIN_POSITIVE < next && next < crude {
-        tries.push(next);
-        more = (2.0 * more).min(MOST_STEP);
-        next *= 1.0 + more;
-    }
-    let mut shown = |bound: f64| {
-        cells.points = points;
-        cells.below(0, bound)
-    };
+    let value = |values: &[f64]| layout.value(values) - layout.slack;
+    let least = climb(&mut cells, closeness.starts, &value);
+    let tries = tries(least, 2.0 * layout.slack, crude, closeness.close);
     let start = match aim {
         Aim::Least(goal) => {
             let enough = tries.iter().position(|&bound| bound >= goal);
@@ -183,14 +190,38 @@ fn bound(
             None => return crude,
         },
     };
+    let mut shown = |bound: f64| {
+        cells.points = points;
+        cells.below(0, bound)
+    };
     if tries.get(start).is_some_and(|&bound| shown(bound)) {
         return tries[start];
     }
     if matches!(aim, Aim::Within(_)) {
         return crude;
     }
-    // A larger bound takes fewer points: halving finds the least.
-    let (mut failed, mut held) = (start, tries.len());
+    least_shown(&tries, start, &mut shown).unwrap_or(crude)
+}
+
+/// Bounds to try: from a value that is taken up to the crude bound.
+fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
+    let mut tries = Vec::new();
+    let mut more = close;
+    // From so far below the crude bound that no smaller one matters, and a step
+    // up is one.
+    let mut next = (taken * (1.0 + more) + slack).max(LEAST * crude);
+    while f64::MIN_POSITIVE < next && next < crude {
+        tries.push(next);
+        more = (2.0 * more).min(MOST_STEP);
+        next *= 1.0 + more;
+    }
+    tries
+}
+
+/// The least of the bounds after one that was not shown: a larger one takes
+/// fewer points, so halving finds it.
+fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
+    let (mut failed, mut held) = (not, tries.len());
     while held > failed + 1 {
         let middle = (failed + held) / 2;
         if shown(tries[middle]) {
@@ -199,12 +230,12 @@ fn bound(
             failed = middle;
         }
     }
-    tries.get(held).copied().unwrap_or(crude)
+    tries.get(held).copied()
 }
 
 /// A value that is taken: the largest of a coarse grid, climbed from.
-fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
-    let count = cells.layout.joints.len();
+fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> f64 {
+    let count = cells.depth;
     let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
         Some((range, _)) => (range.low(), range.high()),
         None => (0.0, 2.0 * PI),
@@ -218,7 +249,7 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
                 cells.place(level, angle);
             }
         }
-        cells.layout.value(cells.values(count)) - cells.layout.slack
+        value(cells.values(count))
     };
     let mut best = 0.0;
     let mut random = Random::new(0x9d1d);
@@ -229,7 +260,7 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
                 low + (high - low) * random.unit()
             })
             .collect();
-        let (mut value, mut known) = (at(&angles, 0, cells), count);
+        let (mut highest, mut known) = (at(&angles, 0, cells), count);
         let mut step = 0.7;
         while step > 1e-3 && cells.points > 0 {
             let mut moved = false;
@@ -242,8 +273,8 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
                         None => old + sign * step,
                     };
                     let next = at(&angles, known.min(level), cells);
-                    if next > value {
-                        (value, moved, known) = (next, true, count);
+                    if next > highest {
+                        (highest, moved, known) = (next, true, count);
                     } else {
                         (angles[level], known) = (old, level);
                     }
@@ -253,7 +284,7 @@ fn climb(cells: &mut Cells<'_>, starts: usize) -> f64 {
                 step *= 0.4;
             }
         }
-        best = f64::max(best, value);
+        best = f64::max(best, highest);
     }
     best
 }

@@ -4,10 +4,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::certify::edits::{Edit, Place};
-use crate::graph::Input;
-use crate::schedule::{Operand, Operation, Program};
-use crate::verify::states::JointState;
+use crate::approximate::edits::{Edit, Place};
+use crate::program::{Input, Operand, Operation, Program};
+use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational, Rounded};
 
@@ -271,7 +270,7 @@ fn zip(out: &mut [f64], a: &[f64], b: &[f64], f: impl Fn(f64, f64) -> f64) {
 }
 
 fn at(input: Input, state: &JointState) -> f64 {
-    let angle = |angle: crate::graph::AngleSum| {
+    let angle = |angle: crate::program::AngleSum| {
         angle.terms().fold(0.0, |sum, (joint, negative)| {
             if negative {
                 sum - state.q[joint]

@@ -27,11 +27,11 @@ mod search;
 mod tally;
 
 use super::bound::Budget;
-use super::edits::{Stage, has_edits};
 use super::input_box::InputBox;
-use crate::schedule::Program;
+use crate::approximate::edits::{Stage, has_edits};
+use crate::program::Program;
+use crate::random::Random;
 use crate::simplify::Effort;
-use crate::simplify::random::Random;
 use crate::watch::Vigil;
 use motions::Motions;
 pub use omissions::{Omission, omissions};
@@ -64,6 +64,8 @@ pub struct Settings {
     pub effort: Effort,
     /// Whether constants are corrected for what is left out.
     pub refit: bool,
+    /// Units of work at most, if there is a limit: what was found by then counts.
+    pub work: Option<u64>,
 }
 
 impl Default for Settings {
@@ -78,6 +80,7 @@ impl Default for Settings {
             budget: Budget::GLANCE,
             effort: Effort::Quick,
             refit: true,
+            work: None,
         }
     }
 }
@@ -105,6 +108,7 @@ impl Settings {
         budget: Budget::GLANCE,
         effort: Effort::Thorough,
         refit: true,
+        work: None,
     };
 
     /// For the effort of a command that reports on variants.
@@ -135,6 +139,19 @@ impl Settings {
 
 /// The parts of the allowances that the first stages may use.
 const RAMP: [f64; 2] = [0.5, 0.8];
+
+/// Programs that are edited beyond those of the settings, as long as each leaves
+/// much of the allowances.
+const MAX_MORE: usize = 3;
+
+/// An output that uses less of its allowance leaves much.
+const MUCH: f64 = 0.8;
+
+/// Whether no output uses up its allowance.
+fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
+    let mut pairs = best.errors.iter().zip(allowances);
+    has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
+}
 
 /// The cheapest variant found of which every output is certified to stay
 /// within its allowance (in the output's unit) over the box.
@@ -175,7 +192,11 @@ pub fn watched(
     let mut random = Random::new(SEED);
     let motions = Motions::new(program, limits);
     let mut positions = motions::positions(limits, settings.samples, &mut random);
-    for stage in 0..settings.stages {
+    for stage in 0..settings.stages + MAX_MORE {
+        // What is left of the allowances may do for one more.
+        if stage >= settings.stages && !leaves(&best, allowances) {
+            break;
+        }
         let part = settings.part(stage);
         let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
         let search = Search {

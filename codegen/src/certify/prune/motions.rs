@@ -9,12 +9,12 @@
 //! A program that multiplies a velocity by an acceleration has further
 //! monomials, which are missed here; the certificate decides.
 
+use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
 use crate::function::Argument;
-use crate::schedule::Program;
-use crate::simplify::random::Random;
-use crate::verify::states::JointState;
+use crate::program::Program;
+use crate::random::Random;
+use crate::states::JointState;
 
 /// Sampled positions and the motions at each.
 #[derive(Clone)]

@@ -5,12 +5,12 @@ use std::fmt;
 use dalembert_model::number::{Exact, Rounded};
 
 use super::Pruned;
+use crate::approximate::edits::{Edit, Place, Stage, difference};
 use crate::certify::bound::{Budget, magnitudes};
-use crate::certify::edits::{Edit, Place, Stage, difference};
 use crate::certify::input_box::InputBox;
-use crate::emit::function::input_name;
-use crate::graph::{Counts, Folding};
-use crate::schedule::{Operand, Operation, Program};
+use crate::graph::Folding;
+use crate::program::text::input_name;
+use crate::program::{Counts, Operand, Operation, Program};
 
 /// One edit, what it saves and what it costs.
 #[derive(Clone, Debug, PartialEq)]

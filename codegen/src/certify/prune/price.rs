@@ -2,8 +2,7 @@
 //! building a graph.
 
 use super::columns::{Nodes, Value};
-use crate::graph::Input;
-use crate::schedule::Operation;
+use crate::program::{Input, Operation};
 
 /// A sine/cosine pair weighs as much as this many operations.
 const SINCOS: u32 = 8;
@@ -149,5 +148,85 @@ fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
             Folded::alias(Value::Known(0.0))
         }
         _ => operation,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::*;
+    use crate::function::Function;
+    use crate::graph::rules::folding::BY_SHAPE;
+    use crate::graph::rules::pattern::{Algebra, Pattern, is_constant};
+    use crate::graph::{Builder, Folding, Value as Symbol};
+    use crate::program::Program;
+
+    /// Numbers as inputs, which edits replace by their values.
+    struct Unfolded {
+        builder: Builder,
+        known: Vec<(Input, f64)>,
+    }
+
+    impl Unfolded {
+        fn constant(&mut self, value: f64) -> Symbol {
+            let input = Input::Acceleration(self.known.len());
+            self.known.push((input, value));
+            self.builder.input(input)
+        }
+    }
+
+    impl Algebra for Unfolded {
+        type Value = Symbol;
+        fn number(&mut self, number: u64) -> Symbol {
+            self.constant(number as f64)
+        }
+        fn neg(&mut self, a: &Symbol) -> Symbol {
+            self.builder.negate_if(a, true)
+        }
+        fn operate(&mut self, symbol: &str, a: &Symbol, b: &Symbol) -> Symbol {
+            match symbol {
+                "+" => self.builder.add(a, b),
+                "-" => self.builder.sub(a, b),
+                _ => self.builder.mul(a, b),
+            }
+        }
+    }
+
+    /// The price of a pattern whose constants come from edits.
+    fn price_of(pattern: &str) -> u32 {
+        let pattern = Pattern::parse(pattern);
+        let mut unfolded = Unfolded {
+            builder: Builder::new(Folding::Syntactic),
+            known: Vec::new(),
+        };
+        let mut values = HashMap::new();
+        for (joint, name) in pattern.variables().into_iter().enumerate() {
+            let value = match is_constant(name) {
+                true => unfolded.constant(3.5 + joint as f64),
+                false => unfolded.builder.input(Input::Velocity(joint)),
+            };
+            values.insert(name, value);
+        }
+        let value = pattern.evaluate(&mut unfolded, &values);
+        let graph = unfolded.builder.finish(&[value]);
+        let program = Program::new(Function::Gravity, 9, &graph);
+        let nodes = Nodes::new(&program, &[]);
+        let mut edits = vec![None; nodes.len()];
+        for (edit, input) in edits.iter_mut().zip(&nodes.inputs) {
+            let known = unfolded.known.iter().find(|(known, _)| known == input);
+            *edit = known.map(|&(_, value)| Value::Known(value));
+        }
+        price(&nodes, &edits, &mut Scratch::default())
+    }
+
+    #[test]
+    fn folds_whatever_a_builder_folds_by_shape() {
+        for rule in BY_SHAPE {
+            // What stays is at most one product of a value and a constant.
+            let kept = u32::from(rule.to.contains('*') && rule.to.contains("?a"));
+            assert_eq!(price_of(rule.from), kept, "{}", rule.name);
+        }
+        assert_eq!(price_of("(+ ?a (* ?b ?k))"), 2);
     }
 }

@@ -5,18 +5,16 @@ use super::greedy::{Greedy, State};
 use super::motions::Motions;
 use super::tally::Tally;
 use super::{Pruned, Settings};
-use crate::certify::bound;
-use crate::certify::definite::{has_inertia, least_eigenvalue};
-use crate::certify::edits::{Stage, difference, has_edits};
+use crate::approximate::edits::{Stage, difference, has_edits};
+use crate::bound::interval::Interval;
+use crate::certify::definite::least_eigenvalue;
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
-use crate::certify::sample;
-use crate::emit::ScalarType;
+use crate::certify::{bound, sample};
 use crate::graph::{Folding, Graph};
-use crate::schedule::Program;
-use crate::simplify::random::Random;
+use crate::program::{Program, ScalarType, has_inertia};
+use crate::random::Random;
 use crate::simplify::{Effort, simplify};
-use crate::verify::states::JointState;
+use crate::states::JointState;
 
 /// Rounds in which constants are corrected after edits are chosen.
 const POLISH: usize = 12;

@@ -3,7 +3,8 @@
 use std::cell::Cell;
 
 use super::Settings;
-use crate::schedule::Program;
+use crate::certify::work::Meter;
+use crate::program::Program;
 use crate::watch::{Part, Vigil};
 
 /// How far a search for omissions has come.
@@ -11,6 +12,7 @@ pub(super) struct Tally<'a> {
     watch: Option<Vigil<'a>>,
     done: Cell<usize>,
     rounds: usize,
+    meter: Meter,
 }
 
 impl<'a> Tally<'a> {
@@ -21,6 +23,7 @@ impl<'a> Tally<'a> {
             rounds: (0..settings.stages)
                 .map(|stage| settings.guesses + settings.retries(stage))
                 .sum(),
+            meter: Meter::new(settings.work),
         }
     }
 
@@ -34,8 +37,8 @@ impl<'a> Tally<'a> {
         self.done.set(done + 1);
     }
 
-    /// Whether the one who watches wants an end.
+    /// Whether the one who watches wants an end, or the work is done.
     pub(super) fn is_over(&self) -> bool {
-        self.watch.is_some_and(|watch| watch.is_over())
+        self.meter.is_over() || self.watch.is_some_and(|watch| watch.is_over())
     }
 }

@@ -4,11 +4,12 @@
 //! cancels is gone, which intervals would not see.
 
 use super::gradient::Gradient;
+use super::together::{Together, Written};
 use crate::certify::expand::visit;
 use crate::certify::grid::{self, Aim, Closeness};
 use crate::certify::input_box::InputBox;
-use crate::graph::{Edge, Input};
-use crate::schedule::Program;
+use crate::graph::Edge;
+use crate::program::{Input, Program};
 
 /// How close a bound is to come to a value that is taken: sums of products of
 /// two of them are what counts.
@@ -29,6 +30,8 @@ pub(super) struct Extremes {
     pub values: Vec<f64>,
     /// Of each output.
     pub adjoints: Vec<Adjoints>,
+    /// Of each output: its nodes' products together.
+    pub together: Vec<Together>,
 }
 
 /// Bounds of one output's derivatives.
@@ -42,8 +45,13 @@ pub(super) struct Adjoints {
 
 impl Extremes {
     /// `points` of a grid at most for each; with none, no angle is looked at.
-    /// `None` if the polynomials are too large.
-    pub(super) fn of(program: &Program, limits: &InputBox, points: usize) -> Option<Extremes> {
+    /// `together` for each output's sum. `None` if the polynomials are too large.
+    pub(super) fn of(
+        program: &Program,
+        limits: &InputBox,
+        points: usize,
+        together: usize,
+    ) -> Option<Extremes> {
         let gradient = Gradient::of(program);
         let graph = &gradient.graph;
         let sliding = grid::sliding(graph, limits.joints());
@@ -54,8 +62,10 @@ impl Extremes {
             starts: STARTS,
         };
         let mut most = vec![Some(0.0); graph.nodes.len()];
+        let mut written = Written::new(graph.nodes.len(), limits, together);
         visit(graph, limits, &mut |node, polynomial| {
             most[node] = grid::magnitude(polynomial, limits, &sliding, Aim::Least(0.0), closeness);
+            written.keep(node, polynomial);
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
         let of = |edge: &Edge| most[edge.node().index()];
@@ -70,7 +80,9 @@ impl Extremes {
                 sines: sines.map(|(input, edge)| (*input, of(edge))).collect(),
             }
         });
+        let together = written.together(program, &gradient, &most, &sliding);
         Some(Extremes {
+            together,
             values: gradient.values.iter().map(of).collect(),
             adjoints: adjoints.collect(),
         })

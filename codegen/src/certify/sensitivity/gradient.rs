@@ -3,10 +3,10 @@
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::certify::edits::operate;
+use crate::approximate::edits::operate;
 use crate::graph::builder::Value;
-use crate::graph::{Builder, Edge, Folding, Graph, Input};
-use crate::schedule::{Operand, Operation, Program};
+use crate::graph::{Builder, Edge, Folding, Graph};
+use crate::program::{Input, Operand, Operation, Program};
 
 /// A graph with the value of each step and, output by output, the derivatives
 /// of the output with respect to them: all of them its outputs.

@@ -12,13 +12,12 @@
 
 use dalembert_model::number::Exact;
 
-use super::{Rounding, note, underflow};
+use super::{Rounding, binade, note};
+use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
-use crate::certify::interval::Interval;
 use crate::certify::subdivide::sub_boxes;
-use crate::emit::ScalarType;
-use crate::graph::{AngleSum, Input};
-use crate::schedule::{Operand, Operation, Program};
+use crate::program::scalar_type::underflow;
+use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Step};
 use crate::sincos::AngleKernel;
 use crate::sincos::proof::Errors;
 
@@ -81,6 +80,22 @@ impl Constants {
     }
 }
 
+/// Whether an operation does not round, but for underflow: a product with a
+/// power of two, a value added to itself.
+pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) -> bool {
+    let power = |known: &Option<(Interval, f64)>| {
+        known.is_some_and(|(constant, error)| {
+            let x = constant.high();
+            error == 0.0 && x.is_normal() && binade(x.abs()) == x.abs()
+        })
+    };
+    match step.operation {
+        Operation::Mul => constants.iter().any(power),
+        Operation::Add => step.left == step.right,
+        Operation::Sub => false,
+    }
+}
+
 /// A constant with its literal, and how far they are apart.
 fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
     let exact = Interval::exact(constant);
@@ -123,7 +138,10 @@ pub(in crate::certify) fn forward(
             Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
             Operation::Mul => (x * y, underflow(scalar)),
         };
-        let rounding = (u * exact.magnitude()).next_up() + eta;
+        let rounding = match is_exact(step, known) {
+            true => eta,
+            false => (u * binade(exact.magnitude())).next_up() + eta,
+        };
         values.push(exact.widened(rounding));
         own.push(rounding.next_up());
     }

@@ -17,8 +17,9 @@
 //!
 //! - `extremes`, `magnitudes`: the largest |value| and |adjoint| of each node
 //!   over the box, written out as trigonometric polynomials; their products,
-//!   and what mixed adjoints can be off. Twice the largest sum at a point, as
-//!   far as measured.
+//!   and what mixed adjoints can be off
+//! - `together`: in place of the products' first order, the largest sum of
+//!   |value|·|adjoint| at one state
 //! - `intervals`: interval arithmetic over sub-boxes; for programs that are
 //!   too large to be written out, narrow boxes and large errors
 //!
@@ -28,15 +29,50 @@ mod extremes;
 mod gradient;
 mod intervals;
 mod magnitudes;
+mod together;
 
-use super::certificate::subject::Fineness;
+use super::bound::Budget;
 use super::distinct::Distinct;
 use super::input_box::InputBox;
-use crate::emit::ScalarType;
-use crate::schedule::{Operand, Program};
+use crate::program::{Operand, Program, ScalarType};
 use crate::sincos::AngleKernel;
 use extremes::Extremes;
 pub(super) use intervals::{Constants, forward};
+
+/// How fine a bound is: the finer, the tighter and the dearer. Every one is
+/// sound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fineness {
+    /// For the bound of the edits.
+    pub budget: Budget,
+    /// Sub-boxes of the rounding bound by intervals.
+    pub boxes: usize,
+    /// Points of a grid for each value and adjoint that rounding counts with.
+    pub points: usize,
+    /// Points of a grid for the sum of all their products, for each output.
+    pub together: usize,
+}
+
+impl Fineness {
+    /// For certificates: seconds for a six-joint arm.
+    pub const CERTIFY: Fineness = Fineness {
+        budget: Budget::CERTIFY,
+        boxes: 512,
+        points: 1 << 14,
+        together: 1 << 19,
+    };
+    /// For who waits, as a compiler does.
+    pub const GLANCE: Fineness = Fineness {
+        budget: Budget {
+            boxes: 2_000,
+            points: 1 << 18,
+            ..Budget::GLANCE
+        },
+        boxes: 64,
+        points: 1 << 8,
+        together: 1 << 14,
+    };
+}
 
 /// Bounds of one output's rounding error, in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -112,7 +148,7 @@ impl Sensitivity {
             ..program.clone()
         };
         Sensitivity {
-            extremes: Extremes::of(&once, limits, fineness.points),
+            extremes: Extremes::of(&once, limits, fineness.points, fineness.together),
             of: program.clone(),
             program: once,
             distinct,
@@ -143,12 +179,12 @@ impl Sensitivity {
     }
 }
 
-/// Half the least subnormal.
-pub(crate) fn underflow(scalar: ScalarType) -> f64 {
-    match scalar {
-        // Half of 2^−1074 is no double: the whole.
-        ScalarType::F64 => f64::from_bits(1),
-        ScalarType::F32 => f64::from(f32::from_bits(1)) / 2.0,
+/// The largest power of two that is at most x; x if that is no normal number.
+/// Rounding a number that is no larger than x moves it by at most this times u.
+fn binade(x: f64) -> f64 {
+    match x.is_normal() && x > 0.0 {
+        true => f64::from_bits(x.to_bits() & !((1 << 52) - 1)),
+        false => x,
     }
 }
 

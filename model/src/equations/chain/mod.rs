@@ -6,14 +6,18 @@
 //! - [`gauge`]: the freedom that leaves the dynamics alone: where an origin
 //!   lies on its axis, which parameters a link keeps, the unit of length
 //! - [`pose`]: the chain at a position; the axes in which each link is seen
+//! - `momentum`: energies and momenta
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
+//! - `form`: [`Form`]: the associations that these leave open
 //!
 //! `README.md` beside this file derives each from the textbook form.
 
 pub mod body;
 pub mod composite;
+mod form;
 pub mod gauge;
+mod momentum;
 pub mod pose;
 pub mod recursion;
 pub mod skeleton;
@@ -21,6 +25,7 @@ pub mod skeleton;
 use alloc::vec::Vec;
 
 pub use body::Body;
+pub use form::Form;
 pub use gauge::{Gauge, LinkGauge};
 pub use pose::Displacement;
 pub use skeleton::{Segment, Skeleton};

@@ -38,8 +38,49 @@ pub fn inverse_dynamics<S: Scalar>(
     tip: Option<&Wrench<S>>,
 ) -> Vec<S> {
     let bodies = bodies(arm, at, qd, qdd);
-    let n = bodies.len();
-    let mut torques = Vec::with_capacity(n);
+    let wrenches = wrenches_on(arm, &bodies, tip);
+    let joints = arm.links.iter().zip(&bodies).zip(&wrenches).enumerate();
+    joints
+        .map(|(i, ((link, body), wrench))| {
+            let load = match link.kind {
+                JointKind::Revolute => &wrench.moment,
+                JointKind::Prismatic => &wrench.force,
+            };
+            with_drive(link, &dot(load, &body.axis), &qd[i], &qdd[i])
+        })
+        .collect()
+}
+
+/// f_i and n_i: what link i−1 exerts on link i, gravity included, the moment
+/// about the origin of frame i−1, or of frame i in modified DH.
+pub fn wrenches<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+) -> Vec<Wrench<S>> {
+    wrenches_on(arm, &bodies(arm, at, qd, qdd), None)
+}
+
+/// v̇ and ω̇ of the last frame.
+pub fn tip_acceleration<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+) -> [Vector<S>; 2] {
+    match bodies(arm, at, qd, qdd).pop() {
+        Some(last) => [last.acceleration, last.omega_dot],
+        None => [opposite(&arm.gravity), zero_vector()],
+    }
+}
+
+fn wrenches_on<S: Scalar>(
+    arm: &Arm<S>,
+    bodies: &[Body<S>],
+    tip: Option<&Wrench<S>>,
+) -> Vec<Wrench<S>> {
+    let mut wrenches = Vec::with_capacity(bodies.len());
     let [mut force, mut torque] = match tip {
         Some(tip) => [tip.force.clone(), tip.moment.clone()],
         None => [zero_vector(), zero_vector()],
@@ -67,16 +108,13 @@ pub fn inverse_dynamics<S: Scalar>(
             &inertial_moment,
         );
         force = sum(&inertial_force, &force);
-
-        let load = match link.kind {
-            JointKind::Revolute => &torque,
-            JointKind::Prismatic => &force,
-        };
-        let along = dot(load, &body.axis);
-        torques.push(with_drive(link, &along, &qd[i], &qdd[i]));
+        wrenches.push(Wrench {
+            force: force.clone(),
+            moment: torque.clone(),
+        });
     }
-    torques.reverse();
-    torques
+    wrenches.reverse();
+    wrenches
 }
 
 /// Every link in base axes, from the base to the hand.

@@ -4,12 +4,13 @@
 use alloc::borrow::ToOwned;
 use alloc::format;
 
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::{Check, Part};
 use crate::number::Rational;
-use crate::robot::{Field, JointKind};
-use crate::scene::{Output, Scale};
+use crate::outputs::{Argument, ErrorScale, Function};
+use crate::robot::{Field, JointKind, Severity};
+use crate::scene::Scale;
 
 impl Check<'_> {
     pub(super) fn tolerance(&mut self) {
@@ -29,16 +30,30 @@ impl Check<'_> {
                 self.say(Part::Tolerance(index), message, help);
             }
         }
+        if let Some(index) = tolerance
+            .value
+            .iter()
+            .position(|value| *value >= Rational::one())
+        {
+            let message =
+                "a tolerance of 1 or more allows an error as large as the output".to_owned();
+            let help = "it is a part of what it is relative to: 0.01 for 1%";
+            self.push(Severity::Warning, Part::Tolerance(index), message, help);
+        }
         self.needs(tolerance.relative_to);
     }
 
-    /// Whether the scene asks for one of these by name, or leaves its outputs
-    /// to the request.
-    fn reads(&self, wanted: &[Output], open: bool) -> bool {
-        match self.scene.outputs.as_slice() {
-            [] => open,
-            outputs => outputs.iter().any(|output| wanted.contains(output)),
-        }
+    /// Whether the scene asks for a function that reads this, or leaves its
+    /// outputs to the request.
+    fn reads(&self, argument: Argument) -> bool {
+        let outputs = &self.scene.outputs;
+        outputs.is_empty() || outputs.iter().any(|f| f.arguments().contains(&argument))
+    }
+
+    /// Whether the scene asks by name for a function with such a scale.
+    fn is_scaled(&self, by: ErrorScale) -> bool {
+        let scaled = |f: &Function| f.quantities().iter().any(|q| q.scale() == by);
+        self.scene.outputs.iter().any(scaled)
     }
 
     /// What a bound needs and nobody says, and what T is made of: limits above
@@ -48,21 +63,11 @@ impl Check<'_> {
         // With the box as its limits.
         let robot = scene.apply(self.robot);
         let rows = scene.rows(robot.joints.len());
-        let torques = [
-            Output::InverseDynamics,
-            Output::Coriolis,
-            Output::ManipulatorEquation,
-        ];
-        let velocity = !scene.velocity_zero && self.reads(&torques, true);
-        let acceleration = !scene.acceleration_zero && self.reads(&torques[..1], true);
+        let velocity = !scene.velocity_zero && self.reads(Argument::Velocity);
+        let acceleration = !scene.acceleration_zero && self.reads(Argument::Acceleration);
         // Functions that only the request names are generation's to judge.
-        let matrices = [
-            Output::DynamicCoefficients,
-            Output::Inertia,
-            Output::ManipulatorEquation,
-        ];
-        let inertia = self.reads(&matrices, false);
-        let coefficients = self.reads(&matrices[..1], false);
+        let inertia = self.is_scaled(ErrorScale::Inertia);
+        let coefficients = self.is_scaled(ErrorScale::Coefficient);
         for (index, joint) in robot.joints.iter().enumerate() {
             let limits = &joint.limits;
             if scene.locked(index).is_none() {

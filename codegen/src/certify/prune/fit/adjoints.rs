@@ -1,7 +1,7 @@
 //! What a change of each value does to the outputs.
 
 use crate::certify::prune::columns::{Nodes, Value};
-use crate::schedule::Operation;
+use crate::program::Operation;
 
 /// ∂output/∂node at every sample: output after output, node after node.
 pub(super) fn adjoints(nodes: &Nodes, edits: &[Option<Value>], columns: &[f64]) -> Vec<f64> {

@@ -15,7 +15,7 @@ mod products;
 
 use super::columns::{Nodes, Value};
 use super::motions::Motions;
-use crate::schedule::Operation;
+use crate::program::Operation;
 use adjoints::adjoints;
 pub(super) use products::{LANES, dot};
 use products::{gram, subtract, transposed};
@@ -222,7 +222,7 @@ fn add(a: &mut [f64], by: f64, b: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simplify::random::Random;
+    use crate::random::Random;
 
     /// A constant that is gone is as one that never was.
     #[test]

@@ -3,7 +3,7 @@
 use crate::certify::prune::columns::{Nodes, Value};
 use crate::certify::prune::fit::dot;
 use crate::certify::prune::motions::Motions;
-use crate::schedule::Operation;
+use crate::program::Operation;
 
 /// Zero, the middle of its values, and for a sum one of its operands.
 pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Value> {

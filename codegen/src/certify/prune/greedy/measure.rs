@@ -4,6 +4,11 @@
 use super::{Greedy, State, TINY};
 use crate::certify::prune::columns::Nodes;
 use crate::certify::prune::fit::{Fit, Trial};
+use crate::certify::work;
+
+/// Errors of a variant at states that take about a unit of work, with the run
+/// that they are from.
+const MEASURED: usize = 8;
 
 /// How large errors are.
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +97,7 @@ impl Greedy<'_> {
 
     /// How large errors are, against allowances.
     pub(super) fn potential(&self, errors: &[f64]) -> Potential {
+        work::count(1 + errors.len() / MEASURED);
         let m = errors.len() / self.allowances.len();
         let (mut sum, mut worst) = (0.0, 0.0f64);
         let outputs = self.allowances.iter().zip(&self.prices);

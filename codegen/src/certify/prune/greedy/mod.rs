@@ -13,8 +13,8 @@ use super::Settings;
 use super::columns::{Nodes, Value};
 use super::motions::Motions;
 use super::price::{Scratch, price};
-use crate::certify::edits::Edit;
-use crate::simplify::random::Random;
+use crate::approximate::edits::Edit;
+use crate::random::Random;
 
 /// A program with its edits and its constants as they are now.
 #[derive(Clone)]

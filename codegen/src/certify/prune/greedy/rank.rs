@@ -5,7 +5,7 @@ use super::measure::Attempt;
 use super::{Greedy, Ranked, State};
 use crate::certify::prune::columns::Value;
 use crate::certify::prune::fit::{Fit, LANES};
-use crate::simplify::random::Random;
+use crate::random::Random;
 
 /// Errors in units of the allowance at which a candidate is not looked at any
 /// more: the other edits' are at most one, and cannot make up for it.

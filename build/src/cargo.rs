@@ -1,0 +1,50 @@
+//! What a build script tells cargo: what to watch, and what is odd.
+
+use std::env;
+use std::fs;
+use std::path::Path;
+
+use dalembert_codegen::plan;
+
+/// Makes cargo run the script again when the robot file changes, or its plan.
+///
+/// A plan that is not there yet cannot be named: cargo would run the script at
+/// every build and compile the crate anew. Then it watches the robot's folder,
+/// unless the build itself writes somewhere in it.
+pub(crate) fn watch(robot: &Path, output: &Path) {
+    tell(&format!("rerun-if-changed={}", robot.display()));
+    let plan = plan::file::path(robot);
+    if plan.is_file() {
+        tell(&format!("rerun-if-changed={}", plan.display()));
+    } else if let Some(folder) = quiet_folder(robot, output) {
+        tell(&format!("rerun-if-changed={}", folder.display()));
+    }
+}
+
+/// The robot's folder, if no build writes into it or below.
+fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
+    let folder = robot.parent().filter(|folder| folder.is_dir())?;
+    let whole = fs::canonicalize(folder).ok()?;
+    let written = [
+        env::var_os("CARGO_MANIFEST_DIR").map(Into::into),
+        env::var_os("OUT_DIR").map(Into::into),
+        // The file itself may not be there yet.
+        output.parent().map(Path::to_owned),
+    ];
+    let inside = |path: &Path| fs::canonicalize(path).is_ok_and(|path| path.starts_with(&whole));
+    let busy = written.iter().flatten().any(|path| inside(path));
+    (!busy).then_some(folder)
+}
+
+/// A warning of cargo's, on one line as it wants it.
+pub(crate) fn warn(place: &str, message: &str, help: Option<&str>) {
+    let help = help.map(|help| format!(" ({help})")).unwrap_or_default();
+    tell(&format!("warning={place}: {message}{help}"));
+}
+
+/// Tells cargo; outside a build script nobody would listen.
+fn tell(line: &str) {
+    if env::var_os("OUT_DIR").is_some() {
+        println!("cargo::{line}");
+    }
+}

@@ -1,0 +1,277 @@
+//! Verified robot dynamics in a build script: a robot file in, a Rust file out.
+//!
+//! In `Cargo.toml`, with `libm` for the generated code:
+//!
+//! ```toml
+//! [dependencies]
+//! libm = "0.2"
+//!
+//! [build-dependencies]
+//! dalembert-build = "0.1"
+//!
+//! # The generator is a compiler: optimised, it takes a tenth of the time.
+//! [profile.dev.build-override]
+//! opt-level = 3
+//! ```
+//!
+//! In `build.rs`:
+//!
+//! ```no_run
+//! use dalembert_build::{BuildError, Generator, Output, Scalar};
+//!
+//! fn main() -> Result<(), BuildError> {
+//!     Generator::new()
+//!         .robot("robots/puma560.toml")
+//!         .outputs([Output::InverseDynamics, Output::Gravity])
+//!         .scalars([Scalar::F64])
+//!         .write_to_out_dir("puma560.rs")
+//! }
+//! ```
+//!
+//! And in the crate:
+//!
+//! ```text
+//! include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
+//!
+//! let tau = puma560::inverse_dynamics(&q, &qd, &qdd);
+//! ```
+//!
+//! # A file that is checked in
+//!
+//! [`Generator::write_to`] writes the file into the sources, where it can be read
+//! in review. The file as it comes holds a module called after the robot. Taken
+//! by `mod puma560;` that would be `puma560::puma560`; so for a file that is to
+//! be a module itself, ask for what is inside:
+//!
+//! ```no_run
+//! # use dalembert_build::{BuildError, Generator, Layout, Output, Scalar};
+//! # fn main() -> Result<(), BuildError> {
+//! Generator::new()
+//!     .robot("robots/puma560.toml")
+//!     .outputs([Output::Gravity])
+//!     .scalars([Scalar::F64])
+//!     .layout(Layout::Contents)
+//!     .write_to("src/puma560.rs")
+//! # }
+//! ```
+//!
+//! `cargo fmt` leaves both kinds as they are.
+//!
+//! # Scenes
+//!
+//! A scene of the robot file brings its locked joints, payload, box, tolerance,
+//! outputs and scalar; sines may be polynomials:
+//!
+//! ```no_run
+//! # use dalembert_build::{BuildError, Generator, SinCos};
+//! # fn main() -> Result<(), BuildError> {
+//! Generator::new()
+//!     .robot("robots/puma560.toml")
+//!     .scene("pick")
+//!     .sincos(SinCos::Polynomial { error: None })
+//!     .write_to_out_dir("puma560_pick.rs")
+//! # }
+//! ```
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod cargo;
+mod error;
+mod output;
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+use dalembert_codegen::backend::MathPath;
+use dalembert_codegen::generate::in_scene::find;
+use dalembert_codegen::generate::{Request, generate};
+use dalembert_model::robot::Severity;
+
+#[doc(inline)]
+pub use dalembert_codegen::clauses::RobotFileError;
+#[doc(inline)]
+pub use dalembert_codegen::emit::Layout;
+#[doc(inline)]
+pub use dalembert_codegen::function::Function as Output;
+#[doc(inline)]
+pub use dalembert_codegen::generate::in_scene::UnknownScene;
+#[doc(inline)]
+pub use dalembert_codegen::generate::{GenerateError, Prefer};
+#[doc(inline)]
+pub use dalembert_codegen::portfolio::Start as Formulation;
+#[doc(inline)]
+pub use dalembert_codegen::program::ScalarType as Scalar;
+#[doc(inline)]
+pub use dalembert_codegen::simplify::Effort;
+#[doc(inline)]
+pub use dalembert_codegen::sincos::SinCos;
+pub use error::BuildError;
+
+/// What to generate, and from which robot file.
+///
+/// Nothing chosen, it is every function in both scalars. Each function costs
+/// compile time, so most crates choose.
+#[derive(Clone, Debug, Default)]
+pub struct Generator {
+    robot: Option<PathBuf>,
+    outputs: Option<Vec<Output>>,
+    scalars: Option<Vec<Scalar>>,
+    scene: Option<String>,
+    /// Everything else.
+    request: Request,
+}
+
+impl Generator {
+    /// A generator with nothing chosen but the defaults.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The robot file, relative to the package. There is no default.
+    #[must_use]
+    pub fn robot(mut self, path: impl Into<PathBuf>) -> Self {
+        self.robot = Some(path.into());
+        self
+    }
+
+    /// Only these functions: the others need not be searched, proved and
+    /// compiled.
+    #[must_use]
+    pub fn outputs(mut self, outputs: impl IntoIterator<Item = Output>) -> Self {
+        self.outputs = Some(outputs.into_iter().collect());
+        self
+    }
+
+    /// Only these scalars: `f32` where the hardware has no doubles, `f64`
+    /// where accuracy matters. Of two, the f32 module is called `NAME_f32`.
+    #[must_use]
+    pub fn scalars(mut self, scalars: impl IntoIterator<Item = Scalar>) -> Self {
+        self.scalars = Some(scalars.into_iter().collect());
+        self
+    }
+
+    /// One formulation only, to compare formulations; [`Formulation::Auto`], the
+    /// default, is never dearer.
+    #[must_use]
+    pub fn formulation(mut self, formulation: Formulation) -> Self {
+        self.request.start = formulation;
+        self
+    }
+
+    /// How long to search. [`Effort::Thorough`] saves a few operations more,
+    /// but at every build: better search once with the command
+    /// `dalembert generate --effort thorough --save-plan`, whose plan every
+    /// build replays in a fraction of a second.
+    #[must_use]
+    pub fn effort(mut self, effort: Effort) -> Self {
+        self.request.effort = effort;
+        self
+    }
+
+    /// What to do about a program that is cheaper and rounds worse:
+    /// [`Prefer::Operations`] takes the cheapest whatever its rounding error;
+    /// [`Prefer::Accuracy`], the default, the cheapest of those whose error is
+    /// at most four times the textbook form's. Programs of a plan stay.
+    #[must_use]
+    pub fn prefer(mut self, prefer: Prefer) -> Self {
+        self.request.prefer = prefer;
+        self
+    }
+
+    /// Only what a scene of the robot file needs: locked joints, rates that
+    /// are zero and joints that nobody asks for are gone from the code. Its
+    /// outputs and scalar count where none were chosen here, and the module is
+    /// called `ROBOT_SCENE`. If it has a tolerance, the cheapest code found
+    /// that is certified to stay within it: in each scalar that was chosen, or
+    /// else in the cheapest that it admits.
+    #[must_use]
+    pub fn scene(mut self, name: impl Into<String>) -> Self {
+        self.scene = Some(name.into());
+        self
+    }
+
+    /// The name of the module, if the robot's is taken or says too little.
+    #[must_use]
+    pub fn module(mut self, name: impl Into<String>) -> Self {
+        self.request.module = Some(name.into());
+        self
+    }
+
+    /// Whether the file has modules, for `include!`, or is the contents of one,
+    /// for a file that is taken by `mod NAME;`. The latter has one scalar.
+    #[must_use]
+    pub fn layout(mut self, layout: Layout) -> Self {
+        self.request.layout = layout;
+        self
+    }
+
+    /// Where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32):
+    /// a path, `libm` by default. A target with its own sines has a module of
+    /// them.
+    #[must_use]
+    pub fn math(mut self, path: impl Into<String>) -> Self {
+        self.request.math = MathPath(path.into());
+        self
+    }
+
+    /// Where sines come from. Polynomials over the joints' limits, or the
+    /// scene's box, are faster and need no libm; their largest error is
+    /// [`SinCos::ERROR`] unless one is given. A scene's tolerance decides on it
+    /// by itself: there, giving one is an error.
+    #[must_use]
+    pub fn sincos(mut self, sincos: SinCos) -> Self {
+        self.request.sincos = sincos;
+        self
+    }
+
+    /// Writes the file into `OUT_DIR`, for `include!`.
+    ///
+    /// # Errors
+    /// [`BuildError`]; a file that was there stays as it was.
+    pub fn write_to_out_dir(&self, file_name: impl AsRef<Path>) -> Result<(), BuildError> {
+        let folder = env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
+        self.write_to(Path::new(&folder).join(file_name))
+    }
+
+    /// Writes the file to a path, so that it can be checked in and read in
+    /// review, and builds need no generator.
+    ///
+    /// Nothing is generated if the file is there already, unchanged, from the
+    /// same robot file, the same choices and the same version of this crate.
+    ///
+    /// # Errors
+    /// [`BuildError`]; a file that was there stays as it was.
+    pub fn write_to(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
+        let path = path.as_ref();
+        let robot = self.robot.as_deref().ok_or(BuildError::NoRobot)?;
+        cargo::watch(robot, path);
+        let file = dalembert_codegen::clauses::RobotFile::read(robot).map_err(BuildError::Robot)?;
+        let scene = match &self.scene {
+            Some(name) => find(&file.scenes, name)
+                .map(Some)
+                .map_err(|error| BuildError::Scene(robot.to_owned(), error))?,
+            None => None,
+        };
+        let mut request = self.request.clone();
+        request.plan = file.plan.clone();
+        request.work = Request::work_while_compiling(request.effort);
+        let request = request.choose(self.outputs.clone(), self.scalars.clone(), scene);
+        let key = output::key(&file.source, &request);
+        if output::is_current(path, &key) {
+            return Ok(());
+        }
+        for note in &file.notes {
+            if note.severity == Severity::Warning {
+                let place = format!("{}:{}", robot.display(), note.line);
+                cargo::warn(&place, &note.message, note.help.as_deref());
+            }
+        }
+        let generated = generate(&file.robot, &request)
+            .map_err(|error| BuildError::Generate(robot.to_owned(), error))?;
+        for warning in &generated.warnings {
+            cargo::warn(&robot.display().to_string(), warning, None);
+        }
+        output::write(path, &key, &generated.text)
+            .map_err(|error| BuildError::Write(path.to_owned(), error))
+    }
+}

@@ -1,0 +1,187 @@
+//! The build script's builder: what it writes, when it writes, what it says.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use dalembert_build::{BuildError, Generator, Layout, Output, Scalar};
+use dalembert_codegen::clauses::RobotFile;
+use dalembert_codegen::generate::{Request, generate};
+
+/// An empty folder of one test, with the robot file of the planar arm.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("builder")
+        .join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots/planar2r.toml");
+    fs::copy(robot, folder.join("arm.toml")).unwrap();
+    folder
+}
+
+fn generator(folder: &Path) -> Generator {
+    Generator::new()
+        .robot(folder.join("arm.toml"))
+        .outputs([Output::Gravity])
+        .scalars([Scalar::F32])
+}
+
+/// Whether a file is written again is seen from its time, so that goes back
+/// to the past.
+fn age(path: &Path) -> SystemTime {
+    let file = fs::File::options().append(true).open(path).unwrap();
+    let past = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
+    file.set_modified(past).unwrap();
+    past
+}
+
+fn modified(path: &Path) -> SystemTime {
+    fs::metadata(path).unwrap().modified().unwrap()
+}
+
+#[test]
+fn writes_what_the_one_function_generates() {
+    let folder = folder("text");
+    let path = folder.join("deep/er/arm.rs");
+    generator(&folder).write_to(&path).unwrap();
+    let robot = RobotFile::read(&folder.join("arm.toml")).unwrap().robot;
+    let request = Request {
+        functions: vec![Output::Gravity],
+        scalars: vec![Scalar::F32],
+        ..Request::default()
+    };
+    let text = fs::read_to_string(&path).unwrap();
+    let (header, text) = text.split_once('\n').unwrap();
+    assert!(header.starts_with("// input "), "{header}");
+    assert_eq!(text, generate(&robot, &request).unwrap().text);
+    // Nothing half-written is left behind.
+    assert_eq!(fs::read_dir(folder.join("deep/er")).unwrap().count(), 1);
+}
+
+#[test]
+fn writes_again_only_if_something_changed() {
+    let folder = folder("again");
+    let path = folder.join("arm.rs");
+    generator(&folder).write_to(&path).unwrap();
+    let first = fs::read_to_string(&path).unwrap();
+    let past = age(&path);
+    generator(&folder).write_to(&path).unwrap();
+    assert_eq!(modified(&path), past);
+
+    // Another choice.
+    generator(&folder).module("other").write_to(&path).unwrap();
+    assert!(fs::read_to_string(&path).unwrap().contains("pub mod other"));
+
+    // An edit by hand does not stay.
+    fs::write(&path, first.replace("pub const N", "const N")).unwrap();
+    generator(&folder).write_to(&path).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), first);
+
+    // Another robot.
+    age(&path);
+    let robot = fs::read_to_string(folder.join("arm.toml")).unwrap();
+    fs::write(folder.join("arm.toml"), robot.replace("9.81", "1.62")).unwrap();
+    generator(&folder).write_to(&path).unwrap();
+    assert_ne!(modified(&path), past);
+    assert!(fs::read_to_string(&path).unwrap().contains("1.62"));
+}
+
+#[test]
+fn says_what_is_wrong_and_leaves_the_file_alone() {
+    let folder = folder("wrong");
+    let path = folder.join("arm.rs");
+    fs::write(&path, "as it was").unwrap();
+    let robot = folder.join("arm.toml");
+    let text = fs::read_to_string(&robot).unwrap();
+    fs::write(&robot, text.replace("mass = 1\n", "mas = 1\n")).unwrap();
+
+    let error = generator(&folder).write_to(&path).unwrap_err().to_string();
+    let line = 1 + text.lines().position(|line| line == "mass = 1").unwrap();
+    let place = format!(" --> {}:{line}:1\n", robot.display());
+    assert!(error.contains("error: unknown key `mas`\n"), "{error}");
+    assert!(error.contains(&place), "{error}");
+    assert!(error.contains("did you mean `mass`?"), "{error}");
+    // Both joints lack it, and both are told.
+    assert_eq!(error.matches("error: ").count(), 4, "{error}");
+
+    let missing = Generator::new().robot(folder.join("arn.toml"));
+    let error = missing.write_to(&path).unwrap_err().to_string();
+    assert!(error.starts_with("error: there is no file `"), "{error}");
+    assert!(error.ends_with("arm.toml`?"), "{error}");
+
+    let error = Generator::new().write_to(&path).unwrap_err();
+    // `main` prints errors with Debug.
+    assert!(format!("{error:?}").contains("no robot file"), "{error:?}");
+
+    fs::write(&robot, &text).unwrap();
+    let error = generator(&folder).outputs([]).write_to(&path).unwrap_err();
+    assert!(error.to_string().contains("nothing to generate"), "{error}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "as it was");
+
+    // A folder is in the way.
+    let error = generator(&folder)
+        .write_to(&folder)
+        .unwrap_err()
+        .to_string();
+    assert!(error.starts_with("error: cannot write "), "{error}");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+}
+
+const SCENE: &str = r#"
+[scene.swing]
+outputs = ["inverse_dynamics"]
+lock = { 2 = "pi/2" }
+velocity = "zero"
+scalar = "f64"
+"#;
+
+#[test]
+fn the_builder_takes_a_scene() {
+    let folder = folder("scene");
+    let robot = folder.join("arm.toml");
+    let source = fs::read_to_string(&robot).unwrap();
+    fs::write(&robot, format!("{source}{SCENE}")).unwrap();
+    let output = folder.join("arm.rs");
+    let build = |scene: &str| {
+        Generator::new()
+            .robot(&robot)
+            .scene(scene)
+            .write_to(&output)
+    };
+    build("swing").unwrap();
+    let text = fs::read_to_string(&output).unwrap();
+    assert!(text.contains("pub mod planar2r_swing {"), "{text}");
+    assert!(
+        !text.contains("f32") && !text.contains("fn gravity"),
+        "{text}"
+    );
+    let error = build("swingg").unwrap_err().to_string();
+    assert!(error.contains("did you mean `swing`?"), "{error}");
+}
+
+/// The contents of a module: what stands in `src/arm.rs` for `mod arm;`.
+#[test]
+fn the_contents_have_no_module_and_one_scalar() {
+    let folder = folder("contents");
+    let path = folder.join("arm.rs");
+    let contents = generator(&folder).layout(Layout::Contents);
+    contents.write_to(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(!text.contains("mod "), "{text}");
+    for piece in [
+        "\n//! Dynamics of the robot `planar2r`",
+        "\n#![cfg_attr(rustfmt, rustfmt_skip)]\n",
+        "\npub const N: usize = 2;\n",
+        "\npub fn gravity(q: &[f32; 2]) -> [f32; 2] {\n",
+    ] {
+        assert!(text.contains(piece), "{piece}: {text}");
+    }
+    let error = contents
+        .scalars([Scalar::F64, Scalar::F32])
+        .write_to(&path)
+        .unwrap_err();
+    assert!(matches!(error, BuildError::Generate(..)));
+    assert!(error.to_string().contains("one scalar"), "{error}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), text);
+}

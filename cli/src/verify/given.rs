@@ -1,0 +1,212 @@
+//! Given states: what can be compared, what was, and why it disagrees.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use dalembert_codegen::function::Quantity;
+use dalembert_codegen::generate::{Generated, Request};
+use dalembert_codegen::program::ScalarType;
+use dalembert_model::robot::Robot;
+use dalembert_report::states::compare::{Compared, compare, quantities};
+use dalembert_report::states::diagnose::{Diagnosis, diagnose};
+use dalembert_report::states::{BOUND, GivenState};
+use serde_json::{Value, json};
+
+use crate::input;
+use crate::outcome::Failure;
+
+/// The states of a file, before and after they were compared.
+pub struct Given<'a> {
+    file: &'a Path,
+    states: Vec<GivenState>,
+    pub compared: Vec<Compared>,
+    /// Where something disagrees.
+    diagnosis: Option<Diagnosis>,
+}
+
+impl<'a> Given<'a> {
+    /// Reads them.
+    ///
+    /// # Errors
+    /// They cannot be read, or nothing in them can be compared with what the
+    /// request generates.
+    pub fn read(file: &'a Path, robot: &Robot, request: &Request) -> Result<Given<'a>, Failure> {
+        let given = Given {
+            file,
+            states: input::states(file, robot.joints.len())?,
+            compared: Vec::new(),
+            diagnosis: None,
+        };
+        let fail = |why: String| {
+            let file = file.display();
+            Err(Failure::Input(format!(
+                "error: {file}: nothing is compared: {why}"
+            )))
+        };
+        let keys = given.keys();
+        if keys.is_empty() {
+            return fail("no state has any of `tau`, `D`, `h`, `c`".into());
+        }
+        let mut returned = request.functions.iter().copied().flat_map(quantities);
+        if !returned.any(|quantity| keys.contains_key(&quantity)) {
+            let keys: Vec<String> = keys.keys().map(|key| format!("`{}`", word(*key))).collect();
+            return fail(format!(
+                "the states have {}, which no function of --outputs returns",
+                keys.join(", ")
+            ));
+        }
+        if !request.scalars.contains(&ScalarType::F64) {
+            return fail(
+                "states are doubles, and only f32 code is generated\n  = help: --scalar f64".into(),
+            );
+        }
+        Ok(given)
+    }
+
+    /// Runs the code at them; only double precision, since a state rounded to
+    /// f32 is another state.
+    pub fn compare(&mut self, robot: &Robot, generated: &Generated) {
+        let double = generated.emitted.iter();
+        let double = double.filter(|emitted| emitted.scalar == ScalarType::F64);
+        self.compared = double
+            .flat_map(|emitted| compare(emitted, &self.states))
+            .collect();
+        if !self.compared.iter().all(Compared::agrees) {
+            self.diagnosis = Some(diagnose(robot, &self.states));
+        }
+    }
+
+    /// What the states give, and how many of them give it.
+    fn keys(&self) -> BTreeMap<Quantity, usize> {
+        let mut keys = BTreeMap::new();
+        for quantity in self.states.iter().flat_map(|state| state.known.keys()) {
+            *keys.entry(*quantity).or_default() += 1;
+        }
+        keys
+    }
+
+    /// What was compared, in one line or two.
+    pub fn summary(&self) -> String {
+        let named = |compared: bool| {
+            let keys = self.keys().into_iter().filter(|(quantity, _)| {
+                let mut all = self.compared.iter();
+                all.any(|one| one.quantity == *quantity) == compared
+            });
+            let words = keys.map(|(quantity, states)| format!("{} at {states}", word(quantity)));
+            words.collect::<Vec<_>>().join(", ")
+        };
+        let mut text = format!(
+            "\n{} states in {}; compared: {}\n",
+            self.states.len(),
+            self.file.display(),
+            named(true)
+        );
+        let missed = named(false);
+        if !missed.is_empty() {
+            text += &format!("not compared, since no function of --outputs returns it: {missed}\n");
+        }
+        text
+    }
+
+    /// The rows of the table of errors.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<String>> {
+        self.compared.iter().map(|one| {
+            let u = ScalarType::F64.unit_roundoff();
+            vec![
+                one.function.to_string(),
+                ScalarType::F64.to_string(),
+                one.quantity.symbol().to_owned(),
+                format!("{} states", one.states),
+                format!("{:.1}", one.worst.error / u),
+                format!("{:.1e}", one.worst.error),
+                format!("{BOUND:.1e}"),
+                if one.agrees() { "ok" } else { "DISAGREES" }.to_owned(),
+            ]
+        })
+    }
+
+    /// For programs.
+    pub fn errors(&self) -> impl Iterator<Item = Value> {
+        self.compared.iter().map(|one| {
+            json!({
+                "function": one.function.name(),
+                "scalar": ScalarType::F64.name(),
+                "quantity": one.quantity.symbol(),
+                "against": "states",
+                "states": one.states,
+                "error": one.worst.error,
+                "error_in_u": one.worst.error / ScalarType::F64.unit_roundoff(),
+                "bound": BOUND,
+                "passed": one.agrees(),
+            })
+        })
+    }
+
+    /// For programs: what was compared, and what explains a disagreement.
+    pub fn json(&self, robot: &Robot) -> Value {
+        let keys = self.keys().into_iter();
+        let compared = self.compared.iter().map(|one| one.quantity);
+        let compared: Vec<Quantity> = compared.collect();
+        let (used, unused): (Vec<_>, Vec<_>) = keys.partition(|(key, _)| compared.contains(key));
+        let object = |keys: Vec<(Quantity, usize)>| {
+            let keys = keys
+                .into_iter()
+                .map(|(key, states)| (word(key).to_owned(), states.into()));
+            Value::Object(keys.collect())
+        };
+        let disagreements = self.compared.iter().filter(|one| !one.agrees());
+        let disagreements = disagreements.map(|one| {
+            json!({
+                "function": one.function.name(),
+                "quantity": one.quantity.symbol(),
+                "states": one.disagreeing,
+                "state": one.worst.state + 1,
+                "entry": one.worst.entry + 1,
+                "given": one.worst.given,
+                "found": one.worst.found,
+                "text": one.describe(robot),
+            })
+        });
+        json!({
+            "file": self.file.display().to_string(),
+            "states": self.states.len(),
+            "compared": object(used),
+            "not_compared": object(unused),
+            "disagreements": disagreements.collect::<Vec<_>>(),
+            "explained_by": self.diagnosis.as_ref().map(|found| &found.explained_by),
+            "help": self.diagnosis.as_ref().map(Diagnosis::help),
+        })
+    }
+
+    pub fn agrees(&self) -> bool {
+        self.diagnosis.is_none()
+    }
+
+    /// What disagrees, and why.
+    pub fn disagreement(&self, robot: &Robot) -> Option<String> {
+        let diagnosis = self.diagnosis.as_ref()?;
+        let mut text = format!(
+            "error: {}: the robot disagrees with the states",
+            self.file.display()
+        );
+        // Several functions return the same quantity: it is named once.
+        let mut named = Vec::new();
+        for one in self.compared.iter().filter(|one| !one.agrees()) {
+            if !named.contains(&one.quantity) {
+                named.push(one.quantity);
+                text += &format!(
+                    "\n  {}; {} of {} states disagree",
+                    one.describe(robot),
+                    one.disagreeing,
+                    one.states
+                );
+            }
+        }
+        Some(text + "\n  = help: " + &diagnosis.help())
+    }
+}
+
+/// The key of a quantity in a file.
+fn word(quantity: Quantity) -> &'static str {
+    quantity.given().unwrap_or_else(|| quantity.symbol())
+}

@@ -1,0 +1,119 @@
+//! Very long functions, cut into functions of their own.
+//!
+//! rustc's and LLVM's time for one function grows faster than its length; for
+//! many short ones it grows with their number. Each part stands where its
+//! statements would, and receives and returns every value under its own name,
+//! so that the text still reads as one program from top to bottom:
+//!
+//! ```text
+//! let [t9, t12] = {
+//!     #[inline(never)]
+//!     fn part(qd: &[f64; 6], [s1, c1, t3]: [f64; 3]) -> [f64; 2] {
+//!         let t4 = s1 * qd[0];
+//!         …
+//!         [t9, t12]
+//!     }
+//!     part(qd, [s1, c1, t3])
+//! };
+//! ```
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use crate::backend::statement::{last_uses, statement};
+use crate::program::text::input_name;
+use crate::program::{Input, Operand, Program, ScalarType};
+
+/// A function of more operations than this is printed in parts.
+pub const LONG: usize = 5000;
+
+/// Operations a part.
+pub const PART: usize = 1000;
+
+/// Prints the arithmetic in parts.
+pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
+    let last_use = last_uses(program);
+    for (part, steps) in program.steps.chunks(PART).enumerate() {
+        let start = part * PART;
+        let end = start + steps.len();
+        let live = (start..end).filter(|&step| last_use[step] >= end);
+        let live: Vec<String> = live.map(|step| format!("t{}", step + 1)).collect();
+        let operands = steps.iter().flat_map(|step| [&step.left, &step.right]);
+        let reads = Reads::of(operands, start);
+        let (results, count) = (live.join(", "), live.len());
+        let mut line = |indent: usize, line: &str| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{:indent$}{line}", "");
+        };
+        line(4, &format!("let [{results}] = {{"));
+        line(8, "#[inline(never)]");
+        let parameters = reads.parameters(program.joints, scalar);
+        line(
+            8,
+            &format!("fn part({parameters}) -> [{scalar}; {count}] {{"),
+        );
+        for (index, step) in (start..).zip(steps) {
+            line(12, &statement(index, step, scalar));
+        }
+        line(12, &format!("[{results}]"));
+        line(8, "}");
+        line(8, &format!("part({})", reads.arguments()));
+        line(4, "};");
+    }
+}
+
+/// What a part reads from outside.
+#[derive(Default)]
+struct Reads {
+    /// Of q, qd, qdd.
+    arrays: [bool; 3],
+    /// Sines, cosines and earlier steps.
+    values: Vec<String>,
+}
+
+impl Reads {
+    fn of<'a>(operands: impl Iterator<Item = &'a Operand>, start: usize) -> Reads {
+        let (mut arrays, mut trig, mut steps) = ([false; 3], BTreeSet::new(), BTreeSet::new());
+        for operand in operands {
+            match operand {
+                Operand::Input(Input::Position(_)) => arrays[0] = true,
+                Operand::Input(Input::Velocity(_)) => arrays[1] = true,
+                Operand::Input(Input::Acceleration(_)) => arrays[2] = true,
+                Operand::Input(input) => {
+                    trig.insert(*input);
+                }
+                Operand::Step(step) if *step < start => {
+                    steps.insert(*step);
+                }
+                Operand::Step(_) | Operand::Constant(_) => {}
+            }
+        }
+        let trig = trig.into_iter().map(input_name);
+        let steps = steps.into_iter().map(|step| format!("t{}", step + 1));
+        Reads {
+            arrays,
+            values: trig.chain(steps).collect(),
+        }
+    }
+
+    fn arrays(&self) -> impl Iterator<Item = &'static str> + '_ {
+        let names = ["q", "qd", "qdd"].into_iter().zip(self.arrays);
+        names.filter_map(|(name, read)| read.then_some(name))
+    }
+
+    fn parameters(&self, n: usize, scalar: ScalarType) -> String {
+        let mut parameters: Vec<String> = self
+            .arrays()
+            .map(|name| format!("{name}: &[{scalar}; {n}]"))
+            .collect();
+        let (names, count) = (self.values.join(", "), self.values.len());
+        parameters.push(format!("[{names}]: [{scalar}; {count}]"));
+        parameters.join(", ")
+    }
+
+    fn arguments(&self) -> String {
+        let mut arguments: Vec<String> = self.arrays().map(String::from).collect();
+        arguments.push(format!("[{}]", self.values.join(", ")));
+        arguments.join(", ")
+    }
+}

@@ -1,0 +1,102 @@
+//! Reads emitted functions back and compares them with their program.
+//!
+//! - this file: what a text says, and whether it is the program
+//! - `reader`: the statements, line by line
+//! - `sines`: sines and cosines as polynomials
+//! - `part`: what wraps the statements of long functions
+//! - `result`: the arrays and the struct at the end
+
+mod part;
+mod reader;
+mod result;
+mod sines;
+
+use std::fmt;
+
+use crate::function::Function;
+use crate::program::{Lowered, Program, ScalarType};
+use crate::sincos::AngleKernel;
+use reader::Reader;
+
+/// Why a text is not the program that it should be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextError {
+    /// One-based line of the text.
+    pub line: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl fmt::Display for TextError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "emitted line {}: {}", self.line, self.message)
+    }
+}
+
+impl std::error::Error for TextError {}
+
+impl Lowered {
+    /// Reads the function of this name out of a module's text.
+    pub fn parse(
+        module: &str,
+        function: Function,
+        scalar: ScalarType,
+    ) -> Result<Lowered, TextError> {
+        let head = format!("pub fn {}(", function.name());
+        let lines: Vec<&str> = module.lines().map(str::trim).collect();
+        let Some(first) = lines.iter().position(|line| line.starts_with(&head)) else {
+            let message = format!("there is no function `{function}`");
+            return Err(TextError { line: 1, message });
+        };
+        let read = Lowered::read(&lines[first + 1..], function, scalar);
+        read.map_err(|error| TextError {
+            line: error.line + first + 1,
+            ..error
+        })
+    }
+
+    /// Reads the lines after the signature.
+    fn read(lines: &[&str], function: Function, scalar: ScalarType) -> Result<Lowered, TextError> {
+        let mut reader = Reader::new(scalar);
+        let mut tail = String::new();
+        for (number, &line) in (1..).zip(lines) {
+            let at = |message| TextError {
+                line: number,
+                message,
+            };
+            if tail.is_empty() && reader.block(line).map_err(at)? {
+                continue;
+            }
+            match line.strip_prefix("let ") {
+                Some(statement) if tail.is_empty() => {
+                    reader.statement(statement).map_err(at)?;
+                }
+                Some(_) => return Err(at("a statement after the result".into())),
+                None if line == "}" && result::is_complete(&tail) => {
+                    let items = result::items(&tail, function).map_err(at)?;
+                    return reader.finish(&items).map_err(at);
+                }
+                None => {
+                    tail.push_str(line);
+                    tail.push(' ');
+                }
+            }
+        }
+        let message = format!("`{function}` does not end");
+        Err(TextError { line: 0, message })
+    }
+
+    /// Compares with the program and its sines, in the text's scalar: every
+    /// operation, every literal with its exact value rounded once, polynomials
+    /// literal by literal; angles that are not among `sines` are libm's.
+    pub fn matches(&self, program: &Program, sines: &[AngleKernel]) -> Result<(), String> {
+        let kernel = |angle| {
+            let found = sines.iter().find(|sine| sine.angle == angle);
+            found.map(|sine| &sine.kernel)
+        };
+        match self.difference(&program.lower(self.scalar, kernel)) {
+            None => Ok(()),
+            Some(difference) => Err(difference),
+        }
+    }
+}

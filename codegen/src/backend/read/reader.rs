@@ -1,0 +1,200 @@
+//! The statements of an emitted function, line by line.
+
+use crate::backend::read::part::Wrap;
+use crate::backend::read::sines::Block;
+use crate::program::text::input_name;
+use crate::program::{
+    AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, Operation, Output, ScalarType, Step,
+};
+
+/// Reads one function.
+pub(super) struct Reader {
+    scalar: ScalarType,
+    program: Lowered,
+    /// The sum of angles that the line before formed.
+    sum: Option<AngleSum>,
+    /// The block or part that is open.
+    wrap: Wrap,
+    /// The polynomials of an angle that are open.
+    sines: Option<Block>,
+}
+
+impl Reader {
+    pub(super) fn new(scalar: ScalarType) -> Reader {
+        Reader {
+            scalar,
+            program: Lowered {
+                scalar,
+                trig: Vec::new(),
+                steps: Vec::new(),
+                outputs: Vec::new(),
+            },
+            sum: None,
+            wrap: Wrap::default(),
+            sines: None,
+        }
+    }
+
+    /// Whether the line wraps statements and is none.
+    pub(super) fn block(&mut self, line: &str) -> Result<bool, String> {
+        if let Some(block) = &mut self.sines {
+            if let Some(trig) = block.line(line, self.scalar)? {
+                self.program.trig.push(trig);
+                self.sines = None;
+            }
+            return Ok(true);
+        }
+        self.sines = Block::begin(line, &mut self.sum);
+        if self.sines.is_some() {
+            return Ok(true);
+        }
+        self.wrap.line(line)
+    }
+
+    /// A line without `let `.
+    pub(super) fn statement(&mut self, line: &str) -> Result<(), String> {
+        let line = line.strip_suffix(';').ok_or("no `;` at the end")?;
+        let (name, value) = line.split_once(" = ").ok_or("no ` = `")?;
+        if let Some(angle) = name.strip_prefix('a') {
+            return self.angle_sum(angle, value);
+        }
+        if value.contains('(') {
+            return self.trig(name, value);
+        }
+        let number = format!("t{}", self.program.steps.len() + 1);
+        if name != number {
+            return Err(format!("`{number}` is next, not `{name}`"));
+        }
+        let mut words = value.split(' ');
+        let (left, symbol, right) = match (words.next(), words.next(), words.next(), words.next()) {
+            (Some(left), Some(symbol), Some(right), None) => (left, symbol, right),
+            _ => return Err(format!("`{value}` is not one operation")),
+        };
+        let operation =
+            Operation::from_symbol(symbol).ok_or_else(|| format!("`{symbol}` is no operation"))?;
+        let (left, right) = (self.operand(left)?, self.operand(right)?);
+        self.program.steps.push(Step {
+            operation,
+            left,
+            right,
+        });
+        Ok(())
+    }
+
+    fn angle_sum(&mut self, name: &str, value: &str) -> Result<(), String> {
+        let mut words = value.split(' ');
+        let joint = |word: &str| index_of(word, "q").ok_or(format!("`{word}` is no position"));
+        let first = words.next().unwrap_or_default();
+        let mut sum = AngleSum::joint(joint(first)?);
+        while let Some(sign) = words.next() {
+            let negative = match sign {
+                "+" => false,
+                "-" => true,
+                other => return Err(format!("`{other}` is no sign")),
+            };
+            let term = joint(words.next().unwrap_or_default())?;
+            sum = sum.with(term, negative).ok_or("a joint twice in a sum")?;
+        }
+        if sum.to_string() != name {
+            return Err(format!("`a{name}` is the sum {sum}"));
+        }
+        self.sum = Some(sum);
+        Ok(())
+    }
+
+    fn trig(&mut self, name: &str, value: &str) -> Result<(), String> {
+        let (path, argument) = value.split_once('(').ok_or("no call")?;
+        let argument = argument.strip_suffix(')').ok_or("no `)`")?;
+        let angle = match index_of(argument, "q") {
+            Some(joint) => AngleSum::joint(joint),
+            None => self
+                .sum
+                .take()
+                .filter(|sum| argument == format!("a{sum}"))
+                .ok_or_else(|| format!("`{argument}` is no angle"))?,
+        };
+        let call = path.rsplit("::").next().unwrap_or_default();
+        let call = call
+            .strip_suffix(self.scalar.math_suffix())
+            .unwrap_or_default();
+        let (sin, cos, expected) = match call {
+            "sin" => (true, false, format!("s{angle}")),
+            "cos" => (false, true, format!("c{angle}")),
+            "sincos" => (true, true, format!("(s{angle}, c{angle})")),
+            _ => return Err(format!("`{path}` is no sine or cosine")),
+        };
+        if name != expected {
+            return Err(format!("`{expected}` expected, not `{name}`"));
+        }
+        self.program.trig.push(LoweredTrig {
+            angle,
+            sin,
+            cos,
+            kernel: None,
+        });
+        Ok(())
+    }
+
+    fn operand(&self, word: &str) -> Result<Operand<Literal>, String> {
+        for (array, input) in [
+            ("qdd", Input::Acceleration as fn(usize) -> Input),
+            ("qd", Input::Velocity),
+            ("q", Input::Position),
+        ] {
+            if let Some(joint) = index_of(word, array) {
+                return Ok(Operand::Input(input(joint)));
+            }
+        }
+        if let Some(step) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
+            if step == 0 || step > self.program.steps.len() {
+                return Err(format!("`{word}` is not computed yet"));
+            }
+            return Ok(Operand::Step(step - 1));
+        }
+        for trig in &self.program.trig {
+            for (taken, input) in [
+                (trig.sin, Input::Sin(trig.angle)),
+                (trig.cos, Input::Cos(trig.angle)),
+            ] {
+                if taken && word == input_name(input) {
+                    return Ok(Operand::Input(input));
+                }
+            }
+        }
+        // `{:?}` always prints a point or an exponent: an integer would be
+        // another type in Rust.
+        word.contains(['.', 'e'])
+            .then(|| self.scalar.parse(word))
+            .flatten()
+            .map(|value| Operand::Constant(Literal(value)))
+            .ok_or_else(|| format!("`{word}` is neither a value nor a literal"))
+    }
+
+    /// The program with these results.
+    pub(super) fn finish(mut self, items: &[&str]) -> Result<Lowered, String> {
+        if !self.wrap.is_none() || self.sines.is_some() {
+            return Err("a block does not end".into());
+        }
+        for word in items {
+            // A negative literal is a literal; a negated value is negated.
+            let output = match word.strip_prefix('-') {
+                Some(rest) if !rest.starts_with(|c: char| c.is_ascii_digit()) => Output {
+                    negative: true,
+                    value: self.operand(rest)?,
+                },
+                _ => Output::of(self.operand(word)?),
+            };
+            self.program.outputs.push(output);
+        }
+        Ok(self.program)
+    }
+}
+
+/// i of `name[i]`.
+fn index_of(word: &str, name: &str) -> Option<usize> {
+    word.strip_prefix(name)?
+        .strip_prefix('[')?
+        .strip_suffix(']')?
+        .parse()
+        .ok()
+}

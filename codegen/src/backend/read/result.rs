@@ -1,0 +1,126 @@
+//! The arrays and the struct that an emitted function ends with.
+//!
+//! Brackets, commas and field names are checked: two fields of one type that
+//! trade names would compile.
+
+use dalembert_model::outputs::Axis;
+
+use crate::function::Function;
+
+/// Whether every bracket that opens is closed again.
+pub(super) fn is_complete(text: &str) -> bool {
+    let depth = text.chars().fold(0i64, |depth, c| match c {
+        '{' | '[' => depth + 1,
+        '}' | ']' => depth - 1,
+        _ => depth,
+    });
+    !text.trim().is_empty() && depth == 0
+}
+
+/// The entries of the result, flat, in the order of the function's quantities.
+pub(super) fn items(text: &str, function: Function) -> Result<Vec<&str>, String> {
+    let mut words = Words(text.trim());
+    let mut items = Vec::new();
+    match function.structure() {
+        None => {
+            let shape = function.quantities()[0].shape();
+            array(&mut words, shape.0, &mut items)?;
+        }
+        Some(name) => {
+            words.expect(name)?;
+            words.expect("{")?;
+            for quantity in function.quantities() {
+                words.expect(quantity.field())?;
+                words.expect(":")?;
+                array(&mut words, quantity.shape().0, &mut items)?;
+                words.expect(",")?;
+            }
+            words.expect("}")?;
+        }
+    }
+    match words.next() {
+        "" => Ok(items),
+        word => Err(format!("`{word}` after the result")),
+    }
+}
+
+/// An array of these axes, the outermost first, or one entry; returns how many
+/// entries it has. The lengths of inner arrays are equal, as in Rust.
+fn array<'a>(
+    words: &mut Words<'a>,
+    axes: &[Axis],
+    items: &mut Vec<&'a str>,
+) -> Result<usize, String> {
+    let Some((axis, inner)) = axes.split_first() else {
+        return match words.next() {
+            word @ ("" | "[" | "]" | "{" | "}" | ":" | ",") => {
+                Err(format!("`{word}` is no entry of the result"))
+            }
+            word => {
+                items.push(word);
+                Ok(1)
+            }
+        };
+    };
+    words.expect("[")?;
+    let (mut len, mut each) = (0, None);
+    while words.peek() != "]" {
+        let found = array(words, inner, items)?;
+        if *each.get_or_insert(found) != found {
+            return Err("rows of different lengths".into());
+        }
+        len += 1;
+        if words.peek() != "]" {
+            words.expect(",")?;
+        }
+    }
+    words.expect("]")?;
+    match *axis {
+        Axis::Fixed(expected) if len != expected => Err(format!(
+            "an array of {expected} expected in the result, not of {len}"
+        )),
+        _ => Ok(len * each.unwrap_or(0)),
+    }
+}
+
+/// Brackets, colons and commas, and what is between them.
+struct Words<'a>(&'a str);
+
+impl<'a> Words<'a> {
+    fn peek(&self) -> &'a str {
+        Words(self.0).next()
+    }
+
+    /// The next word; empty at the end.
+    fn next(&mut self) -> &'a str {
+        let text = self.0.trim_start();
+        let single = |c: char| matches!(c, '[' | ']' | '{' | '}' | ':' | ',');
+        let end = match text.find(|c: char| single(c) || c.is_whitespace()) {
+            Some(0) => 1,
+            Some(end) => end,
+            None => text.len(),
+        };
+        // `t1` and `q[0]` are one word each: an index follows its name.
+        let end = match (end, text[end..].strip_prefix('[')) {
+            (1.., Some(index)) if is_name(&text[..end]) => {
+                index.find(']').map_or(end, |close| end + close + 2)
+            }
+            _ => end,
+        };
+        let (word, rest) = text.split_at(end);
+        self.0 = rest;
+        word
+    }
+
+    fn expect(&mut self, expected: &str) -> Result<(), String> {
+        match self.next() {
+            word if word == expected => Ok(()),
+            word => Err(format!("`{expected}` expected in the result, not `{word}`")),
+        }
+    }
+}
+
+fn is_name(word: &str) -> bool {
+    word.trim_start_matches('-')
+        .starts_with(|c: char| c.is_ascii_lowercase())
+}

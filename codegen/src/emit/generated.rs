@@ -1,0 +1,54 @@
+//! A function with what was found and proved of it.
+
+use crate::certify::choose::Admitted;
+use crate::function::Function;
+use crate::portfolio::Source;
+use crate::program::{Counts, Program, ScalarType};
+use crate::simplify::Stage;
+use crate::sincos::{self, AngleKernel, Sines};
+use crate::verify::accuracy::Refused;
+use crate::verify::exact::Proof;
+
+/// A generated and proved function.
+#[derive(Clone, Debug)]
+pub struct GeneratedFunction {
+    /// Which function.
+    pub function: Function,
+    /// The formulation that the search started from.
+    pub source: Source,
+    /// Whether it is the plan's, and nothing was searched for.
+    pub planned: bool,
+    /// The final program with exact constants: what is emitted.
+    pub program: Program,
+    /// Its counts, without the polynomials of sines.
+    pub counts: Counts,
+    /// The polynomials of its sines in each scalar, if they are not libm's.
+    pub sines: Vec<(ScalarType, Sines)>,
+    /// Counts of the formula as executed, then after each step.
+    pub stages: Vec<Stage>,
+    /// That it is right; with a tolerance, that the program is that it was
+    /// made from.
+    pub proof: Proof,
+    /// What the limit on rounding errors cost, if it did: a cheaper program
+    /// that the preference for operations takes.
+    pub refused: Option<Refused>,
+    /// With a tolerance: what was left out, and the certificates.
+    pub admitted: Option<Admitted>,
+}
+
+impl GeneratedFunction {
+    /// The polynomials of its sines in a scalar; none if they are libm's.
+    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
+        sincos::of(&self.sines, scalar)
+    }
+
+    /// Its counts with the polynomials of its sines in a scalar.
+    pub fn counts_in(&self, scalar: ScalarType) -> Counts {
+        let (trig_mul, trig_add) = sincos::counts(self.sines(scalar));
+        Counts {
+            trig_mul,
+            trig_add,
+            ..self.counts
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Where functions hold that do not hold everywhere: those that a tolerance was
+//! applied to, and those whose sines are polynomials.
+//!
+//! The module says it in numbers, `BOX`, and asks for a caller whether a state
+//! is inside, `in_box`. A controller does that before it trusts a torque.
+
+use std::fmt::Write;
+
+use super::GeneratedFunction;
+use crate::bound::interval::Interval;
+use crate::function::Argument;
+use crate::program::ScalarType;
+use crate::scene::Setting;
+use crate::sincos;
+
+/// The ranges of each argument's entries; none for those that nothing bounds.
+pub(super) struct StateBox {
+    columns: Vec<(Argument, Vec<Option<Interval>>)>,
+}
+
+impl StateBox {
+    /// Where all of the functions hold; `None` if that is everywhere.
+    pub(super) fn of(
+        functions: &[GeneratedFunction],
+        setting: &Setting,
+        scalar: ScalarType,
+    ) -> Option<StateBox> {
+        let joints = setting.robot().joints.len();
+        let all = [
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+        ];
+        let columns = all.into_iter().map(|argument| {
+            let mut column = vec![None; joints];
+            for generated in functions {
+                bound(&mut column, argument, generated, setting, scalar);
+            }
+            (argument, column)
+        });
+        let columns: Vec<_> = columns
+            .filter(|(_, column)| column.iter().any(Option::is_some))
+            .collect();
+        (!columns.is_empty()).then_some(StateBox { columns })
+    }
+
+    /// The constant, its type and the function that asks.
+    pub(super) fn write(&self, text: &mut String, scalar: ScalarType) {
+        text.push_str(
+            "\n/// The lowest and the highest entries of arguments for which the functions of this\n\
+             /// module hold; an infinite end bounds nothing.\n\
+             pub const BOX: StateBox = StateBox {\n",
+        );
+        // Writing to a string cannot fail.
+        for (argument, column) in &self.columns {
+            let _ = writeln!(text, "    {}: [", argument.name());
+            for range in column {
+                let [low, high] = ends(*range, scalar);
+                let _ = writeln!(text, "        [{low}, {high}],");
+            }
+            text.push_str("    ],\n");
+        }
+        text.push_str(
+            "};\n\n\
+             /// A box of states: the lowest and the highest entry for each joint.\n\
+             #[derive(Clone, Copy, Debug, PartialEq)]\n\
+             pub struct StateBox {\n",
+        );
+        for (argument, column) in &self.columns {
+            let (what, n) = (quantity(*argument), column.len());
+            let _ = writeln!(
+                text,
+                "    /// {what}\n    pub {}: [[{scalar}; 2]; {n}],",
+                argument.name()
+            );
+        }
+        text.push_str(
+            "}\n\n\
+             /// Whether a state is inside [`BOX`], ends included: only there what the functions of\n\
+             /// this module say of their errors is true. A state with a NaN is not inside.\n\
+             #[must_use]\n",
+        );
+        let parameters = self.columns.iter().map(|(argument, column)| {
+            format!("{}: &[{scalar}; {}]", argument.name(), column.len())
+        });
+        let parameters: Vec<String> = parameters.collect();
+        let _ = writeln!(
+            text,
+            "pub fn in_box({}) -> bool {{\n    let inside = true;",
+            parameters.join(", ")
+        );
+        for (argument, column) in &self.columns {
+            let name = argument.name();
+            for joint in (0..column.len()).filter(|&joint| column[joint].is_some()) {
+                let _ = writeln!(
+                    text,
+                    "    let inside = inside & (BOX.{name}[{joint}][0] <= {name}[{joint}]) & \
+                     ({name}[{joint}] <= BOX.{name}[{joint}][1]);"
+                );
+            }
+        }
+        text.push_str("    inside\n}\n");
+    }
+}
+
+/// Where one function holds.
+fn bound(
+    column: &mut [Option<Interval>],
+    argument: Argument,
+    generated: &GeneratedFunction,
+    setting: &Setting,
+    scalar: ScalarType,
+) {
+    if let Some(admitted) = &generated.admitted {
+        let mut all = admitted.certificates.iter();
+        let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
+            return;
+        };
+        if !certificate.emitted.arguments.contains(&argument) {
+            return;
+        }
+        let limits = match argument {
+            Argument::Position => &certificate.limits.position,
+            Argument::Velocity => &certificate.limits.velocity,
+            Argument::Acceleration => &certificate.limits.acceleration,
+        };
+        for (joint, (place, range)) in column.iter_mut().zip(limits).enumerate() {
+            if setting.lock(joint).is_none() {
+                *place = Some(*range);
+            }
+        }
+    } else if argument == Argument::Position {
+        let positions = sincos::positions(setting.robot(), scalar);
+        let sines = generated.sines(scalar).iter();
+        for (joint, _) in sines.flat_map(|sine| sine.angle.terms()) {
+            if let (Some(place), Some(range)) = (column.get_mut(joint), positions.get(joint)) {
+                *place = Some(*range);
+            }
+        }
+    }
+}
+
+fn quantity(argument: Argument) -> &'static str {
+    match argument {
+        Argument::Position => "Positions, rad or m.",
+        Argument::Velocity => "Velocities, rad/s or m/s.",
+        Argument::Acceleration => "Accelerations, rad/s² or m/s².",
+    }
+}
+
+/// The outermost numbers of the scalar that are inside a range.
+fn ends(range: Option<Interval>, scalar: ScalarType) -> [String; 2] {
+    let Some(range) = range else {
+        return ["NEG_INFINITY", "INFINITY"].map(|end| format!("{scalar}::{end}"));
+    };
+    match scalar {
+        ScalarType::F64 => [range.low(), range.high()].map(|end| format!("{end:?}")),
+        ScalarType::F32 => {
+            let (low, high) = (range.low() as f32, range.high() as f32);
+            let low = match f64::from(low) < range.low() {
+                true => low.next_up(),
+                false => low,
+            };
+            let high = match f64::from(high) > range.high() {
+                true => high.next_down(),
+                false => high,
+            };
+            [low, high].map(|end| format!("{end:?}"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// No end is rounded out of the range.
+    #[test]
+    fn ends_are_inside() {
+        let pi = std::f64::consts::PI;
+        for (low, high) in [(-pi, pi), (-0.1, 0.3), (0.0, 1e6), (-1.0, 2.0)] {
+            let range = Interval::new(low, high).unwrap();
+            assert_eq!(
+                ends(Some(range), ScalarType::F64).map(|end| end.parse::<f64>().unwrap()),
+                [low, high]
+            );
+            let read = ends(Some(range), ScalarType::F32).map(|end| end.parse::<f32>().unwrap());
+            assert!(
+                f64::from(read[0]) >= low && f64::from(read[1]) <= high,
+                "{read:?}"
+            );
+            // Nor further in than to the next number.
+            assert!(f64::from(read[0].next_down()) < low && f64::from(read[1].next_up()) > high);
+        }
+        assert_eq!(
+            ends(None, ScalarType::F32),
+            ["f32::NEG_INFINITY", "f32::INFINITY"]
+        );
+    }
+}

@@ -1,0 +1,97 @@
+//! What was proved, tried: emitted code is run before it is handed out.
+//!
+//! A proof in a prime field may miss, with a chance that nobody will see, and
+//! whoever writes it may err. Two states of the robot tell: the text, read back,
+//! against the robot's own recursion in 256 bits. How far it may be off follows
+//! from its own numbers ([`running`]); with a tolerance, from its certificate.
+
+use crate::certify::certificate::Refuted;
+use crate::generate::{GenerateError, GeneratedFunction};
+use crate::program::ScalarType;
+use crate::scene::Setting;
+use crate::states::{JointState, seeded};
+use crate::verify::floating::Emitted;
+use crate::verify::reference::Reference;
+use crate::verify::running;
+
+/// Two states: what is wrong, is wrong almost everywhere.
+const STATES: usize = 2;
+
+/// A seed of its own.
+const SEED: u64 = 0x0074_7269_616c;
+
+/// Runs every emitted function.
+pub(super) fn check(
+    setting: &Setting,
+    functions: &[GeneratedFunction],
+    emitted: &[Emitted],
+) -> Result<(), GenerateError> {
+    let states: Vec<JointState> = seeded(setting.robot(), STATES, SEED)
+        .iter()
+        .map(JointState::in_single)
+        .collect();
+    let reference = Reference::new(setting);
+    for generated in functions {
+        if let Some(admitted) = &generated.admitted {
+            for certificate in &admitted.certificates {
+                certificate
+                    .run_in(setting, STATES)
+                    .map_err(|why| match why {
+                        Refuted::Ran { .. } => GenerateError::Contradicted {
+                            function: generated.function,
+                            scalar: certificate.scalar,
+                            why: why.to_string(),
+                        },
+                        other => GenerateError::Variant(generated.function, other),
+                    })?;
+            }
+            continue;
+        }
+        for state in &states {
+            let truth = reference.run(generated.function, state);
+            let own = emitted.iter().filter(|e| e.function == generated.function);
+            for emitted in own {
+                let bounds = running::errors(
+                    &generated.program,
+                    emitted.scalar,
+                    generated.sines(emitted.scalar),
+                    state,
+                );
+                let results = emitted.run(state);
+                for (index, ((result, truth), bound)) in
+                    results.iter().zip(&truth).zip(bounds).enumerate()
+                {
+                    let error = truth.error(*result);
+                    if error > bound {
+                        let entry = generated.program.entry(index);
+                        return Err(contradicted(
+                            generated,
+                            emitted.scalar,
+                            &entry,
+                            error,
+                            bound,
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn contradicted(
+    generated: &GeneratedFunction,
+    scalar: ScalarType,
+    entry: &str,
+    error: f64,
+    bound: f64,
+) -> GenerateError {
+    GenerateError::Contradicted {
+        function: generated.function,
+        scalar,
+        why: format!(
+            "{entry} is {error:.3e} off the robot's own recursion, and rounding is no more than \
+             {bound:.3e}"
+        ),
+    }
+}

@@ -1,0 +1,109 @@
+//! Scenes and what they ask for, by name.
+
+use std::fmt;
+
+use dalembert_model::read::closest;
+use dalembert_model::scene::{Float, Scene};
+
+use crate::function::Function;
+use crate::generate::Request;
+use crate::program::ScalarType;
+
+/// There is no scene of this name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownScene {
+    /// The name.
+    pub found: String,
+    /// The scene that was probably meant.
+    pub meant: Option<String>,
+    /// The scenes that there are.
+    pub known: Vec<String>,
+}
+
+impl UnknownScene {
+    /// What is wrong.
+    pub fn message(&self) -> String {
+        format!("the robot has no scene `{}`", self.found)
+    }
+
+    /// The likely fix.
+    pub fn help(&self) -> String {
+        match (&self.meant, self.known.as_slice()) {
+            (Some(meant), _) => format!("did you mean `{meant}`?"),
+            (None, []) => format!("its file has none: add a table [scene.{}]", self.found),
+            (None, known) => format!("there is: {}", known.join(", ")),
+        }
+    }
+}
+
+impl fmt::Display for UnknownScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message(), self.help())
+    }
+}
+
+impl std::error::Error for UnknownScene {}
+
+/// The scene of a name.
+///
+/// # Errors
+/// [`UnknownScene`], with the name that was probably meant.
+pub fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, UnknownScene> {
+    scenes
+        .iter()
+        .find(|scene| scene.name == name)
+        .ok_or_else(|| {
+            let known: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
+            UnknownScene {
+                found: name.to_owned(),
+                meant: closest(name, &known).map(str::to_owned),
+                known: known.into_iter().map(str::to_owned).collect(),
+            }
+        })
+}
+
+impl From<Float> for ScalarType {
+    fn from(float: Float) -> ScalarType {
+        match float {
+            Float::F64 => ScalarType::F64,
+            Float::F32 => ScalarType::F32,
+        }
+    }
+}
+
+impl Request {
+    /// The request with the outputs and scalars that somebody chose, if any, and
+    /// in a scene, if any: it takes the scene's outputs where none were chosen,
+    /// and the same for its scalar. With a tolerance and no scalar chosen, the
+    /// cheapest that it admits is taken.
+    #[must_use]
+    pub fn choose(
+        mut self,
+        outputs: Option<Vec<Function>>,
+        scalars: Option<Vec<ScalarType>>,
+        scene: Option<&Scene>,
+    ) -> Request {
+        if let Some(scene) = scene {
+            if !scene.outputs.is_empty() {
+                self.functions = scene.outputs.clone();
+            }
+            if let Some(scalar) = scene.scalar {
+                self.scalars = vec![scalar.into()];
+            }
+            self.any_scalar = scalars.is_none() && scene.scalar.is_none();
+            if self.any_scalar && scene.tolerance.is_some() {
+                self.scalars = ScalarType::ALL.to_vec();
+            }
+            self.scene = Some(scene.clone());
+        }
+        self.functions = outputs.unwrap_or(self.functions);
+        self.scalars = scalars.unwrap_or(self.scalars);
+        self
+    }
+
+    /// The request in a scene, with its outputs and its scalar.
+    #[must_use]
+    pub fn in_scene(self, scene: &Scene) -> Request {
+        self.choose(None, None, Some(scene))
+    }
+}

@@ -1,0 +1,53 @@
+//! The one way to run straight-line code in a scalar.
+
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+
+use super::{Input, Operand, Operation, Output, Program, Step};
+
+/// The outputs of steps in a scalar, from the values of inputs and constants;
+/// `None` if one of these has none, or a step reads what is not computed yet.
+pub fn evaluate<'c, C, I, S: Scalar>(
+    steps: &'c [Step<C, I>],
+    outputs: impl IntoIterator<Item = &'c Output<C, I>>,
+    mut input: impl FnMut(&'c I) -> Option<S>,
+    mut constant: impl FnMut(&'c C) -> Option<S>,
+) -> Option<Vec<S>> {
+    let mut values: Vec<S> = Vec::with_capacity(steps.len());
+    let mut read = |operand: &'c Operand<C, I>, values: &[S]| match operand {
+        Operand::Input(name) => input(name),
+        Operand::Constant(value) => constant(value),
+        Operand::Step(index) => values.get(*index).cloned(),
+    };
+    for step in steps {
+        let (left, right) = (read(&step.left, &values)?, read(&step.right, &values)?);
+        values.push(step.operation.apply(&left, &right));
+    }
+    let outputs = outputs.into_iter().map(|output| {
+        let value = read(&output.value, &values)?;
+        Some(if output.negative { value.neg() } else { value })
+    });
+    outputs.collect()
+}
+
+impl Operation {
+    /// The operation in a scalar.
+    pub fn apply<S: Scalar>(self, left: &S, right: &S) -> S {
+        match self {
+            Operation::Add => left.add(right),
+            Operation::Sub => left.sub(right),
+            Operation::Mul => left.mul(right),
+        }
+    }
+}
+
+impl Program {
+    /// The outputs in a scalar; as [`evaluate`].
+    pub fn evaluate<S: Scalar>(
+        &self,
+        input: impl FnMut(&Input) -> Option<S>,
+        constant: impl FnMut(&Exact) -> Option<S>,
+    ) -> Option<Vec<S>> {
+        evaluate(&self.steps, &self.outputs, input, constant)
+    }
+}

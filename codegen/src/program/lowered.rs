@@ -1,0 +1,200 @@
+//! Straight-line code over literals: what is printed, read back and run.
+
+use super::kernel::Kernel;
+use super::{AngleSum, Counts, Literal, Operand, Operation, Output, Program, ScalarType, Step};
+
+/// A program lowered to a scalar: every constant rounded once, and how each
+/// angle's sine and cosine are computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lowered {
+    /// The scalar.
+    pub scalar: ScalarType,
+    /// Sines and cosines.
+    pub trig: Vec<LoweredTrig>,
+    /// The arithmetic.
+    pub steps: Vec<Step<Literal>>,
+    /// The results.
+    pub outputs: Vec<Output<Literal>>,
+}
+
+/// The sine and cosine of an angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoweredTrig {
+    /// The angle.
+    pub angle: AngleSum,
+    /// Whether the sine is taken.
+    pub sin: bool,
+    /// Whether the cosine is taken.
+    pub cos: bool,
+    /// The polynomials, unless a library is called.
+    pub kernel: Option<Kernel>,
+}
+
+impl Program {
+    /// The program in a scalar; an angle without a kernel calls a library.
+    pub fn lower<'k>(
+        &self,
+        scalar: ScalarType,
+        kernel: impl Fn(AngleSum) -> Option<&'k Kernel>,
+    ) -> Lowered {
+        let operand = |operand: &Operand| match operand {
+            Operand::Input(input) => Operand::Input(*input),
+            Operand::Constant(value) => Operand::Constant(Literal(scalar.round(value))),
+            Operand::Step(index) => Operand::Step(*index),
+        };
+        let trig = self.trig.iter().map(|trig| LoweredTrig {
+            angle: trig.angle,
+            sin: trig.sin,
+            cos: trig.cos,
+            kernel: kernel(trig.angle).cloned(),
+        });
+        let steps = self.steps.iter().map(|step| Step {
+            operation: step.operation,
+            left: operand(&step.left),
+            right: operand(&step.right),
+        });
+        let outputs = self.outputs.iter().map(|output| Output {
+            negative: output.negative,
+            value: operand(&output.value),
+        });
+        Lowered {
+            scalar,
+            trig: trig.collect(),
+            steps: steps.collect(),
+            outputs: outputs.collect(),
+        }
+    }
+}
+
+impl Lowered {
+    /// Where two differ; `None` if they are equal.
+    pub fn difference(&self, other: &Lowered) -> Option<String> {
+        let steps = self.steps.iter().zip(&other.steps);
+        let outputs = self.outputs.iter().zip(&other.outputs);
+        let differ = |what: &str, index: usize| Some(format!("{what}{index} differs"));
+        match self == other {
+            true => None,
+            false if self.scalar != other.scalar => Some("the scalars differ".into()),
+            false if self.trig != other.trig => Some("the sines and cosines differ".into()),
+            false if self.steps.len() != other.steps.len() => {
+                Some("the number of operations differs".into())
+            }
+            false if self.outputs.len() != other.outputs.len() => {
+                Some("the number of results differs".into())
+            }
+            false => match steps.enumerate().find(|(_, (a, b))| a != b) {
+                Some((index, _)) => differ("operation t", index + 1),
+                None => {
+                    let index = outputs.enumerate().find(|(_, (a, b))| a != b);
+                    differ("result ", index.map_or(0, |(index, _)| index))
+                }
+            },
+        }
+    }
+
+    /// The same with a library's sines instead of polynomials: what rounding
+    /// costs the rest.
+    #[must_use]
+    pub fn with_libm(&self) -> Lowered {
+        let mut other = self.clone();
+        for trig in &mut other.trig {
+            trig.kernel = None;
+        }
+        other
+    }
+
+    /// What it costs, with the polynomials of its sines.
+    pub fn counts(&self) -> Counts {
+        let is_mul = |step: &&Step<Literal>| step.operation == Operation::Mul;
+        let mul = self.steps.iter().filter(is_mul).count();
+        let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
+        let kernels = self.trig.iter().filter_map(|t| t.kernel.as_ref());
+        let trig = kernels.map(Kernel::counts);
+        let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
+        Counts {
+            mul,
+            add: self.steps.len() - mul + angles,
+            div: 0,
+            sincos: self.trig.len(),
+            trig_mul,
+            trig_add,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Input, evaluate};
+
+    fn code() -> Lowered {
+        let step = |left, right| Step {
+            operation: Operation::Sub,
+            left,
+            right,
+        };
+        Lowered {
+            scalar: ScalarType::F64,
+            trig: Vec::new(),
+            steps: vec![
+                step(
+                    Operand::Input(Input::Velocity(0)),
+                    Operand::Constant(Literal(0.0)),
+                ),
+                step(Operand::Step(0), Operand::Input(Input::Acceleration(1))),
+            ],
+            outputs: vec![Output {
+                negative: true,
+                value: Operand::Step(1),
+            }],
+        }
+    }
+
+    /// Whatever is changed, it is another program, and said where.
+    #[test]
+    fn another_program_differs() {
+        type Change = (fn(&mut Lowered), &'static str);
+        let changes: [Change; 6] = [
+            (|c| c.scalar = ScalarType::F32, "the scalars differ"),
+            (
+                |c| c.steps[0].right = Operand::Constant(Literal(-0.0)),
+                "operation t1 differs",
+            ),
+            (
+                |c| c.steps[1].operation = Operation::Add,
+                "operation t2 differs",
+            ),
+            (|c| c.steps.truncate(1), "the number of operations differs"),
+            (|c| c.outputs[0].negative = false, "result 0 differs"),
+            (|c| c.outputs.clear(), "the number of results differs"),
+        ];
+        assert_eq!(code().difference(&code()), None);
+        for (change, words) in changes {
+            let mut other = code();
+            change(&mut other);
+            assert_eq!(code().difference(&other).as_deref(), Some(words));
+        }
+    }
+
+    /// −((3 − 0) − 5), and no number where a value is missing or comes later.
+    #[test]
+    fn what_cannot_be_read_has_no_value() {
+        let input = |input: &Input| match input {
+            Input::Velocity(0) => Some(3.0),
+            Input::Acceleration(1) => Some(5.0),
+            _ => None,
+        };
+        let constant = |literal: &Literal| Some(literal.0);
+        let run = |code: &Lowered| evaluate(&code.steps, &code.outputs, input, constant);
+        assert_eq!(run(&code()), Some(vec![2.0]));
+        for (left, right) in [
+            (Operand::Step(1), Operand::Step(0)),
+            (Operand::Input(Input::Velocity(7)), Operand::Step(0)),
+            (Operand::Step(usize::MAX), Operand::Step(0)),
+        ] {
+            let mut other = code();
+            (other.steps[1].left, other.steps[1].right) = (left, right);
+            assert_eq!(run(&other), None);
+        }
+    }
+}

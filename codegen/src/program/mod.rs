@@ -1,0 +1,189 @@
+//! Straight-line code, and what it is made of.
+//!
+//! - this file: [`Program`]: sines and cosines first, then arithmetic
+//! - [`input`]: what a program reads: sines, cosines, positions, rates
+//! - [`scalar_type`]: the floats that code is printed in; constants rounded once
+//! - [`counts`]: what a program costs
+//! - `lowered`: the same over literals: each constant rounded once, sines by a
+//!   library or by the polynomials of a [`kernel`]
+//! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
+//!   for bit, [`columns`]: at many states at once
+//! - [`text`]: operands and steps as plans and certificates write them
+//! - [`machine`]: floats that run as emitted code does
+
+pub mod columns;
+pub mod counts;
+mod evaluate;
+pub mod input;
+pub mod kernel;
+mod literal;
+mod lowered;
+pub mod machine;
+pub mod run;
+pub mod scalar_type;
+pub mod text;
+
+use std::collections::BTreeMap;
+
+use dalembert_model::number::Exact;
+
+use crate::function::{Argument, Function};
+pub use counts::Counts;
+pub use evaluate::evaluate;
+pub use input::{AngleSum, Input};
+pub use literal::Literal;
+pub use lowered::{Lowered, LoweredTrig};
+pub use scalar_type::ScalarType;
+
+/// Straight-line code with exact constants: what is proved and emitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// What it computes.
+    pub function: Function,
+    /// n: the length of every argument.
+    pub joints: usize,
+    /// The joints that the results are over, zero-based, in their order.
+    pub rows: Vec<usize>,
+    /// The arguments there are, in order.
+    pub arguments: Vec<Argument>,
+    /// The angles whose sine or cosine it needs, ascending.
+    pub trig: Vec<Trig>,
+    /// The arithmetic, operands before users.
+    pub steps: Vec<Step>,
+    /// The results in the order of the function's quantities.
+    pub outputs: Vec<Output>,
+}
+
+/// One sine/cosine evaluation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Trig {
+    /// The angle.
+    pub angle: AngleSum,
+    /// Whether the sine is needed.
+    pub sin: bool,
+    /// Whether the cosine is needed.
+    pub cos: bool,
+}
+
+/// One operation over constants C and inputs I.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step<C = Exact, I = Input> {
+    /// What is done.
+    pub operation: Operation,
+    /// Left operand.
+    pub left: Operand<C, I>,
+    /// Right operand.
+    pub right: Operand<C, I>,
+}
+
+/// The operations of emitted code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operation {
+    /// left + right
+    Add,
+    /// left − right
+    Sub,
+    /// left · right
+    Mul,
+}
+
+/// What a step reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand<C = Exact, I = Input> {
+    /// An input.
+    Input(I),
+    /// A constant: exact, or the literal that it was rounded to.
+    Constant(C),
+    /// The result of an earlier step.
+    Step(usize),
+}
+
+/// A result, negated or not: negation is free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Output<C = Exact, I = Input> {
+    /// Whether it is negated.
+    pub negative: bool,
+    /// The value.
+    pub value: Operand<C, I>,
+}
+
+impl Operation {
+    /// Every operation.
+    pub const ALL: [Operation; 3] = [Operation::Add, Operation::Sub, Operation::Mul];
+
+    /// The operation of a symbol.
+    pub fn from_symbol(symbol: &str) -> Option<Operation> {
+        let is = |operation: &Operation| symbol.chars().eq([operation.symbol()]);
+        Operation::ALL.into_iter().find(is)
+    }
+
+    /// Its symbol in Rust.
+    pub fn symbol(self) -> char {
+        match self {
+            Operation::Add => '+',
+            Operation::Sub => '-',
+            Operation::Mul => '*',
+        }
+    }
+}
+
+impl<C, I> Output<C, I> {
+    /// A value as it is.
+    pub fn of(value: Operand<C, I>) -> Output<C, I> {
+        Output {
+            negative: false,
+            value,
+        }
+    }
+}
+
+impl Program {
+    /// Lists the sines and cosines that steps and outputs read.
+    pub(crate) fn collect_trig(&mut self) {
+        let mut trig: BTreeMap<AngleSum, Trig> = BTreeMap::new();
+        let operands = self.steps.iter().flat_map(|step| [&step.left, &step.right]);
+        for operand in operands.chain(self.outputs.iter().map(|output| &output.value)) {
+            if let Operand::Input(input) = operand {
+                note_trig(&mut trig, *input);
+            }
+        }
+        self.trig = trig.into_values().collect();
+    }
+
+    /// What it costs.
+    pub fn counts(&self) -> Counts {
+        let mul = self
+            .steps
+            .iter()
+            .filter(|step| step.operation == Operation::Mul)
+            .count();
+        let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
+        Counts {
+            mul,
+            add: self.steps.len() - mul + angles,
+            div: 0,
+            sincos: self.trig.len(),
+            ..Counts::default()
+        }
+    }
+}
+
+/// Whether a program returns D.
+pub fn has_inertia(program: &Program) -> bool {
+    let mut quantities = program.function.quantities().iter();
+    quantities.any(|quantity| quantity.is_definite())
+}
+
+fn note_trig(trig: &mut BTreeMap<AngleSum, Trig>, input: Input) {
+    if let Some(angle) = input.angle() {
+        let entry = trig.entry(angle).or_insert(Trig {
+            angle,
+            sin: false,
+            cos: false,
+        });
+        match input {
+            Input::Sin(_) => entry.sin = true,
+            _ => entry.cos = true,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Scalar types and their literals.
+
+use std::fmt;
+
+use dalembert_model::number::{Exact, Rounded};
+
+/// The scalar of an emitted function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ScalarType {
+    /// Double precision.
+    F64,
+    /// Single precision.
+    F32,
+}
+
+impl ScalarType {
+    /// Both, in the order of generated files.
+    pub const ALL: [ScalarType; 2] = [ScalarType::F64, ScalarType::F32];
+
+    /// Its Rust name.
+    pub fn name(self) -> &'static str {
+        match self {
+            ScalarType::F64 => "f64",
+            ScalarType::F32 => "f32",
+        }
+    }
+
+    /// The type of a name.
+    pub fn from_name(name: &str) -> Option<ScalarType> {
+        ScalarType::ALL.into_iter().find(|s| s.name() == name)
+    }
+
+    /// What libm appends to its functions' names.
+    pub fn math_suffix(self) -> &'static str {
+        match self {
+            ScalarType::F64 => "",
+            ScalarType::F32 => "f",
+        }
+    }
+
+    /// u: half an ulp of 1.
+    pub fn unit_roundoff(self) -> f64 {
+        match self {
+            ScalarType::F64 => f64::EPSILON / 2.0,
+            ScalarType::F32 => f64::from(f32::EPSILON) / 2.0,
+        }
+    }
+
+    /// The least number with a full significand.
+    pub fn least_normal(self) -> f64 {
+        match self {
+            ScalarType::F64 => f64::MIN_POSITIVE,
+            ScalarType::F32 => f64::from(f32::MIN_POSITIVE),
+        }
+    }
+
+    /// The constant, rounded once from its exact value, as a double that
+    /// holds the rounded value exactly.
+    pub fn round(self, value: &Exact) -> f64 {
+        match self {
+            ScalarType::F64 => f64::nearest(value),
+            ScalarType::F32 => f64::from(f32::nearest(value)),
+        }
+    }
+
+    /// The nearest number of the type, as a double that holds it exactly.
+    pub fn nearest(self, value: f64) -> f64 {
+        match self {
+            ScalarType::F64 => value,
+            ScalarType::F32 => f64::from(value as f32),
+        }
+    }
+
+    /// The least number of the type that is not below a value, as a double
+    /// that holds it exactly.
+    pub fn above(self, value: f64) -> f64 {
+        match self {
+            ScalarType::F64 => value,
+            ScalarType::F32 if f64::from(value as f32) < value => (value as f32).next_up().into(),
+            ScalarType::F32 => (value as f32).into(),
+        }
+    }
+
+    /// The shortest literal that reads back as the rounded constant.
+    pub fn literal(self, value: &Exact) -> String {
+        match self {
+            ScalarType::F64 => format!("{:?}", f64::nearest(value)),
+            ScalarType::F32 => format!("{:?}", f32::nearest(value)),
+        }
+    }
+
+    /// The value of a literal in this type, as a double.
+    pub fn parse(self, literal: &str) -> Option<f64> {
+        match self {
+            ScalarType::F64 => literal.parse().ok(),
+            ScalarType::F32 => literal.parse::<f32>().ok().map(f64::from),
+        }
+    }
+}
+
+impl fmt::Display for ScalarType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Half the least subnormal.
+pub(crate) fn underflow(scalar: ScalarType) -> f64 {
+    match scalar {
+        // Half of 2^−1074 is no double: the whole.
+        ScalarType::F64 => f64::from_bits(1),
+        ScalarType::F32 => f64::from(f32::from_bits(1)) / 2.0,
+    }
+}

@@ -1,0 +1,126 @@
+//! Operands and steps as plans and certificates write them: inputs as emitted
+//! code names them, `t1` for the first step, `#` before a constant, `~` before
+//! a negated result.
+
+use std::fmt::Write;
+
+use dalembert_model::number::Exact;
+
+use super::{AngleSum, Input, Operand, Operation, Output, Program, Step};
+
+/// How emitted code names an input.
+pub fn input_name(input: Input) -> String {
+    match input {
+        Input::Sin(angle) => format!("s{angle}"),
+        Input::Cos(angle) => format!("c{angle}"),
+        Input::Position(joint) => format!("q[{joint}]"),
+        Input::Velocity(joint) => format!("qd[{joint}]"),
+        Input::Acceleration(joint) => format!("qdd[{joint}]"),
+    }
+}
+
+/// An operand as text; [`read_operand`] reads it back.
+pub(crate) fn write_operand(operand: &Operand) -> String {
+    match operand {
+        Operand::Input(input) => input_name(*input),
+        Operand::Constant(constant) => format!("#{constant}"),
+        Operand::Step(index) => format!("t{}", index + 1),
+    }
+}
+
+/// The steps, a line each, and the line of the results.
+pub(crate) fn write_steps(text: &mut String, program: &Program) {
+    for step in &program.steps {
+        let (left, right) = (write_operand(&step.left), write_operand(&step.right));
+        let _ = writeln!(text, "{left} {} {right}", step.operation.symbol());
+    }
+    text.push_str("return");
+    for output in &program.outputs {
+        let sign = if output.negative { "~" } else { "" };
+        let _ = write!(text, " {sign}{}", write_operand(&output.value));
+    }
+    text.push('\n');
+}
+
+/// The results that end a program.
+pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), String> {
+    for word in words {
+        let (negative, word) = match word.strip_prefix('~') {
+            Some(rest) => (true, rest),
+            None => (false, *word),
+        };
+        let value = read_operand(word, program)?;
+        program.outputs.push(Output { negative, value });
+    }
+    let expected = program.function.outputs(program.rows.len());
+    if program.outputs.len() != expected {
+        let found = program.outputs.len();
+        return Err(format!("expected {expected} results, found {found}"));
+    }
+    program.collect_trig();
+    Ok(())
+}
+
+/// A step from its words.
+pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, String> {
+    let &[left, symbol, right] = words else {
+        return Err("expected an operation such as `t1 + s2`".into());
+    };
+    let operation =
+        Operation::from_symbol(symbol).ok_or_else(|| format!("`{symbol}` is no operation"))?;
+    Ok(Step {
+        operation,
+        left: read_operand(left, program)?,
+        right: read_operand(right, program)?,
+    })
+}
+
+/// An operand of a program's next step.
+pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, String> {
+    if let Some(constant) = word.strip_prefix('#') {
+        return constant
+            .parse::<Exact>()
+            .map(Operand::Constant)
+            .map_err(|error| error.to_string());
+    }
+    if let Some(index) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
+        return match index {
+            1.. if index <= program.steps.len() => Ok(Operand::Step(index - 1)),
+            _ => Err(format!("`{word}` is not computed yet")),
+        };
+    }
+    input(word)
+        .filter(|input| input_fits(*input, program.joints))
+        .map(Operand::Input)
+        .ok_or_else(|| format!("`{word}` is neither an input, a step nor a constant"))
+}
+
+fn input(word: &str) -> Option<Input> {
+    for (array, input) in [
+        ("qdd", Input::Acceleration as fn(usize) -> Input),
+        ("qd", Input::Velocity),
+        ("q", Input::Position),
+    ] {
+        let index = word
+            .strip_prefix(array)
+            .and_then(|rest| rest.strip_prefix('['));
+        if let Some(index) = index {
+            return Some(input(index.strip_suffix(']')?.parse().ok()?));
+        }
+    }
+    let angle = |digits: &str| digits.parse::<AngleSum>().ok();
+    match word.split_at_checked(1)? {
+        ("s", digits) => angle(digits).map(Input::Sin),
+        ("c", digits) => angle(digits).map(Input::Cos),
+        _ => None,
+    }
+}
+
+fn input_fits(input: Input, joints: usize) -> bool {
+    match input {
+        Input::Sin(angle) | Input::Cos(angle) => angle.terms().all(|(joint, _)| joint < joints),
+        Input::Position(joint) | Input::Velocity(joint) | Input::Acceleration(joint) => {
+            joint < joints
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! The motion of a robot's joints from the inputs of a program.
+
+use dalembert_model::equations::{JointPosition, Rotor};
+use dalembert_model::outputs::Motion;
+use dalembert_model::robot::{JointKind, Robot};
+
+use crate::program::{AngleSum, Input};
+
+/// The motion of a robot from the values of a program's inputs.
+pub fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
+    let n = robot.joints.len();
+    let q = robot.joints.iter().enumerate().map(|(i, joint)| {
+        let angle = AngleSum::joint(i);
+        match joint.kind {
+            JointKind::Revolute => JointPosition::Revolute(Rotor {
+                sin: input(Input::Sin(angle)),
+                cos: input(Input::Cos(angle)),
+            }),
+            JointKind::Prismatic => JointPosition::Prismatic(input(Input::Position(i))),
+        }
+    });
+    Motion {
+        q: q.collect(),
+        qd: (0..n).map(|i| input(Input::Velocity(i))).collect(),
+        qdd: (0..n).map(|i| input(Input::Acceleration(i))).collect(),
+    }
+}

@@ -1,0 +1,213 @@
+//! Where proofs evaluate: primes and points drawn from what is to be proved.
+//!
+//! Everything that decides whether a statement is true (robot, scene,
+//! programs) goes into a [`Transcript`], and its SHA-256 is the seed of a
+//! [`Challenge`]: who changes a digit of the statement gets other primes and
+//! other points. The same statement gets the same ones on every machine.
+//!
+//! Every proof of this crate draws here, with a purpose of its own; the
+//! search's fingerprints do not.
+
+use hmac_sha256::Hash;
+
+use dalembert_model::equations::Rotor;
+use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::robot::write as write_robot;
+use dalembert_model::scalar::prime::Prime;
+use dalembert_model::scalar::residue::Residue;
+use dalembert_model::scene::write as write_scene;
+
+use crate::program::{Input, Operand, Program};
+use crate::scene::Setting;
+
+/// What a hash of this crate's proofs begins with; another way to draw is
+/// another version.
+const DOMAIN: &str = "dalembert proof 1";
+
+/// Numbers to try before a prime is given up: one in 22 is prime.
+const MAX_TRIES: u64 = 1 << 14;
+
+/// A statement, written so that two of them never have the same bytes: every
+/// text goes in behind its length, every list behind the number of its items.
+pub struct Transcript(Hash);
+
+impl Transcript {
+    /// An empty statement with a purpose.
+    pub fn new(purpose: &str) -> Transcript {
+        let mut transcript = Transcript(Hash::new());
+        transcript.text(DOMAIN);
+        transcript.text(purpose);
+        transcript
+    }
+
+    /// A number.
+    pub fn number(&mut self, x: usize) {
+        self.0.update((x as u64).to_le_bytes());
+    }
+
+    /// A text.
+    pub fn text(&mut self, text: &str) {
+        self.number(text.len());
+        self.0.update(text.as_bytes());
+    }
+
+    fn numbers(&mut self, list: &[usize]) {
+        self.number(list.len());
+        list.iter().for_each(|&x| self.number(x));
+    }
+
+    /// The robot with its payload and gravity, what is locked, the results.
+    pub fn setting(&mut self, setting: &Setting) {
+        self.text(&write_robot(setting.robot()));
+        self.text(&setting.scene().map(write_scene).unwrap_or_default());
+        self.numbers(setting.rows());
+    }
+
+    /// A program with its exact constants.
+    pub fn program(&mut self, program: &Program) {
+        self.text(program.function.name());
+        self.number(program.joints);
+        self.numbers(&program.rows);
+        self.number(program.arguments.len());
+        for argument in &program.arguments {
+            self.text(argument.name());
+        }
+        self.number(program.steps.len());
+        for step in &program.steps {
+            self.text(step.operation.symbol().encode_utf8(&mut [0; 4]));
+            self.operand(&step.left);
+            self.operand(&step.right);
+        }
+        self.number(program.outputs.len());
+        for output in &program.outputs {
+            self.number(usize::from(output.negative));
+            self.operand(&output.value);
+        }
+    }
+
+    fn operand(&mut self, operand: &Operand) {
+        match operand {
+            Operand::Input(input) => {
+                self.text("input");
+                self.input(*input);
+            }
+            Operand::Constant(constant) => {
+                self.text("constant");
+                self.text(&constant.to_string());
+            }
+            Operand::Step(index) => {
+                self.text("step");
+                self.number(*index);
+            }
+        }
+    }
+
+    fn input(&mut self, input: Input) {
+        let (kind, joint) = match input {
+            Input::Sin(angle) => return self.text(&format!("sin {angle}")),
+            Input::Cos(angle) => return self.text(&format!("cos {angle}")),
+            Input::Position(joint) => ("position", joint),
+            Input::Velocity(joint) => ("velocity", joint),
+            Input::Acceleration(joint) => ("acceleration", joint),
+        };
+        self.text(kind);
+        self.number(joint);
+    }
+
+    /// Nothing more is added: where it is evaluated is decided.
+    pub fn seal(self) -> Challenge {
+        Challenge(self.0.finalize())
+    }
+}
+
+/// The seed of primes and points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Challenge([u8; 32]);
+
+impl Challenge {
+    /// A prime with its point, the same for the same index; `None` if there is
+    /// no prime among [`MAX_TRIES`] numbers, which never happens.
+    pub fn draw(&self, index: usize) -> Option<Point> {
+        let words = (0..MAX_TRIES / 4).flat_map(|counter| self.words(index, "prime", "", counter));
+        // From 2⁶² to 2⁶³, and 3 modulo 4, where −1 is no square.
+        let mut odd = words.map(|word| (word >> 2) | (1 << 62) | 3);
+        let prime = odd.find_map(Prime::new)?;
+        let seed = *self;
+        Some(Point { seed, index, prime })
+    }
+
+    /// Words of the stream of a value: its kind and name, block after block.
+    fn words(&self, index: usize, kind: &str, name: &str, block: u64) -> [u64; 4] {
+        let mut transcript = Transcript(Hash::new());
+        transcript.0.update(self.0);
+        transcript.number(index);
+        transcript.text(kind);
+        transcript.text(name);
+        transcript.0.update(block.to_le_bytes());
+        let hash = transcript.0.finalize();
+        std::array::from_fn(|i| {
+            let bytes = hash[8 * i..8 * i + 8].iter().rev();
+            bytes.fold(0, |word, &byte| (word << 8) | u64::from(byte))
+        })
+    }
+}
+
+/// A prime, and a residue for every input and every constant angle.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    seed: Challenge,
+    index: usize,
+    prime: Prime,
+}
+
+impl Point {
+    /// The prime.
+    pub fn prime(&self) -> Prime {
+        self.prime
+    }
+
+    /// A residue, each equally likely.
+    fn residue(&self, kind: &str, name: &str) -> u64 {
+        let below = |block| {
+            let words = self.seed.words(self.index, kind, name, block);
+            // At least every second one is below the prime.
+            let mut words = words.into_iter().map(|word| word >> 1);
+            words.find(|&word| word < self.prime.modulus())
+        };
+        (0..MAX_TRIES).find_map(below).unwrap_or_default()
+    }
+
+    fn circle(&self, kind: &str, name: &str) -> Rotor<Residue> {
+        Residue::circle_point(self.prime, self.residue(kind, name))
+    }
+
+    /// The value of an input.
+    pub fn input(&self, input: Input) -> Residue {
+        let free = |kind: &str, joint: usize| {
+            Residue::new(self.prime, self.residue(kind, &joint.to_string()))
+        };
+        match input {
+            Input::Sin(angle) => angle.pair(|joint| self.joint(joint)).sin,
+            Input::Cos(angle) => angle.pair(|joint| self.joint(joint)).cos,
+            Input::Position(joint) => free("position", joint),
+            Input::Velocity(joint) => free("velocity", joint),
+            Input::Acceleration(joint) => free("acceleration", joint),
+        }
+    }
+
+    fn joint(&self, joint: usize) -> Rotor<Residue> {
+        self.circle("joint", &joint.to_string())
+    }
+
+    /// The value of a constant; `None` if the prime divides a denominator or a
+    /// coefficient that is not zero: it is unfit then.
+    pub fn constant(&self, value: &Exact) -> Option<Residue> {
+        value.map(
+            &mut |x: &Rational| Residue::of_rational(self.prime, x),
+            &mut |angle| match angle {
+                Angle::PiTimes(x) => self.circle("multiple of pi", &x.to_string()),
+                Angle::Radians(x) => self.circle("radians", &x.to_string()),
+            },
+        )
+    }
+}

@@ -1,0 +1,531 @@
+//! Certificates and plans, changed at random: whatever is changed, they are
+//! refused, or what they say is true all the same. What is true is decided here
+//! by other means than the check's: the printed text is read by a reader of
+//! this test's own, and run against the runtime.
+
+mod support;
+
+use std::collections::HashMap;
+
+use dalembert_codegen::certify::certificate::{Certificate, format};
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::plan::{Edited, Entry, Plan, input_hash};
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::random::Random;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::states::JointState;
+use dalembert_codegen::verify::floating::Runtime;
+use dalembert_model::read::{self, Reading};
+use serde_json::Value;
+
+/// Of each kind.
+const MUTATIONS: usize = 100;
+
+const ROBOT: &str = r#"
+name = "r2"
+convention = "standard"
+gravity = [0, -9.81, 0]
+
+[[joint]]
+a = 1
+kind = "revolute"
+mass = 1
+com = [-0.5, 0, 0]
+inertia = [0, 0.08, 0.08, 0, 0, 0]
+limits = { position = ["-pi", 2], velocity = 2, acceleration = 10, torque = 50 }
+
+[[joint]]
+a = 0.7
+alpha = "pi/5"
+kind = "revolute"
+mass = 0.8
+com = [-0.3, 0.01, 0]
+inertia = [0.01, 0.07, 0.06, 0, 0, 0]
+limits = { position = [-1.5, 1.5], velocity = 3, acceleration = 20, torque = 20 }
+
+[[joint]]
+d = 0.1
+kind = "revolute"
+mass = 0.2
+com = [0, 0.02, 0.1]
+inertia = [0.001, 0.001, 0.001, 0, 0, 0]
+limits = { position = [-1, 1], velocity = 3, acceleration = 20, torque = 5 }
+
+[scene.pick]
+outputs = ["inverse_dynamics"]
+lock = { 3 = "pi/7" }
+scalar = "f64"
+tolerance = { value = 5e-2, relative_to = "actuator" }
+"#;
+
+fn reading(source: &str) -> Option<Reading> {
+    read::parse(source, &read::Options::default()).ok()
+}
+
+fn request(reading: &Reading, sincos: SinCos) -> Request {
+    let scene = reading.scenes[0].clone();
+    Request {
+        sincos,
+        ..Request::default().in_scene(&scene)
+    }
+}
+
+fn generated(sincos: SinCos) -> (Reading, Generated) {
+    let reading = reading(ROBOT).unwrap();
+    let generated = generate(&reading.robot, &request(&reading, sincos)).unwrap();
+    (reading, generated)
+}
+
+fn certificate(generated: &Generated) -> &Certificate {
+    let admitted = generated.functions[0].admitted.as_ref().unwrap();
+    &admitted.certificates[0]
+}
+
+/// Certificates to change: libm's sines with edits, and polynomials.
+fn honest() -> Vec<Certificate> {
+    let all = [SinCos::Libm, SinCos::Polynomial { error: None }];
+    all.map(|sincos| certificate(&generated(sincos).1).clone())
+        .to_vec()
+}
+
+/// A float's value by an operation in the scalar.
+fn round(x: f64, scalar: ScalarType) -> f64 {
+    match scalar {
+        ScalarType::F64 => x,
+        ScalarType::F32 => f64::from(x as f32),
+    }
+}
+
+/// Runs a printed function line by line: names are looked up in a map, blocks
+/// are entered as they come. It knows no program.
+fn execute(text: &str, state: &JointState, scalar: ScalarType) -> Option<Vec<f64>> {
+    let mut names: HashMap<String, f64> = HashMap::new();
+    for (name, values) in [("q", &state.q), ("qd", &state.qd), ("qdd", &state.qdd)] {
+        for (index, value) in values.iter().enumerate() {
+            names.insert(format!("{name}[{index}]"), round(*value, scalar));
+        }
+    }
+    let value = |word: &str, names: &HashMap<String, f64>| -> Option<f64> {
+        let (sign, word) = match word.strip_prefix('-') {
+            Some(rest) => (-1.0, rest),
+            None => (1.0, word),
+        };
+        let value = names.get(word).copied();
+        let value = value.or_else(|| word.parse().ok().map(|x| round(x, scalar)));
+        Some(sign * value?)
+    };
+    let mut pending: Option<Vec<String>> = None;
+    for line in text.lines().map(str::trim) {
+        if line.starts_with("#[") || line.starts_with("pub fn") || line == "};" || line == "}" {
+            continue;
+        }
+        let Some(rest) = line.strip_prefix("let ") else {
+            let words = line.trim_matches(['(', ')', '[', ']']).split(", ");
+            let values: Option<Vec<f64>> = words.map(|word| value(word, &names)).collect();
+            match pending.take() {
+                Some(targets) => names.extend(targets.into_iter().zip(values?)),
+                None => return values,
+            }
+            continue;
+        };
+        let (left, right) = rest.split_once(" = ")?;
+        let targets = left.trim_matches(['(', ')']).split(", ").map(str::to_owned);
+        let targets: Vec<String> = targets.collect();
+        if right == "{" {
+            pending = Some(targets);
+            continue;
+        }
+        let right = right.strip_suffix(';')?;
+        if let Some(call) = right.strip_prefix("libm::") {
+            let (function, angle) = call.strip_suffix(')')?.split_once('(')?;
+            let x = value(angle, &names)?;
+            let pair = match scalar {
+                ScalarType::F64 => libm::sincos(x),
+                ScalarType::F32 => {
+                    let (sin, cos) = libm::sincosf(x as f32);
+                    (f64::from(sin), f64::from(cos))
+                }
+            };
+            let results = match function.trim_end_matches('f') {
+                "sin" => vec![pair.0],
+                "cos" => vec![pair.1],
+                "sincos" => vec![pair.0, pair.1],
+                _ => return None,
+            };
+            names.extend(targets.into_iter().zip(results));
+            continue;
+        }
+        let words: Vec<&str> = right.split(' ').collect();
+        let mut sum = value(words[0], &names)?;
+        for pair in words[1..].chunks(2) {
+            let x = value(pair.get(1)?, &names)?;
+            sum = round(
+                match pair[0] {
+                    "+" => sum + x,
+                    "-" => sum - x,
+                    "*" => sum * x,
+                    _ => return None,
+                },
+                scalar,
+            );
+        }
+        names.insert(targets[0].clone(), sum);
+    }
+    None
+}
+
+/// Whether the claim is true at corners and random states, as far as doubles
+/// can tell.
+fn is_true(claim: &Certificate, setting: &Setting) -> bool {
+    let runtime = Runtime::in_setting(setting.clone());
+    let mut random = Random::new(7);
+    let limits = &claim.limits;
+    (0..400).all(|index| {
+        let mut draw = |ranges: &[dalembert_codegen::bound::interval::Interval]| {
+            let one = |x: &dalembert_codegen::bound::interval::Interval| {
+                let at = match index % 4 {
+                    0 => random.unit(),
+                    _ => random.below(2) as f64,
+                };
+                (x.low() + (x.high() - x.low()) * at).clamp(x.low(), x.high())
+            };
+            ranges.iter().map(one).collect::<Vec<f64>>()
+        };
+        let state = JointState {
+            q: draw(&limits.position),
+            qd: draw(&limits.velocity),
+            qdd: draw(&limits.acceleration),
+        };
+        let state = match claim.scalar {
+            ScalarType::F64 => state,
+            ScalarType::F32 => state.in_single(),
+        };
+        let Some(results) = execute(&claim.text, &state, claim.scalar) else {
+            return false;
+        };
+        let truth = runtime.run(claim.emitted.function, &state);
+        results.len() == truth.len()
+            && (0..truth.len()).all(|i| {
+                let allowed = claim.bounds[i].total() * claim.scales[i];
+                let size = truth.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+                (results[i] - truth[i]).abs() <= allowed * (1.0 + 1e-9) + 1e-12 * size
+            })
+    })
+}
+
+/// Refused, or true; how many were refused.
+fn judge(texts: impl Iterator<Item = String>, robot: &Reading) -> usize {
+    let setting = Setting::new(&robot.robot, &robot.scenes[0]).unwrap();
+    let mut refused = 0;
+    for text in texts {
+        let Ok(claims) = format::read(&text) else {
+            refused += 1;
+            continue;
+        };
+        for claim in claims {
+            match claim.check_in(&setting) {
+                Err(_) => refused += 1,
+                Ok(_) => assert!(is_true(&claim, &setting), "accepted, and false:\n{text}"),
+            }
+        }
+    }
+    refused
+}
+
+/// Changes one place of a certificate, picked by `pick` from all its places.
+fn change(
+    honest: &Certificate,
+    random: &mut Random,
+    pick: impl Fn(&str, &Value) -> bool,
+    with: impl Fn(&Value, &mut Random) -> Value,
+) -> String {
+    let mut json: Value = serde_json::from_str(&honest.to_json()).unwrap();
+    let mut places = Vec::new();
+    collect(&json, String::new(), &pick, &mut places);
+    let place = &places[random.below(places.len())];
+    let value = json.pointer_mut(place).unwrap();
+    *value = with(value, random);
+    json.to_string()
+}
+
+fn collect(
+    value: &Value,
+    path: String,
+    pick: &impl Fn(&str, &Value) -> bool,
+    places: &mut Vec<String>,
+) {
+    if pick(&path, value) {
+        places.push(path.clone());
+    }
+    match value {
+        Value::Array(all) => {
+            for (index, value) in all.iter().enumerate() {
+                collect(value, format!("{path}/{index}"), pick, places);
+            }
+        }
+        Value::Object(all) => {
+            for (key, value) in all {
+                collect(value, format!("{path}/{key}"), pick, places);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn kind(
+    pick: impl Fn(&str, &Value) -> bool + Copy,
+    with: impl Fn(&Value, &mut Random) -> Value + Copy,
+) -> usize {
+    let robot = reading(ROBOT).unwrap();
+    let honest = honest();
+    let mut random = Random::new(0xbad);
+    let texts = (0..MUTATIONS).map(|index| {
+        let honest = &honest[index % honest.len()];
+        change(honest, &mut random, pick, with)
+    });
+    judge(texts, &robot)
+}
+
+/// The words of a line, one of them changed by another of `words`.
+fn other_word(line: &str, random: &mut Random, words: &[&str]) -> String {
+    let mut parts: Vec<&str> = line.split(' ').collect();
+    let at = random.below(parts.len());
+    parts[at] = words[random.below(words.len())];
+    parts.join(" ")
+}
+
+fn is_line(path: &str, value: &Value) -> bool {
+    let listed = path.contains("/steps/") || path.contains("/results/") || path.contains("/edits/");
+    listed && value.is_string()
+}
+
+#[test]
+fn honest_certificates_hold_and_the_judge_can_tell() {
+    let reading = reading(ROBOT).unwrap();
+    let setting = Setting::new(&reading.robot, &reading.scenes[0]).unwrap();
+    for claim in honest() {
+        claim.check_in(&setting).unwrap();
+        assert!(is_true(&claim, &setting));
+        // The judge is no rubber stamp.
+        let mut lie = claim.clone();
+        for bound in &mut lie.bounds {
+            bound.model *= 1e-3;
+            bound.sincos *= 1e-3;
+        }
+        assert!(!is_true(&lie, &setting));
+        let mut lie = claim.clone();
+        lie.text = lie.text.replacen(" + ", " - ", 1);
+        assert!(!is_true(&lie, &setting));
+    }
+}
+
+#[test]
+fn tokens_of_the_text() {
+    let refused = kind(
+        |path, _| path == "/text",
+        |text, random| {
+            let text = text.as_str().unwrap();
+            let places: Vec<usize> = text.match_indices(' ').map(|(at, _)| at).collect();
+            let at = places[random.below(places.len())];
+            let end = text[at + 1..].find([' ', '\n']).unwrap_or(0) + at + 1;
+            let tokens = ["t1", "q[0]", "+", "-", "*", "0.0", "s1", "qd[1];", "//", ""];
+            let token = tokens[random.below(tokens.len())];
+            let changed = format!("{} {token}{}", &text[..at], &text[end..]);
+            match changed == text {
+                true => format!("{text} ").into(),
+                false => changed.into(),
+            }
+        },
+    );
+    // Byte for byte: none is let through.
+    assert_eq!(refused, MUTATIONS);
+}
+
+#[test]
+fn constants() {
+    let refused = kind(
+        |path, value| is_line(path, value) && value.as_str().is_some_and(|line| line.contains('#')),
+        |line, random| {
+            let line = line.as_str().unwrap();
+            let at = line.find('#').unwrap();
+            let digits: Vec<usize> = line[at..]
+                .char_indices()
+                .filter(|(_, c)| c.is_ascii_digit())
+                .map(|(index, _)| at + index)
+                .collect();
+            let place = digits[random.below(digits.len())];
+            let digit = random.below(10).to_string();
+            format!("{}{digit}{}", &line[..place], &line[place + 1..]).into()
+        },
+    );
+    assert!(refused >= MUTATIONS * 8 / 10, "{refused}");
+}
+
+#[test]
+fn indices() {
+    let refused = kind(is_line, |line, random| {
+        let line = line.as_str().unwrap();
+        let other = [
+            "t1",
+            "t2",
+            "t3",
+            "t9",
+            "t999",
+            "x1",
+            "x2",
+            "x99",
+            "q[0]",
+            "q[2]",
+            "q[7]",
+            "qd[0]",
+            "qd[2]",
+            "s1",
+            "s2",
+            "s3",
+            "c3",
+            "s1p2",
+            "t0",
+            "t18446744073709551616",
+        ];
+        other_word(line, random, &other).into()
+    });
+    assert!(refused >= MUTATIONS * 8 / 10, "{refused}");
+}
+
+#[test]
+fn names() {
+    let refused = kind(
+        |path, value| {
+            let line = is_line(path, value) || path == "/text";
+            value.is_string() && !line
+        },
+        |_, random| {
+            let words = [
+                "", "gravity", "coriolis", "inertia", "f32", "f64", "range", "actuator", "1", "2",
+                "3", "pick", "r2", "q", "qd", "trust me", "q * q", "x1",
+            ];
+            words[random.below(words.len())].into()
+        },
+    );
+    assert!(refused >= MUTATIONS / 2, "{refused}");
+}
+
+#[test]
+fn numbers() {
+    let refused = kind(
+        |path, value| value.is_number() && path != "/certificate",
+        |number, random| {
+            let x = number.as_f64().unwrap();
+            let changed = [
+                0.0,
+                -x,
+                x * 0.5,
+                x * 2.0,
+                x.next_up(),
+                x.next_down(),
+                1e300,
+                x * (1.0 - 1e-9),
+                -0.0,
+                1.0,
+            ];
+            changed[random.below(changed.len())].into()
+        },
+    );
+    assert!(refused >= MUTATIONS / 2, "{refused}");
+}
+
+/// The robot file is changed and the certificate is not.
+#[test]
+fn scenes() {
+    let honest = honest();
+    let texts: Vec<String> = honest.iter().map(Certificate::to_json).collect();
+    let mut random = Random::new(0x5ce2e);
+    let digits: Vec<usize> = ROBOT
+        .char_indices()
+        .filter(|(_, c)| c.is_ascii_digit())
+        .map(|(at, _)| at)
+        .collect();
+    let (mut tried, mut refused) = (0, 0);
+    while tried < MUTATIONS {
+        let at = digits[random.below(digits.len())];
+        let digit = random.below(10).to_string();
+        let changed = format!("{}{digit}{}", &ROBOT[..at], &ROBOT[at + 1..]);
+        let Some(robot) = reading(&changed).filter(|_| changed != ROBOT) else {
+            continue;
+        };
+        if Setting::new(&robot.robot, &robot.scenes[0]).is_err() {
+            continue;
+        }
+        refused += judge(std::iter::once(texts[tried % 2].clone()), &robot);
+        tried += 1;
+    }
+    assert!(refused >= MUTATIONS * 9 / 10, "{refused}");
+}
+
+/// What the command does with a plan: it generates from it, and checks the
+/// certificates.
+#[test]
+fn plans() {
+    let (robot, generated) = generated(SinCos::Libm);
+    let setting = Setting::new(&robot.robot, &robot.scenes[0]).unwrap();
+    let plan = plan(&robot, &generated);
+    let lines: Vec<&str> = plan.lines().collect();
+    let mut random = Random::new(0x91a2);
+    let words = [
+        "t1", "t2", "t7", "q[0]", "qd[1]", "s1", "c2", "s3", "#0", "#1/2", "+", "-", "*", "~t1",
+        "edit", "next", "bound", "1e-9", "0", "return", "f32", "gravity", "1,2,3", "q",
+    ];
+    let (mut refused, mut kept) = (0, 0);
+    for _ in 0..MUTATIONS {
+        let mut changed: Vec<String> = lines.iter().map(|&line| line.into()).collect();
+        let at = random.below(changed.len());
+        changed[at] = other_word(&changed[at], &mut random, &words);
+        let Ok(plan) = Plan::parse(&changed.join("\n")) else {
+            refused += 1;
+            continue;
+        };
+        let mut request = request(&robot, SinCos::Libm);
+        request.plan = Some(plan);
+        match generate(&robot.robot, &request) {
+            Err(_) => refused += 1,
+            Ok(generated) => {
+                let claim = certificate(&generated);
+                match claim.check_in(&setting) {
+                    Err(_) => refused += 1,
+                    Ok(_) => {
+                        assert!(is_true(claim, &setting), "{}", changed.join("\n"));
+                        kept += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(refused + kept, MUTATIONS);
+    assert!(refused >= MUTATIONS / 3, "{refused}");
+}
+
+fn plan(robot: &Reading, generated: &Generated) -> String {
+    let function = &generated.functions[0];
+    let claim = certificate(generated);
+    let exact = &claim.stages[0].program;
+    Plan {
+        robot: robot.robot.name.clone(),
+        input: input_hash(&robot.robot),
+        entries: vec![Entry {
+            start: Request::default().start,
+            scalar: claim.scalar,
+            source: function.source,
+            stages: Vec::new(),
+            scene: claim.scene.clone(),
+            program: exact.clone(),
+            edited: Some(Edited {
+                stages: claim.stages.clone(),
+                program: claim.emitted.clone(),
+                bounds: claim.bounds.clone(),
+                lambda_min: claim.lambda_min,
+            }),
+        }],
+    }
+    .write()
+}

@@ -1,0 +1,110 @@
+//! What every bound takes for granted of libm: sine and cosine are within one
+//! ulp, here of the version that is locked. Samples, not a proof; hard cases
+//! among them.
+
+use dalembert_codegen::random::Random;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+/// The version that the bounds were tested with: whoever takes another one
+/// runs this test with it, and writes it down here and in the README.
+const TESTED: &str = "0.2.16";
+
+#[test]
+fn the_locked_version_is_the_tested_one() {
+    let lock = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock");
+    let lock = std::fs::read_to_string(lock).unwrap();
+    let locked = lock.split_once("name = \"libm\"\nversion = \"").unwrap().1;
+    assert!(locked.starts_with(&format!("{TESTED}\"")));
+}
+
+/// The distance between neighbours where the true value is.
+fn ulp(x: f64) -> f64 {
+    x.abs().next_up() - x.abs()
+}
+
+/// The error of a result in ulps of the true value.
+fn ulps(found: f64, exact: &Big) -> f64 {
+    let error = Big::from_f64(found).unwrap().sub(exact).abs();
+    error.to_f64() / ulp(exact.to_f64())
+}
+
+/// The worst of sine, cosine and both at once.
+fn worst(x: f64) -> f64 {
+    let (sin, cos) = Big::from_f64(x).unwrap().sin_cos();
+    let both = libm::sincos(x);
+    let sines = ulps(libm::sin(x), &sin).max(ulps(both.0, &sin));
+    let cosines = ulps(libm::cos(x), &cos).max(ulps(both.1, &cos));
+    sines.max(cosines)
+}
+
+fn is_within_an_ulp(what: &str, points: impl Iterator<Item = f64>) {
+    let mut most = (0.0, 0.0);
+    for x in points {
+        let found = worst(x);
+        assert!(found <= 1.0, "{what}: {found} ulps at {x:e}");
+        if found > most.0 {
+            most = (found, x);
+        }
+    }
+    println!("{what}: {:.4} ulps at {:e}", most.0, most.1);
+}
+
+#[test]
+fn doubles_anywhere() {
+    let mut random = Random::new(0x11b);
+    let turns = |random: &mut Random, most: f64| (2.0 * random.unit() - 1.0) * most;
+    is_within_an_ulp("a turn", (0..6000).map(|_| turns(&mut random, 3.15)));
+    is_within_an_ulp("many turns", (0..3000).map(|_| turns(&mut random, 1e6)));
+    let any = |_| 10f64.powf(616.0 * random.unit() - 308.0);
+    is_within_an_ulp("any size", (0..3000).map(any));
+}
+
+/// Multiples of π/4 and their neighbours: where the reduced argument is
+/// small, or changes its interval; and the double nearest to one of all.
+#[test]
+fn doubles_where_it_is_hard() {
+    let quarters = (1..2000).flat_map(|k| {
+        let x = f64::from(k) * std::f64::consts::FRAC_PI_4;
+        [x.next_down(), x, x.next_up()]
+    });
+    is_within_an_ulp("quarters", quarters);
+    let nearest = 6_381_956_970_095_103.0 * 2f64.powi(797);
+    let hard = [
+        nearest,
+        -nearest,
+        f64::MAX,
+        f64::MIN_POSITIVE,
+        5e-324,
+        0.0,
+        1e-9,
+        2f64.powi(-27),
+    ];
+    is_within_an_ulp("hard cases", hard.into_iter());
+}
+
+/// Every so many floats of single precision, against double precision, which
+/// is exact enough for that.
+#[test]
+fn singles_everywhere() {
+    let mut most = 0f64;
+    for bits in (0..f32::INFINITY.to_bits()).step_by(1009) {
+        let x = f32::from_bits(bits);
+        let (sin, cos) = libm::sincos(f64::from(x));
+        let both = libm::sincosf(x);
+        let pairs = [
+            (libm::sinf(x), sin),
+            (both.0, sin),
+            (libm::cosf(x), cos),
+            (both.1, cos),
+        ];
+        for (found, exact) in pairs {
+            let near = (exact as f32).abs();
+            let ulp = f64::from(near.next_up()) - f64::from(near);
+            let error = (f64::from(found) - exact).abs() / ulp;
+            assert!(error <= 1.0, "{error} ulps at {x:e}");
+            most = most.max(error);
+        }
+    }
+    println!("singles: {most:.4} ulps");
+}

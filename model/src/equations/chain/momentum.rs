@@ -1,0 +1,133 @@
+//! Energies and momenta of a chain: what a link's motion is, not what changes
+//! it.
+
+use alloc::vec::Vec;
+
+use super::{Body, Chain, ChainLink, Displacement};
+use crate::equations::matrix::{
+    Vector, cross, dot, halved, minus, negative, plus, scaled, sum, tensor_times, times,
+    zero_vector,
+};
+use crate::robot::{Inertia, JointKind};
+use crate::scalar::Scalar;
+
+/// The velocity of one link, in its own axes.
+#[derive(Clone, Debug)]
+struct Velocity<S> {
+    /// ω
+    omega: Vector<S>,
+    /// v of the origin.
+    origin: Vector<S>,
+}
+
+impl<S: Scalar> Velocity<S> {
+    fn rest() -> Self {
+        Velocity {
+            omega: zero_vector(),
+            origin: zero_vector(),
+        }
+    }
+
+    /// The velocity of the next link.
+    fn next(&self, link: &ChainLink<S>, at: &Displacement<S>, rate: &S) -> Self {
+        let carried = sum(&self.origin, &cross(&self.omega, &link.lever(at)));
+        let own = scaled(rate, &link.axis);
+        let (omega, origin) = (link.inward(at, &self.omega), link.inward(at, &carried));
+        match link.kind {
+            JointKind::Revolute => Velocity {
+                omega: sum(&omega, &own),
+                origin,
+            },
+            JointKind::Prismatic => Velocity {
+                omega,
+                origin: sum(&origin, &own),
+            },
+        }
+    }
+}
+
+/// I = tr(Σ)·1 − Σ
+fn tensor<S: Scalar>(body: &Body<S>) -> Inertia<S> {
+    let sigma = &body.second;
+    Inertia {
+        xx: plus(&sigma.yy, &sigma.zz),
+        yy: plus(&sigma.xx, &sigma.zz),
+        zz: plus(&sigma.xx, &sigma.yy),
+        xy: negative(&sigma.xy),
+        yz: negative(&sigma.yz),
+        xz: negative(&sigma.xz),
+    }
+}
+
+impl<S: Scalar> Chain<S> {
+    fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Velocity<S>> {
+        let rates = self.rates(qd);
+        let mut before = Velocity::rest();
+        let mut velocities = Vec::with_capacity(self.links.len());
+        for ((link, at), rate) in self.links.iter().zip(at).zip(&rates) {
+            before = before.next(link, at, rate);
+            velocities.push(before.clone());
+        }
+        velocities
+    }
+
+    /// T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the
+    /// rotors have.
+    pub fn kinetic_energy(&self, at: &[Displacement<S>], qd: &[S]) -> S {
+        let velocities = self.velocities(at, qd);
+        let mut energy = S::zero();
+        for ((link, velocity), rate) in self.links.iter().zip(&velocities).zip(qd) {
+            let Velocity { omega, origin } = velocity;
+            let body = &link.body;
+            // Halves go into the constants.
+            let half = tensor(body).map(halved);
+            let spin = tensor_times(&half, omega);
+            let slide = sum(
+                &scaled(&halved(&body.mass), origin),
+                &cross(omega, &body.first),
+            );
+            energy = plus(&energy, &plus(&dot(omega, &spin), &dot(origin, &slide)));
+            let rotor = times(&halved(&link.armature), rate);
+            energy = plus(&energy, &times(&rotor, rate));
+        }
+        energy
+    }
+
+    /// D q̇ and ∂T/∂q, each of length n.
+    ///
+    /// Turning all that follows joint k by itself leaves it as it is but for
+    /// what arrives from before: its velocity changes by V × Δ_k, V being that
+    /// of the joint's frame, and T by the composite momentum along that.
+    pub fn momentum(&self, at: &[Displacement<S>], qd: &[S]) -> [Vec<S>; 2] {
+        let velocities = self.velocities(at, qd);
+        let n = self.links.len();
+        let (mut momenta, mut slopes) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        let (mut push, mut spin) = (zero_vector(), zero_vector());
+        for (i, link) in self.links.iter().enumerate().rev() {
+            let Velocity { omega, origin } = &velocities[i];
+            let body = &link.body;
+            push = sum(
+                &push,
+                &sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
+            );
+            let own = tensor_times(&tensor(body), omega);
+            spin = sum(&spin, &sum(&own, &cross(&body.first, origin)));
+            let load = self.load(i, &push, &spin);
+            momenta.push(plus(&load, &times(&link.armature, &qd[i])));
+            slopes.push(match link.kind {
+                // (a × z)·b = a_y b_x − a_x b_y
+                JointKind::Revolute => plus(
+                    &minus(&times(&omega[1], &spin[0]), &times(&omega[0], &spin[1])),
+                    &minus(&times(&origin[1], &push[0]), &times(&origin[0], &push[1])),
+                ),
+                JointKind::Prismatic => {
+                    times(&dot(&cross(omega, &link.axis), &push), &self.per_unit)
+                }
+            });
+            (push, spin) = self.to_previous(i, &at[i], &push, &spin);
+        }
+        momenta.reverse();
+        slopes.reverse();
+        [momenta, slopes]
+    }
+}

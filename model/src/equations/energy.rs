@@ -1,0 +1,169 @@
+//! Energies, momenta and the Coriolis matrix, from every formulation.
+
+use alloc::vec::Vec;
+
+use super::dalembert::{Dalembert, Part};
+use super::matrix::{
+    Columns, Vector, dot, halved, minus, negative, plus, scaled, sum, times, total, zero_vector,
+    zeros,
+};
+use super::{Arm, DhVariables, Formulation, from_torques};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+use crate::scalar::dual::Dual;
+
+impl Formulation {
+    /// p = D q̇, length n. A recursion gives it as the torques that would
+    /// accelerate the arm at rest, weightless, as fast as it moves.
+    pub fn momentum<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> Vec<S> {
+        match self {
+            Self::LagrangeEuler | Self::Dalembert => {
+                let d = self.inertia(arm, at);
+                let row = |row: &Vec<S>| total(row.iter().zip(qd).map(|(d, qd)| times(d, qd)));
+                d.iter().map(row).collect()
+            }
+            _ => {
+                let arm = from_torques::weightless(arm);
+                self.inverse_dynamics(&arm, at, &zeros(qd.len()), qd)
+            }
+        }
+    }
+
+    /// T = ½ q̇ᵀ D q̇, the rotors' part included.
+    pub fn kinetic_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> S {
+        let p = self.momentum(arm, at, qd);
+        halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
+    }
+
+    /// Cᵀ q̇ = ∂T/∂q, length n: Lagrange–Euler from the Christoffel symbols;
+    /// elsewhere Ḋ q̇ − h, where Ḋ q̇ is the rate of the momentum of a motion
+    /// that keeps its velocities.
+    pub fn momentum_slope<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+    ) -> Vec<S> {
+        if self == Self::LagrangeEuler {
+            let c = self.coriolis_matrix(arm, at, qd);
+            let column = |k: usize| total(c.iter().zip(qd).map(|(row, qd)| times(&row[k], qd)));
+            return (0..qd.len()).map(column).collect();
+        }
+        let h = self.velocity_terms(arm, at, qd);
+        let (arm_moving, at_moving) = moving(arm, at, qd);
+        let rates: Vec<Dual<S>> = qd.iter().cloned().map(Dual::constant).collect();
+        let p = self.momentum(&arm_moving, &at_moving, &rates);
+        p.iter().zip(&h).map(|(p, h)| minus(&p.rate, h)).collect()
+    }
+
+    /// C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
+    pub fn coriolis_matrix<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+    ) -> Vec<Vec<S>> {
+        contracted(&self.christoffel(arm, at), qd)
+    }
+
+    /// D^rot or D^tran, n×n, the armature in neither.
+    pub fn inertia_part<S: Scalar>(
+        self,
+        part: Part,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+    ) -> Vec<Vec<S>> {
+        if self != Self::Dalembert {
+            return self.inertia(&part.of(arm), at);
+        }
+        let parts = Dalembert::new(arm, at).inertia_parts();
+        match part {
+            Part::Rotation => parts.rotation,
+            Part::Translation => parts.translation,
+        }
+    }
+
+    /// h^rot or h^tran, length n.
+    pub fn velocity_part<S: Scalar>(
+        self,
+        part: Part,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+    ) -> Vec<S> {
+        if self != Self::Dalembert {
+            return self.velocity_terms(&part.of(arm), at, qd);
+        }
+        let parts = Dalembert::new(arm, at).velocity_parts(qd);
+        match part {
+            Part::Rotation => parts.rotation,
+            Part::Translation => parts.translation,
+        }
+    }
+
+    /// U = −Σ_j m_j g·r_j, zero where all mass is at the origin of the base:
+    /// Lagrange–Euler from the pose of each link; elsewhere from first moments,
+    /// gathered from the hand inward.
+    pub fn potential_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> S {
+        let moment = match self {
+            Self::LagrangeEuler => first_moment_by_poses(arm, at),
+            _ => first_moment(arm, at),
+        };
+        negative(&dot(&arm.gravity, &moment))
+    }
+}
+
+/// [i][k] = Σ_m h_ikm q̇_m
+pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
+    let entry = |row: &Vec<S>| total(row.iter().zip(qd).map(|(h, qd)| times(h, qd)));
+    h.iter().map(|h| h.iter().map(entry).collect()).collect()
+}
+
+/// The arm and its position as they change at these velocities.
+pub(super) fn moving<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+) -> (Arm<Dual<S>>, Vec<DhVariables<Dual<S>>>) {
+    let links = arm.links.iter().zip(at).zip(qd);
+    let at = links.map(|((link, at), rate)| match link.kind {
+        JointKind::Revolute => DhVariables {
+            theta: at.theta.clone().turning(rate),
+            d: Dual::constant(at.d.clone()),
+        },
+        JointKind::Prismatic => DhVariables {
+            theta: at.theta.map(|x| Dual::constant(x.clone())),
+            d: Dual {
+                value: at.d.clone(),
+                rate: rate.clone(),
+            },
+        },
+    });
+    (arm.map(|x| Dual::constant(x.clone())), at.collect())
+}
+
+/// Σ_j m_j r_j from the base's origin, link by link.
+fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
+    let mut pose = Columns::identity();
+    let mut moment = zero_vector();
+    for (link, at) in arm.links.iter().zip(at) {
+        pose = link.append(arm.convention, at, &pose);
+        let centre = pose.apply(&link.com, &S::one());
+        moment = sum(&moment, &scaled(&link.mass, &centre));
+    }
+    moment
+}
+
+/// The same from the hand inward: what follows a joint is one body.
+fn first_moment<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
+    let mut moment = zero_vector();
+    let mut mass = S::zero();
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        moment = sum(&moment, &scaled(&link.mass, &link.com));
+        mass = plus(&mass, &link.mass);
+        let step = link.append(arm.convention, at, &Columns::identity());
+        let turned = link.to_previous(arm.convention, at, &moment);
+        moment = sum(&turned, &scaled(&mass, &step.origin));
+    }
+    moment
+}

@@ -1,0 +1,199 @@
+//! Where things are, how they move with the joints, and what the joints carry.
+//!
+//! Lagrange–Euler takes rates of the poses themselves, by dual numbers; the
+//! other formulations use axes and levers. Nothing is shared but eq. 2.1.
+
+use alloc::vec::Vec;
+
+use super::energy::moving;
+use super::lagrange_euler::PseudoInertia;
+use super::matrix::{
+    Columns, Vector, cross, difference, minus, negative, plus, scaled, sum, times, total,
+    zero_vector, zeros,
+};
+use super::newton_euler::{Wrench, table1};
+use super::{Arm, DhVariables, Formulation, from_torques};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+use crate::scalar::dual::Dual;
+
+/// ⁰A_i of every frame i = 1 … n.
+pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+    let mut poses: Vec<Columns<S>> = Vec::with_capacity(at.len());
+    for (link, at) in arm.links.iter().zip(at) {
+        let before = poses.last().cloned().unwrap_or_else(Columns::identity);
+        poses.push(link.append(arm.convention, at, &before));
+    }
+    poses
+}
+
+impl Formulation {
+    /// ⁰A_n: Lagrange–Euler multiplies from the base outward, the others from
+    /// the hand inward.
+    pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+        if self == Self::LagrangeEuler {
+            return poses(arm, at).pop().unwrap_or_else(Columns::identity);
+        }
+        let mut pose = Columns::identity();
+        for (link, at) in arm.links.iter().zip(at).rev() {
+            let step = link.append(arm.convention, at, &Columns::identity());
+            let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
+            pose = Columns {
+                axes: pose.axes.each_ref().map(turn),
+                origin: sum(&turn(&pose.origin), &step.origin),
+            };
+        }
+        pose
+    }
+
+    /// J, 6×n: row by row the linear and the angular velocity of frame n for
+    /// each unit rate, in base axes.
+    pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+        let n = at.len();
+        let column = |j: usize| match self {
+            Self::LagrangeEuler => {
+                let mut rates = zeros(n);
+                rates[j] = S::one();
+                let (arm, at) = moving(arm, at, &rates);
+                let hand = poses(&arm, &at).pop().unwrap_or_else(Columns::identity);
+                let linear = hand.origin.each_ref().map(|x| x.rate.clone());
+                [linear, angular(&hand)]
+            }
+            _ => geometric(arm, &poses(arm, at), j),
+        };
+        let columns: Vec<[Vector<S>; 2]> = (0..n).map(column).collect();
+        let row = |r: usize| columns.iter().map(move |c| c[r / 3][r % 3].clone());
+        (0..6).map(|r| row(r).collect()).collect()
+    }
+
+    /// J̇ q̇, linear over angular: the acceleration of frame n of a motion that
+    /// keeps its velocities.
+    pub fn jacobian_rate<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+    ) -> [Vector<S>; 2] {
+        if self != Self::LagrangeEuler {
+            let arm = from_torques::weightless(arm);
+            return table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()));
+        }
+        let rest: Vec<S> = zeros(qd.len());
+        let poses = accelerated(arm, at, qd, &rest);
+        let hand = poses.last().cloned().unwrap_or_else(Columns::identity);
+        let linear = hand.origin.each_ref().map(|x| x.rate.rate.clone());
+        [linear, angular(&hand).map(|omega| omega.rate)]
+    }
+
+    /// What link i−1 exerts on link i, gravity included, in base axes; the
+    /// moment about the origin of frame i−1, or of frame i in modified DH.
+    pub fn wrenches<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        qdd: &[S],
+    ) -> Vec<Wrench<S>> {
+        if self != Self::LagrangeEuler {
+            return table1::wrenches(arm, at, qd, qdd);
+        }
+        let moving = accelerated(arm, at, qd, qdd);
+        let still = poses(arm, at);
+        let n = at.len();
+        let mut wrenches = Vec::with_capacity(n);
+        let (mut force, mut moment) = (zero_vector(), zero_vector());
+        for i in (0..n).rev() {
+            let (own, about_base) = inertial(arm, i, &still[i], &moving[i]);
+            force = sum(&force, &own);
+            moment = sum(&moment, &about_base);
+            let point = match (arm.convention, i) {
+                (Convention::Modified, _) => still[i].origin.clone(),
+                (Convention::Standard, 0) => zero_vector(),
+                (Convention::Standard, _) => still[i - 1].origin.clone(),
+            };
+            wrenches.push(Wrench {
+                moment: difference(&moment, &cross(&point, &force)),
+                force: force.clone(),
+            });
+        }
+        wrenches.reverse();
+        wrenches
+    }
+}
+
+/// The poses of a motion with these velocities and accelerations, with their
+/// first and second rates.
+fn accelerated<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+) -> Vec<Columns<Dual<Dual<S>>>> {
+    let (arm, at) = moving(arm, at, qd);
+    let rates = qd.iter().zip(qdd);
+    let rates = rates.map(|(value, rate)| Dual {
+        value: value.clone(),
+        rate: rate.clone(),
+    });
+    let (arm, at) = moving(&arm, &at, &rates.collect::<Vec<_>>());
+    poses(&arm, &at)
+}
+
+/// ω of a frame: Ṙ Rᵀ is skew.
+fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
+    let entry = |row: usize, column: usize| {
+        total(
+            frame
+                .axes
+                .iter()
+                .map(|axis| times(&axis[row].rate, &axis[column].value)),
+        )
+    };
+    [entry(2, 1), entry(0, 2), entry(1, 0)]
+}
+
+/// Linear and angular velocity of the last frame for a unit rate of joint j.
+fn geometric<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
+    let frame = match arm.convention {
+        Convention::Standard if j == 0 => Columns::identity(),
+        Convention::Standard => poses[j - 1].clone(),
+        Convention::Modified => poses[j].clone(),
+    };
+    let axis = frame.axes[2].clone();
+    match arm.links[j].kind {
+        JointKind::Prismatic => [axis, zero_vector()],
+        JointKind::Revolute => {
+            let hand = &poses[poses.len() - 1].origin;
+            let lever = difference(hand, &frame.origin);
+            [cross(&axis, &lever), axis]
+        }
+    }
+}
+
+/// ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
+/// column is the force.
+fn inertial<S: Scalar>(
+    arm: &Arm<S>,
+    i: usize,
+    pose: &Columns<S>,
+    moving: &Columns<Dual<Dual<S>>>,
+) -> (Vector<S>, Vector<S>) {
+    let body = PseudoInertia::of(&arm.links[i]);
+    let second = |v: &Vector<Dual<Dual<S>>>| v.each_ref().map(|x| x.rate.rate.clone());
+    let accelerations = body.after(&Columns {
+        axes: moving.axes.each_ref().map(second),
+        origin: second(&moving.origin),
+    });
+    let mass = &arm.links[i].mass;
+    let first = scaled(mass, &pose.apply(&arm.links[i].com, &S::one()));
+    let force = difference(&accelerations.origin, &scaled(mass, &arm.gravity));
+    // ∫ r̈_a r_b dm
+    let product = |a: usize, b: usize| {
+        let axes = accelerations.axes.iter().zip(&pose.axes);
+        let turned = total(axes.map(|(x, y)| times(&x[a], &y[b])));
+        plus(&turned, &times(&accelerations.origin[a], &pose.origin[b]))
+    };
+    let moment = [(2, 1), (0, 2), (1, 0)].map(|(a, b)| minus(&product(a, b), &product(b, a)));
+    let weight = cross(&first, &arm.gravity).map(|x| negative(&x));
+    (force, sum(&moment, &weight))
+}

@@ -1,0 +1,74 @@
+//! h, the Coriolis and centripetal load (eqs. 2.14, 4.3, 4.4).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, load};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::matrix::{zero_vector, zeros};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "coriolis",
+    summary: "Coriolis and centripetal load h(q, q̇), damping not included.",
+    results: &[Quantity::Coriolis],
+    structure: None,
+    by_default: true,
+};
+
+/// h_i
+pub(super) struct Coriolis;
+
+impl Formula for Coriolis {
+    const FACTS: Facts = Facts {
+        field: "h",
+        letter: "h",
+        symbol: "h",
+        summary: "Coriolis and centripetal load h.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        given: Some("h"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: true,
+            travel: false,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.velocity_terms(at.arm, at.at, &at.motion.qd)
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let (chain, form) = (at.chain, at.form);
+        let rest = zeros(chain.links.len());
+        if form.composite_h {
+            let still = zero_vector();
+            let torques = at
+                .composite
+                .torques(&still, &at.motion.qd, &rest, form.spin);
+            return Some(torques);
+        }
+        let mut still = chain.clone();
+        still.gravity = zero_vector();
+        for link in &mut still.links {
+            link.viscous = S::zero();
+        }
+        Some(still.inverse_dynamics(at.at, &at.motion.qd, &rest, form.spin, form.couple))
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(runtime.coriolis(&at.q, &at.qd)?.iter().copied().collect())
+    }
+}

@@ -1,0 +1,68 @@
+//! C, the Coriolis matrix of the Christoffel symbols.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, turns};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::energy::contracted;
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "coriolis_matrix",
+    summary: "Coriolis matrix C(q, q̇) of the Christoffel symbols: C q̇ = h, and Ḋ - 2C is skew.",
+    results: &[Quantity::CoriolisMatrix],
+    structure: None,
+    by_default: false,
+};
+
+/// C_ik = Σ_m h_ikm q̇_m
+pub(super) struct CoriolisMatrix;
+
+impl Formula for CoriolisMatrix {
+    const FACTS: Facts = Facts {
+        field: "c_matrix",
+        letter: "C",
+        symbol: "C",
+        summary: "Coriolis matrix C.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::MATRIX,
+        unit: |at| match turns(at) {
+            0 => "N·s/m",
+            1 => "N·s",
+            _ => "N·m·s",
+        },
+        scale: ErrorScale::None,
+        given: None,
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: false,
+        }),
+        starts_from_recursion: false,
+        by_differences: true,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let c = at.formulation.coriolis_matrix(at.arm, at.at, &at.motion.qd);
+        c.into_iter().flatten().collect()
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let c = contracted(&at.composite.christoffel(), &at.motion.qd);
+        Some(c.into_iter().flatten().collect())
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        // The entries of a matrix come column by column.
+        let c = runtime.coriolis_matrix(&at.q, &at.qd)?;
+        Ok(c.transpose().iter().copied().collect())
+    }
+}

@@ -1,0 +1,55 @@
+//! ⁰A_n, the pose of the hand (eq. 2.1).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "forward_kinematics",
+    summary: "Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.",
+    results: &[Quantity::Pose],
+    structure: None,
+    by_default: false,
+};
+
+/// [R | p]
+pub(super) struct Pose;
+
+impl Formula for Pose {
+    const FACTS: Facts = Facts {
+        field: "pose",
+        letter: "A",
+        symbol: "A",
+        summary: "Pose [R | p] of the last frame.",
+        arguments: &[Argument::Position],
+        shape: Shape(&[Axis::Fixed(3), Axis::Fixed(4)]),
+        unit: |at| match at {
+            [.., Index::Fixed(3)] => "m",
+            _ => "1",
+        },
+        scale: ErrorScale::None,
+        given: Some("pose"),
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: true,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.hand(at.arm, at.at).rows()
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(runtime.hand(&at.q)?.rows())
+    }
+}

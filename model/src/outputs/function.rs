@@ -1,0 +1,104 @@
+//! What a generated function is.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::{Argument, Function, Motion, Quantity, Written};
+use crate::equations::chain::Form;
+use crate::equations::{Arm, Formulation};
+use crate::scalar::Scalar;
+
+/// What an output's file says of its function.
+pub(super) struct Definition {
+    /// Its name in generated code, on the command line and in the macro.
+    pub name: &'static str,
+    /// A line for its documentation.
+    pub summary: &'static str,
+    /// What it returns.
+    pub results: &'static [Quantity],
+    /// The struct it returns, if it returns several quantities.
+    pub structure: Option<&'static str>,
+    /// Whether it is generated where nobody says which functions are wanted.
+    pub by_default: bool,
+}
+
+impl Function {
+    /// The functions that are generated where nobody says which are wanted.
+    pub fn by_default() -> Vec<Function> {
+        let wanted = |function: &Function| function.definition().by_default;
+        Function::ALL.into_iter().filter(wanted).collect()
+    }
+
+    /// Its name in generated code, on the command line and in the macro.
+    pub fn name(self) -> &'static str {
+        self.definition().name
+    }
+
+    /// The function of a name.
+    pub fn from_name(name: &str) -> Option<Function> {
+        Function::ALL.into_iter().find(|f| f.name() == name)
+    }
+
+    /// One line for its documentation.
+    pub fn summary(self) -> &'static str {
+        self.definition().summary
+    }
+
+    /// What it reads: all that its results depend on.
+    pub fn arguments(self) -> Vec<Argument> {
+        let read = |argument: &Argument| {
+            let mut results = self.quantities().iter();
+            results.any(|quantity| quantity.arguments().contains(argument))
+        };
+        Argument::ALL.into_iter().filter(read).collect()
+    }
+
+    /// What it returns.
+    pub fn quantities(self) -> &'static [Quantity] {
+        self.definition().results
+    }
+
+    /// The struct it returns, if it returns several quantities.
+    pub fn structure(self) -> Option<&'static str> {
+        self.definition().structure
+    }
+
+    /// How many numbers it returns for n joints.
+    pub fn outputs(self, n: usize) -> usize {
+        self.quantities().iter().map(|q| q.len(n)).sum()
+    }
+
+    /// Its results by one formulation, flat, in the order of its quantities;
+    /// each array row by row.
+    pub fn evaluate<S: Scalar>(
+        self,
+        formulation: Formulation,
+        arm: &Arm<S>,
+        motion: &Motion<S>,
+    ) -> Vec<S> {
+        let written = Written {
+            formulation,
+            arm,
+            at: &arm.at(&motion.q),
+            motion,
+        };
+        let results = self.quantities().iter();
+        results
+            .flat_map(|quantity| quantity.written(&written))
+            .collect()
+    }
+
+    /// The associations of the chain formulas that differ for it, the usually
+    /// cheapest first.
+    pub fn forms(self) -> Vec<Form> {
+        let quantities = || self.quantities().iter();
+        let choices = || quantities().filter_map(|q| q.facts().choices);
+        Form::all(choices().any(|c| c.recursion), choices().any(|c| c.travel))
+    }
+}
+
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,59 @@
+//! c, the gravity load (eqs. 2.15, 4.5).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, load};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "gravity",
+    summary: "Gravity load c(q): the torques that hold the arm still.",
+    results: &[Quantity::Gravity],
+    structure: None,
+    by_default: true,
+};
+
+/// c_i
+pub(super) struct Gravity;
+
+impl Formula for Gravity {
+    const FACTS: Facts = Facts {
+        field: "c",
+        letter: "c",
+        symbol: "c",
+        summary: "Gravity load c.",
+        arguments: &[Argument::Position],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        given: Some("c"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: true,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.gravity(at.arm, at.at)
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(at.composite.gravity(at.form.travel))
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(runtime.gravity(&at.q)?.iter().copied().collect())
+    }
+}

@@ -1,0 +1,62 @@
+//! D, the inertia matrix (eqs. 2.13, 4.2).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, kilograms, turns};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "inertia",
+    summary: "Inertia matrix D(q), symmetric; armature is on its diagonal.",
+    results: &[Quantity::Inertia],
+    structure: None,
+    by_default: true,
+};
+
+/// D_ik
+pub(super) struct Inertia;
+
+impl Formula for Inertia {
+    const FACTS: Facts = Facts {
+        field: "d",
+        letter: "D",
+        symbol: "D",
+        summary: "Inertia matrix D.",
+        arguments: &[Argument::Position],
+        shape: Shape::MATRIX,
+        unit: |at| kilograms(turns(at)),
+        scale: ErrorScale::Inertia,
+        given: Some("D"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: true,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: true,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let d = at.formulation.inertia(at.arm, at.at);
+        d.into_iter().flatten().collect()
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let d = at.composite.inertia(at.form.travel);
+        Some(d.into_iter().flatten().collect())
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        // Symmetric: its columns are its rows.
+        Ok(runtime.inertia(&at.q)?.iter().copied().collect())
+    }
+}

@@ -1,0 +1,85 @@
+//! τ = D q̈ + h + c + b∘q̇ (eq. 2.3).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, load};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::matrix::{plus, times};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "inverse_dynamics",
+    summary: "Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.",
+    results: &[Quantity::Torque],
+    structure: None,
+    by_default: true,
+};
+
+/// τ_i
+pub(super) struct Torque;
+
+impl Formula for Torque {
+    const FACTS: Facts = Facts {
+        field: "tau",
+        letter: "τ",
+        symbol: "τ",
+        summary: "Torques τ.",
+        arguments: &[
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+        ],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        given: Some("tau"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: true,
+            travel: false,
+        }),
+        starts_from_recursion: true,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        at.formulation
+            .inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd)
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let (chain, motion, form) = (at.chain, at.motion, at.form);
+        if !form.composite_h {
+            let (spin, couple) = (form.spin, form.couple);
+            return Some(chain.inverse_dynamics(at.at, &motion.qd, &motion.qdd, spin, couple));
+        }
+        let torques = at
+            .composite
+            .torques(&chain.gravity, &motion.qd, &motion.qdd, form.spin);
+        let links = chain.links.iter().zip(torques).enumerate();
+        let torques = links
+            .map(|(i, (link, torque))| {
+                let drive = plus(
+                    &times(&link.armature, &motion.qdd[i]),
+                    &times(&link.viscous, &motion.qd[i]),
+                );
+                plus(&torque, &drive)
+            })
+            .collect();
+        Some(torques)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let tau = runtime.inverse_dynamics(&at.q, &at.qd, &at.qdd)?;
+        Ok(tau.iter().copied().collect())
+    }
+}

@@ -1,0 +1,57 @@
+//! J, the Jacobian of the hand.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "jacobian",
+    summary: "Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.",
+    results: &[Quantity::Jacobian],
+    structure: None,
+    by_default: false,
+};
+
+/// J_rk
+pub(super) struct Jacobian;
+
+impl Formula for Jacobian {
+    const FACTS: Facts = Facts {
+        field: "jacobian",
+        letter: "J",
+        symbol: "J",
+        summary: "Jacobian J, linear over angular.",
+        arguments: &[Argument::Position],
+        shape: Shape(&[Axis::Fixed(6), Axis::Joints]),
+        unit: |at| match at {
+            [Index::Fixed(..3), Index::Turning] => "m",
+            [Index::Fixed(3..), Index::Sliding] => "1/m",
+            _ => "1",
+        },
+        scale: ErrorScale::None,
+        given: Some("jacobian"),
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: true,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let j = at.formulation.jacobian(at.arm, at.at);
+        j.into_iter().flatten().collect()
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(runtime.jacobian(&at.q)?.into_iter().flatten().collect())
+    }
+}

@@ -1,0 +1,57 @@
+//! J̇ q̇, what the hand is accelerated by without q̈.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "jacobian_rate",
+    summary: "J̇q̇, the acceleration of the last frame that its velocities alone give, linear over angular.",
+    results: &[Quantity::JacobianRate],
+    structure: None,
+    by_default: false,
+};
+
+/// (J̇ q̇)_r
+pub(super) struct JacobianRate;
+
+impl Formula for JacobianRate {
+    const FACTS: Facts = Facts {
+        field: "jacobian_rate",
+        letter: "a",
+        symbol: "J̇q̇",
+        summary: "J̇q̇, linear over angular.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape(&[Axis::Fixed(6)]),
+        unit: |at| match at {
+            [Index::Fixed(..3)] => "m/s²",
+            _ => "1/s²",
+        },
+        scale: ErrorScale::None,
+        given: Some("jacobian_rate_qd"),
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: true,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let rate = at.formulation.jacobian_rate(at.arm, at.at, &at.motion.qd);
+        rate.into_iter().flatten().collect()
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let rate = runtime.jacobian_rate(&at.q, &at.qd)?;
+        Ok(rate.into_iter().flatten().collect())
+    }
+}

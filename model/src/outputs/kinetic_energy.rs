@@ -1,0 +1,71 @@
+//! T = ½ q̇ᵀ D q̇, the kinetic energy.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::composite::Travel;
+use crate::equations::matrix::{halved, times, total};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "kinetic_energy",
+    summary: "Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.",
+    results: &[Quantity::KineticEnergy],
+    structure: None,
+    by_default: false,
+};
+
+/// T
+pub(super) struct KineticEnergy;
+
+impl Formula for KineticEnergy {
+    const FACTS: Facts = Facts {
+        field: "kinetic",
+        letter: "T",
+        symbol: "T",
+        summary: "Kinetic energy T.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::SCALAR,
+        unit: |_| "J",
+        scale: ErrorScale::None,
+        given: Some("kinetic"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: true,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let energy = at.formulation.kinetic_energy(at.arm, at.at, &at.motion.qd);
+        vec![energy]
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        // Link by link, or from the momenta.
+        let (chain, qd) = (at.chain, &at.motion.qd);
+        Some(vec![match at.form.travel {
+            Travel::Outward => chain.kinetic_energy(at.at, qd),
+            Travel::Inward => {
+                let [p, _] = chain.momentum(at.at, qd);
+                halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
+            }
+        }])
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(vec![runtime.kinetic_energy(&at.q, &at.qd)?])
+    }
+}

@@ -1,0 +1,62 @@
+//! ⁰A_i, the pose of every link (eq. 2.1).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use crate::equations::kinematics::poses;
+use crate::equations::matrix::Columns;
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "link_poses",
+    summary: "Poses [R | p] of every link's frame in base axes, n×3×4, lengths in metres.",
+    results: &[Quantity::LinkPoses],
+    structure: None,
+    by_default: false,
+};
+
+/// [R_i | p_i]
+pub(super) struct LinkPoses;
+
+impl Formula for LinkPoses {
+    const FACTS: Facts = Facts {
+        field: "poses",
+        letter: "A",
+        symbol: "A_i",
+        summary: "Poses [R | p] of the links' frames.",
+        arguments: &[Argument::Position],
+        shape: Shape(&[Axis::Joints, Axis::Fixed(3), Axis::Fixed(4)]),
+        unit: |at| match at {
+            [.., Index::Fixed(3)] => "m",
+            _ => "1",
+        },
+        scale: ErrorScale::None,
+        given: None,
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: true,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let poses = poses(at.arm, at.at);
+        poses.iter().flat_map(Columns::rows).collect()
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(runtime
+            .poses(&at.q)?
+            .iter()
+            .flat_map(Columns::rows)
+            .collect())
+    }
+}

@@ -1,0 +1,80 @@
+//! What can be asked about an arm: an output is one file.
+//!
+//! - `registry`: the macro that makes [`Function`] and [`Quantity`] of the list below
+//! - `function`: what a generated function is: its name, arguments and results
+//! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
+//! - `argument`: the joint vectors that functions read
+//! - `formula`: what a quantity's file says, and what its formulas are given
+//! - the others: an output each
+//!
+//! Readers of robot files and macros, scenes, traces, proofs, printing, reading
+//! back and the checks in floating point all ask here; none of them knows an
+//! output by name. To add one: write its file, and add its module and its line
+//! to the lists below.
+
+mod argument;
+mod formula;
+mod function;
+mod quantity;
+#[macro_use]
+mod registry;
+mod shape;
+
+mod coriolis;
+mod coriolis_matrix;
+mod dalembert_terms;
+mod dynamic_coefficients;
+mod forward_kinematics;
+mod gravity;
+mod inertia;
+mod inverse_dynamics;
+mod jacobian;
+mod jacobian_rate;
+mod kinetic_energy;
+mod link_poses;
+mod manipulator_equation;
+mod momentum;
+mod potential_energy;
+mod reaction_wrenches;
+
+pub use argument::Argument;
+pub use formula::{Motion, Regrouped, Written};
+pub use quantity::{ErrorScale, Index};
+pub use shape::{Axis, Shape};
+
+registry! {
+    /// τ(q, q̇, q̈): torques and forces, viscous damping included.
+    inverse_dynamics: InverseDynamics { Torque }
+    /// c(q): the gravity load.
+    gravity: Gravity { Gravity }
+    /// D(q): the inertia matrix.
+    inertia: Inertia { Inertia }
+    /// h(q, q̇): the Coriolis and centripetal load.
+    coriolis: Coriolis { Coriolis }
+    /// D, h and c in one function that shares their work.
+    manipulator_equation: ManipulatorEquation {}
+    /// D, every h_ikm and c in one function.
+    dynamic_coefficients: DynamicCoefficients { Christoffel }
+    /// T(q, q̇): the kinetic energy.
+    kinetic_energy: KineticEnergy { KineticEnergy }
+    /// U(q): the potential energy.
+    potential_energy: PotentialEnergy { PotentialEnergy }
+    /// D q̇ and Cᵀq̇.
+    momentum: Momentum { Momentum, MomentumSlope }
+    /// C(q, q̇): the Coriolis matrix.
+    coriolis_matrix: CoriolisMatrix { CoriolisMatrix }
+    /// What rotation and translation of the links contribute to D and h, and c.
+    dalembert_terms: DalembertTerms {
+        RotationInertia, TranslationInertia, RotationCoriolis, TranslationCoriolis
+    }
+    /// The pose of the hand.
+    forward_kinematics: ForwardKinematics { Pose }
+    /// The pose of every link.
+    link_poses: LinkPoses { LinkPoses }
+    /// J(q): the Jacobian of the hand.
+    jacobian: Jacobian { Jacobian }
+    /// J̇ q̇: the acceleration of the hand that velocities alone give.
+    jacobian_rate: JacobianRate { JacobianRate }
+    /// Force and moment at every joint.
+    reaction_wrenches: ReactionWrenches { Wrench }
+}

@@ -1,0 +1,107 @@
+//! p = D q̇ and ∂T/∂q = Cᵀq̇, what an observer of disturbances integrates:
+//! ṗ = τ + Cᵀq̇ − c − b∘q̇.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, load, turns};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "momentum",
+    summary: "Momentum p = D q̇ and its slope Cᵀq̇ = ∂T/∂q: ṗ = τ + Cᵀq̇ - c - b∘q̇.",
+    results: &[Quantity::Momentum, Quantity::MomentumSlope],
+    structure: Some("Momentum"),
+    by_default: false,
+};
+
+/// p_i
+pub(super) struct Momentum;
+
+impl Formula for Momentum {
+    const FACTS: Facts = Facts {
+        field: "p",
+        letter: "p",
+        symbol: "p",
+        summary: "Momentum p = D q̇.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::VECTOR,
+        unit: |at| match turns(at) {
+            0 => "kg·m/s",
+            _ => "kg·m²/s",
+        },
+        scale: ErrorScale::None,
+        given: None,
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: false,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.momentum(at.arm, at.at, &at.motion.qd)
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let [p, _] = at.chain.momentum(at.at, &at.motion.qd);
+        Some(p)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(runtime.momentum(&at.q, &at.qd)?.iter().copied().collect())
+    }
+}
+
+/// (Cᵀq̇)_i
+pub(super) struct MomentumSlope;
+
+impl Formula for MomentumSlope {
+    const FACTS: Facts = Facts {
+        field: "ct_qd",
+        letter: "s",
+        symbol: "Cᵀq̇",
+        summary: "Its slope Cᵀq̇ = ∂T/∂q.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::None,
+        given: None,
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: false,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.momentum_slope(at.arm, at.at, &at.motion.qd)
+    }
+
+    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let [_, slope] = at.chain.momentum(at.at, &at.motion.qd);
+        Some(slope)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let slope = runtime.momentum_slope(&at.q, &at.qd)?;
+        Ok(slope.iter().copied().collect())
+    }
+}

@@ -1,0 +1,53 @@
+//! U = −Σ m g·r, the potential energy.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Argument, ErrorScale, Quantity, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "potential_energy",
+    summary: "Potential energy U = -Σ m g·r in joules, r from the base's origin.",
+    results: &[Quantity::PotentialEnergy],
+    structure: None,
+    by_default: false,
+};
+
+/// U
+pub(super) struct PotentialEnergy;
+
+impl Formula for PotentialEnergy {
+    const FACTS: Facts = Facts {
+        field: "potential",
+        letter: "U",
+        symbol: "U",
+        summary: "Potential energy U.",
+        arguments: &[Argument::Position],
+        shape: Shape::SCALAR,
+        unit: |_| "J",
+        scale: ErrorScale::None,
+        given: Some("potential"),
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: true,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        vec![at.formulation.potential_energy(at.arm, at.at)]
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(vec![runtime.potential_energy(&at.q)?])
+    }
+}

@@ -1,0 +1,231 @@
+//! What a result is.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::{Argument, Axis, Quantity, Shape};
+use crate::robot::{JointKind, Robot};
+
+/// What given states have, from a result's entries and q̇.
+pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
+
+/// What a quantity's file says of it, but for its formulas.
+pub(super) struct Facts {
+    /// Its field in the structs that generated functions return.
+    pub field: &'static str,
+    /// Its letter in the equations and in the names of its entries.
+    pub letter: &'static str,
+    /// Its name where the letter by itself would be another quantity's.
+    pub symbol: &'static str,
+    /// A line of documentation for its field.
+    pub summary: &'static str,
+    /// What it depends on.
+    pub arguments: &'static [Argument],
+    /// How its numbers are arranged.
+    pub shape: Shape,
+    /// The unit of an entry, given its place along each axis.
+    pub unit: fn(&[Index]) -> &'static str,
+    /// What an error is held against where actuators are the measure.
+    pub scale: ErrorScale,
+    /// Its key in files of given states.
+    pub given: Option<&'static str>,
+    /// What given states have in its stead, and how that follows from its
+    /// entries and q̇.
+    pub given_as: Option<(Quantity, FromEntries)>,
+    /// What the chain formulas leave open; `None` if they do not give it.
+    pub choices: Option<Choices>,
+    /// Whether the textbook recursion is a start that may be the cheapest.
+    pub starts_from_recursion: bool,
+    /// Whether recursions give it only by differences of torques, which costs
+    /// digits and n² recursions.
+    pub by_differences: bool,
+    /// Whether it is a matrix that is positive definite.
+    pub definite: bool,
+    /// Whether it depends on lengths that no torque depends on: where the
+    /// first joints stand.
+    pub feels_base: bool,
+}
+
+/// Which associations of the chain formulas matter to a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Choices {
+    /// Whether it comes out of the recursion over velocities.
+    pub recursion: bool,
+    /// Whether it may travel outward or inward.
+    pub travel: bool,
+}
+
+/// The place of an entry along one axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Index {
+    /// Of a joint that turns.
+    Turning,
+    /// Of a joint that slides.
+    Sliding,
+    /// Of an axis that is the same for every arm.
+    Fixed(usize),
+}
+
+/// What an error of an entry is held against where the actuators' torque
+/// limits T_i are the measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorScale {
+    /// T_i
+    Load,
+    /// min(T_i/q̈_k, T_k/q̈_i)
+    Inertia,
+    /// T_i/(q̇_k q̇_m)
+    Coefficient,
+    /// Torque limits are no measure of it.
+    None,
+}
+
+impl Quantity {
+    /// How its numbers are arranged.
+    pub fn shape(self) -> Shape {
+        self.facts().shape
+    }
+
+    /// How many numbers it has over so many joints.
+    pub fn len(self, joints: usize) -> usize {
+        self.shape().len(joints)
+    }
+
+    /// What it depends on.
+    pub fn arguments(self) -> &'static [Argument] {
+        self.facts().arguments
+    }
+
+    /// Its field in the structs that generated functions return.
+    pub fn field(self) -> &'static str {
+        self.facts().field
+    }
+
+    /// A line of documentation for its field.
+    pub fn summary(self) -> &'static str {
+        self.facts().summary
+    }
+
+    /// Its letter in the equations; `h_ikm` for the symbols that make up h.
+    pub fn symbol(self) -> &'static str {
+        self.facts().symbol
+    }
+
+    /// What an error is held against where actuators are the measure.
+    pub fn scale(self) -> ErrorScale {
+        self.facts().scale
+    }
+
+    /// Its key in files of given states.
+    pub fn given(self) -> Option<&'static str> {
+        self.facts().given
+    }
+
+    /// What given states have of it, from its entries at a state of these
+    /// velocities.
+    pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
+        match self.facts().given_as {
+            Some((quantity, convert)) => (quantity, convert(values, qd)),
+            None => (self, values.to_vec()),
+        }
+    }
+
+    /// Whether the textbook recursion is a start that may be the cheapest.
+    pub fn starts_from_recursion(self) -> bool {
+        self.facts().starts_from_recursion
+    }
+
+    /// Whether recursions give it only by differences of torques.
+    pub fn by_differences(self) -> bool {
+        self.facts().by_differences
+    }
+
+    /// Whether it is a matrix that is positive definite.
+    pub fn is_definite(self) -> bool {
+        self.facts().definite
+    }
+
+    /// Whether the chain formulas give it.
+    pub fn is_regrouped(self) -> bool {
+        self.facts().choices.is_some()
+    }
+
+    /// Whether it depends on where the first joints stand.
+    pub fn feels_base(self) -> bool {
+        self.facts().feels_base
+    }
+
+    /// The joints of an entry over these rows, one for each axis over joints.
+    pub fn joints(self, index: usize, rows: &[usize]) -> impl Iterator<Item = usize> {
+        let places = self.shape().places(index, rows.len());
+        let axes = self.shape().0.iter().zip(places);
+        let of = |(axis, place): (&Axis, usize)| match axis {
+            Axis::Joints => rows.get(place).copied(),
+            Axis::Fixed(_) => None,
+        };
+        axes.filter_map(of).collect::<Vec<_>>().into_iter()
+    }
+
+    /// The unit of an entry over these rows of a robot.
+    pub fn unit(self, index: usize, rows: &[usize], robot: &Robot) -> &'static str {
+        let places = self.shape().places(index, rows.len());
+        let turns = |place: usize| {
+            let joint = rows.get(place).and_then(|&joint| robot.joints.get(joint));
+            joint.is_some_and(|joint| joint.kind == JointKind::Revolute)
+        };
+        let axes = self.shape().0.iter().zip(places);
+        let indices = axes.map(|(axis, place)| match axis {
+            Axis::Fixed(_) => Index::Fixed(place),
+            Axis::Joints if turns(place) => Index::Turning,
+            Axis::Joints => Index::Sliding,
+        });
+        (self.facts().unit)(&indices.collect::<Vec<_>>())
+    }
+
+    /// The name of one entry, one-based: `D_12`, `h_123`, with separators
+    /// where a robot has more than nine joints.
+    pub fn entry(self, index: usize, n: usize) -> String {
+        let rows: Vec<usize> = (0..n).collect();
+        self.entry_over(index, &rows, n)
+    }
+
+    /// The name of one entry of a quantity that is over these joints of n.
+    pub fn entry_over(self, index: usize, rows: &[usize], n: usize) -> String {
+        let letter = self.facts().letter;
+        let places = self.shape().places(index, rows.len());
+        let digit = |(axis, place): (&Axis, usize)| match axis {
+            Axis::Joints => rows.get(place).map_or(0, |joint| joint + 1).to_string(),
+            Axis::Fixed(_) => (place + 1).to_string(),
+        };
+        let digits: Vec<String> = self.shape().0.iter().zip(places).map(digit).collect();
+        match digits.as_slice() {
+            [] => letter.to_string(),
+            digits => format!("{letter}_{}", digits.join(if n > 9 { "," } else { "" })),
+        }
+    }
+}
+
+/// A force along a joint's axis, or a torque about it.
+pub(super) fn load(at: &[Index]) -> &'static str {
+    match turns(at) {
+        0 => "N",
+        _ => "N·m",
+    }
+}
+
+/// Kilograms times metres, so many powers above those of the joints.
+pub(super) fn kilograms(metres: i32) -> &'static str {
+    match metres {
+        ..0 => "kg/m",
+        0 => "kg",
+        1 => "kg·m",
+        _ => "kg·m²",
+    }
+}
+
+/// How many of the joints turn: a force over an axis is a torque, one metre
+/// more.
+pub(super) fn turns(at: &[Index]) -> i32 {
+    at.iter().map(|at| i32::from(*at == Index::Turning)).sum()
+}

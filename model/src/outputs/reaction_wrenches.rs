@@ -1,0 +1,69 @@
+//! f_i and n_i, what the links exert on each other (Table 1).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use crate::equations::newton_euler::Wrench as ForceAndMoment;
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Scalar;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "reaction_wrenches",
+    summary: "Force and moment that link i-1 exerts on link i in base axes, gravity included, n×6: for bearings and links.",
+    results: &[Quantity::Wrench],
+    structure: None,
+    by_default: false,
+};
+
+/// (f_i, n_i)
+pub(super) struct Wrench;
+
+impl Formula for Wrench {
+    const FACTS: Facts = Facts {
+        field: "wrenches",
+        letter: "w",
+        symbol: "w",
+        summary: "Force over moment at every joint, about the origin of the frame whose z is its axis.",
+        arguments: &[
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+        ],
+        shape: Shape(&[Axis::Joints, Axis::Fixed(6)]),
+        unit: |at| match at {
+            [_, Index::Fixed(..3)] => "N",
+            _ => "N·m",
+        },
+        scale: ErrorScale::None,
+        given: Some("wrench"),
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: true,
+    };
+
+    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let wrenches = at
+            .formulation
+            .wrenches(at.arm, at.at, &motion.qd, &motion.qdd);
+        flat(wrenches)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        Ok(flat(runtime.wrenches(&at.q, &at.qd, &at.qdd)?))
+    }
+}
+
+fn flat<S>(wrenches: Vec<ForceAndMoment<S>>) -> Vec<S> {
+    let numbers = wrenches.into_iter().flat_map(|w| [w.force, w.moment]);
+    numbers.flatten().collect()
+}

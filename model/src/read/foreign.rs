@@ -1,0 +1,132 @@
+//! What was meant where a text is no TOML: another format, characters that a
+//! word processor or a web page puts in, decimal commas, leading zeros.
+
+use alloc::format;
+use alloc::string::String;
+
+/// Characters that look like a minus sign.
+const DASHES: [char; 9] = [
+    '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{2014}', '\u{2015}', '\u{2212}', '\u{fe63}',
+    '\u{ff0d}',
+];
+/// Characters that look like a quotation mark.
+const QUOTES: [char; 7] = [
+    '\u{201c}', '\u{201d}', '\u{201e}', '\u{2018}', '\u{2019}', '\u{00ab}', '\u{00bb}',
+];
+/// Characters that look like a space, or like nothing.
+const SPACES: [char; 5] = ['\u{00a0}', '\u{2007}', '\u{2009}', '\u{202f}', '\u{200b}'];
+
+/// The format of a text that is none of TOML's, with what to do about it.
+pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
+    const TOML: &str =
+        "a robot file is TOML: `name = \"arm\"` and a [[joint]] table for every joint";
+    let text = source.trim_start_matches('\u{feff}').trim_start();
+    let after_bracket = text.strip_prefix('[').map(str::trim_start);
+    if text.starts_with('{') || after_bracket.is_some_and(|rest| rest.starts_with('{')) {
+        return Some(("JSON", TOML));
+    }
+    if text.starts_with("<robot") || (text.starts_with('<') && text.contains("<robot")) {
+        return Some((
+            "XML, probably URDF",
+            "a robot file is TOML, with a [[joint]] table of DH parameters for every joint",
+        ));
+    }
+    if text.starts_with('<') {
+        return Some(("XML", TOML));
+    }
+    let mut lines = text.lines().map(str::trim_end);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let key = first
+        .split_once(':')
+        .map(|(key, value)| (key.trim_end(), value));
+    let word = |key: &str| {
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '"' | '\'');
+        !key.is_empty() && key.chars().all(plain)
+    };
+    let keyed = key.is_some_and(|(key, value)| {
+        word(key) && (value.is_empty() || value.starts_with([' ', '\t']))
+    });
+    (first == "---" || first.starts_with("%YAML") || keyed).then_some(("YAML", TOML))
+}
+
+/// What to write for a character that TOML does not take.
+pub(super) fn character(c: char) -> Option<(String, &'static str)> {
+    let code = u32::from(c);
+    let named = |what: &str| format!("the character `{c}` (U+{code:04X}) is {what}");
+    if DASHES.contains(&c) {
+        return Some((
+            named("no minus sign of TOML"),
+            "write the minus of the keyboard, `-`",
+        ));
+    }
+    if QUOTES.contains(&c) {
+        return Some((
+            named("no quotation mark of TOML"),
+            "write the quotation mark of the keyboard, `\"`",
+        ));
+    }
+    SPACES.contains(&c).then(|| {
+        (
+            format!("the invisible character U+{code:04X} is no space of TOML"),
+            "write an ordinary space",
+        )
+    })
+}
+
+/// The help for a text that would be a number or an angle but for one of these
+/// characters or a comma.
+pub(super) fn in_text(text: &str) -> Option<String> {
+    if let Some(dash) = text.chars().find(|c| DASHES.contains(c)) {
+        let meant = text.replace(dash, "-");
+        return Some(format!("write \"{meant}\", with the minus of the keyboard"));
+    }
+    decimal_comma(text.trim()).map(|meant| format!("decimals have a point: {meant}"))
+}
+
+/// `17.4` for `17,4`.
+fn decimal_comma(text: &str) -> Option<String> {
+    let (whole, part) = text.split_once(',')?;
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let alone = whole.strip_prefix(['-', '+']).unwrap_or(whole);
+    let fraction = part.split(['e', 'E']).next().unwrap_or(part);
+    (digits(alone) && digits(fraction)).then(|| format!("{whole}.{part}"))
+}
+
+/// The same for a number that a comma at this byte cuts in two.
+pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
+    let (before, rest) = (source.get(..comma)?, source.get(comma..)?);
+    let ends = |c: char| c.is_whitespace() || matches!(c, '=' | '[' | '{' | ']' | '}' | '#');
+    let start = before.rfind(ends).map_or(0, |at| at + 1);
+    let end = rest.find(ends).unwrap_or(rest.len());
+    let text = source.get(start..comma + end)?;
+    decimal_comma(text.trim_end_matches(','))
+}
+
+/// Whether an array's text has a number with a decimal comma: `[0, 0, -9,81]`.
+pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
+    let inner = array.trim().trim_start_matches('[').trim_end_matches(']');
+    let mut words = inner
+        .split_whitespace()
+        .map(|word| word.trim_end_matches(','));
+    words.find_map(decimal_comma)
+}
+
+/// The number without the zeros that it begins with.
+pub(super) fn leading_zeros(word: &str) -> Option<String> {
+    let (sign, digits) = match word.strip_prefix('-') {
+        Some(digits) => ("-", digits),
+        None => ("", word.strip_prefix('+').unwrap_or(word)),
+    };
+    let rest = digits.trim_start_matches('0');
+    let zeros = digits.len() - rest.len();
+    let number = digits
+        .bytes()
+        .all(|b| b.is_ascii_digit() || b"._eE+-".contains(&b));
+    let (whole, next) = (rest.starts_with(|c: char| c.is_ascii_digit()), zeros + 1);
+    match (number, zeros, whole) {
+        (true, 1.., true) => Some(format!("{sign}{rest}")),
+        // 00, 00.5
+        (true, 2.., false) => digits.get(next - 2..).map(|rest| format!("{sign}{rest}")),
+        _ => None,
+    }
+}

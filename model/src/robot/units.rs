@@ -1,0 +1,193 @@
+//! Sizes that no arm has in SI units: what was probably meant.
+//!
+//! They are taken as they stand. A crane is longer than ten metres and an
+//! excavator heavier than a tonne, but whoever types a data sheet's millimetres
+//! or degrees learns it here and not from the torques.
+
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+
+use num_traits::{Signed, Zero};
+
+use super::findings::{Findings, Severity};
+use super::{Field, Joint, JointKind, Place, Position};
+use crate::number::parse::write_decimal;
+use crate::number::{Angle, Rational, Rounded};
+
+/// Longer links, in metres, were probably given in millimetres.
+const MAX_LENGTH: i64 = 10;
+/// Heavier links, in kilograms, were probably given in grams.
+const MAX_MASS: i64 = 1000;
+/// Limits of a turning joint's position beyond this many radians (five turns)
+/// were probably given in degrees.
+const MAX_POSITION: i64 = 31;
+/// The same of a velocity, in rad/s; in m/s of a sliding joint.
+const MAX_VELOCITY: i64 = 100;
+/// From the Moon's gravity to Jupiter's, in m/s², with some room.
+const GRAVITY: [f64; 2] = [1.5, 30.0];
+
+fn whole(value: i64) -> Rational {
+    Rational::from_integer(value.into())
+}
+
+/// A number as the file would have it.
+fn shown(value: &Rational) -> String {
+    write_decimal(value).unwrap_or_else(|| value.to_string())
+}
+
+/// The same number with another unit of a thousandth.
+fn thousandth(value: &Rational) -> String {
+    shown(&(value / whole(1000)))
+}
+
+impl Findings {
+    fn doubt(&mut self, place: Place, message: String, help: &str) {
+        let help = format!("{help}; it is taken as it stands");
+        self.push(Severity::Warning, place, message, &help);
+    }
+
+    pub(super) fn doubtful_gravity(&mut self, gravity: &[Rational; 3]) {
+        let square: Rational = gravity.iter().map(|g| g * g).sum();
+        let size = libm::sqrt(f64::nearest_rational(&square));
+        // Without gravity: in space, or of an arm that moves in a horizontal plane.
+        if square.is_zero() || (GRAVITY[0]..=GRAVITY[1]).contains(&size) {
+            return;
+        }
+        let near = |unit: f64| (size / unit - 1.0).abs() < 0.03;
+        let units = [
+            (9810.0, "this looks like mm/s²"),
+            (981.0, "this looks like cm/s²"),
+            (32.17, "this looks like ft/s²"),
+            (386.1, "this looks like in/s²"),
+            (1.0, "this looks like a direction without its size"),
+        ];
+        let meant = units.iter().find(|(unit, _)| near(*unit));
+        let meant = meant.map_or("gravity is in m/s²", |(_, meant)| *meant);
+        self.doubt(
+            Place::Gravity,
+            format!("the acceleration of gravity is {size:.4} m/s², far from the Earth's 9.81"),
+            &format!("{meant}: on the Earth it is [0, 0, -9.81] if z points up"),
+        );
+    }
+
+    pub(super) fn doubtful_joint(&mut self, index: usize, joint: &Joint) {
+        let at = |field| Place::Joint(index, field);
+        let (d, theta) = match joint.kind {
+            JointKind::Revolute => (Field::D, Field::Offset),
+            JointKind::Prismatic => (Field::Offset, Field::Theta),
+        };
+        self.doubtful_angle(at(Field::Alpha), Field::Alpha, &joint.alpha);
+        self.doubtful_angle(at(theta), theta, &joint.theta);
+        self.doubtful_length(at(Field::A), Field::A, &joint.a);
+        self.doubtful_length(at(d), d, &joint.d);
+        if let Some(longest) = joint.com.iter().max_by_key(|x| x.abs()) {
+            self.doubtful_length(at(Field::Com), Field::Com, longest);
+        }
+        if joint.mass >= whole(MAX_MASS) {
+            let mass = &joint.mass;
+            self.doubt(
+                at(Field::Mass),
+                format!("the link's mass is {} kg: a tonne or more", shown(mass)),
+                &format!("masses are in kg: of grams, write {}", thousandth(mass)),
+            );
+        }
+        self.doubtful_limits(index, joint);
+    }
+
+    fn doubtful_limits(&mut self, index: usize, joint: &Joint) {
+        let at = |field| Place::Joint(index, field);
+        for position in joint.limits.position.iter().flatten() {
+            match position {
+                Position::Angle(Angle::Radians(value)) if value.abs() > whole(MAX_POSITION) => {
+                    self.doubt(
+                        at(Field::Position),
+                        format!("a limit of {} rad is more than five turns", shown(value)),
+                        &format!(
+                            "angles are in rad: of degrees, write \"{}deg\"",
+                            shown(value)
+                        ),
+                    );
+                    break;
+                }
+                Position::Length(value) if value.abs() > whole(MAX_LENGTH) => {
+                    self.doubtful_length(at(Field::Position), Field::Position, value);
+                    break;
+                }
+                _ => {}
+            }
+        }
+        let Some(velocity) = &joint.limits.velocity else {
+            return;
+        };
+        if *velocity <= whole(MAX_VELOCITY) {
+            return;
+        }
+        let (unit, help) = match joint.kind {
+            JointKind::Revolute => {
+                let radians = f64::nearest_rational(velocity) * core::f64::consts::PI / 180.0;
+                let help =
+                    format!("velocities are in rad/s: of degrees a second, write {radians:.4}");
+                ("rad/s", help)
+            }
+            JointKind::Prismatic => {
+                let metres = thousandth(velocity);
+                let help =
+                    format!("velocities are in m/s: of millimetres a second, write {metres}");
+                ("m/s", help)
+            }
+        };
+        let message = format!("a joint that reaches {} {unit} is fast", shown(velocity));
+        self.doubt(at(Field::Velocity), message, &help);
+    }
+
+    fn doubtful_angle(&mut self, place: Place, field: Field, angle: &Angle) {
+        // Whoever writes 5*pi/2 or "450deg" knows the unit.
+        let Angle::Radians(value) = angle else {
+            return;
+        };
+        let size = Angle::Radians(value.abs());
+        if size.cmp_value(&Angle::right_angles(4)).is_gt() {
+            self.doubt(
+                place,
+                format!("{} is {} rad: more than a turn", field.key(), shown(value)),
+                &format!(
+                    "angles are in rad: of degrees, write \"{}deg\"",
+                    shown(value)
+                ),
+            );
+        }
+    }
+
+    fn doubtful_length(&mut self, place: Place, field: Field, length: &Rational) {
+        if length.abs() > whole(MAX_LENGTH) {
+            self.doubt(
+                place,
+                format!(
+                    "{} is {} m: longer than {MAX_LENGTH} m",
+                    field.key(),
+                    shown(length)
+                ),
+                &format!(
+                    "lengths are in m: of millimetres, write {}",
+                    thousandth(length)
+                ),
+            );
+        }
+    }
+}
+
+/// Controls that turn the direction of text: with one of them in it, a name, and
+/// the documentation that it stands in, reads otherwise than it is.
+pub(super) fn turns_text(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// What to do about one of them.
+pub(super) fn without_turns(name: &str) -> String {
+    let plain: String = name.chars().filter(|c| !turns_text(*c)).collect();
+    match plain.is_empty() {
+        true => "leave the name out if the joint has none".to_owned(),
+        false => format!("write {plain:?}"),
+    }
+}

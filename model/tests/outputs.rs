@@ -1,0 +1,185 @@
+//! The registry of outputs: what there is, and identities of its formulas that
+//! hold for every arm, checked exactly in the prime field.
+
+mod equations_support;
+
+use dalembert_model::equations::{Arm, DhVariables, Formulation};
+use dalembert_model::outputs::{Function, Motion, Quantity, Written};
+use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::dual::Dual;
+use dalembert_model::scalar::field::{Field, Points};
+use equations_support::random::{Case, case, kinds};
+
+/// Every function with its arguments, and its results' axes for six joints.
+const GOLDEN: [&str; 16] = [
+    "inverse_dynamics(q, qd, qdd) -> tau[6]",
+    "gravity(q) -> c[6]",
+    "inertia(q) -> d[6][6]",
+    "coriolis(q, qd) -> h[6]",
+    "manipulator_equation(q, qd) -> d[6][6] h[6] c[6]",
+    "dynamic_coefficients(q) -> d[6][6] h[6][6][6] c[6]",
+    "kinetic_energy(q, qd) -> kinetic",
+    "potential_energy(q) -> potential",
+    "momentum(q, qd) -> p[6] ct_qd[6]",
+    "coriolis_matrix(q, qd) -> c_matrix[6][6]",
+    "dalembert_terms(q, qd) -> d_rot[6][6] d_tran[6][6] h_rot[6] h_tran[6] c[6]",
+    "forward_kinematics(q) -> pose[3][4]",
+    "link_poses(q) -> poses[6][3][4]",
+    "jacobian(q) -> jacobian[6][6]",
+    "jacobian_rate(q, qd) -> jacobian_rate[6]",
+    "reaction_wrenches(q, qd, qdd) -> wrenches[6][6]",
+];
+
+#[test]
+fn golden_list() {
+    let said = |function: &Function| {
+        let arguments: Vec<&str> = function.arguments().iter().map(|a| a.name()).collect();
+        let result = |q: &Quantity| {
+            let lengths = q.shape().lengths(6).map(|length| format!("[{length}]"));
+            format!(" {}{}", q.field(), lengths.collect::<String>())
+        };
+        let results: String = function.quantities().iter().map(result).collect();
+        format!("{function}({}) ->{results}", arguments.join(", "))
+    };
+    let found: Vec<String> = Function::ALL.iter().map(said).collect();
+    assert_eq!(found, GOLDEN);
+    let fields = Function::ALL.map(|function| {
+        let mut fields: Vec<_> = function.quantities().iter().map(|q| q.field()).collect();
+        fields.dedup();
+        fields.len() == function.quantities().len()
+            && (fields.len() > 1) == function.structure().is_some()
+    });
+    assert!(fields.iter().all(|fits| *fits));
+    assert_eq!(Function::by_default(), Function::ALL[..6]);
+}
+
+/// Every kind pattern up to three joints, then one of six.
+fn cases() -> Vec<Case> {
+    let mut points = Points::new(0x6f75);
+    let mut cases = Vec::new();
+    for convention in [Convention::Standard, Convention::Modified] {
+        for n in 1..=3 {
+            for bits in 0..1 << n {
+                cases.push(case(convention, &kinds(n, bits), &mut points));
+            }
+        }
+        cases.push(case(convention, &kinds(6, 0b001010), &mut points));
+    }
+    cases
+}
+
+/// Formulations share as little as they can: for each quantity all of them
+/// give what Lagrange–Euler gives.
+#[test]
+fn formulations_agree_on_every_quantity() {
+    for case in cases() {
+        let motion = Motion {
+            q: Vec::new(),
+            qd: case.qd.clone(),
+            qdd: case.qdd.clone(),
+        };
+        for &quantity in Quantity::ALL {
+            let by = |formulation| {
+                quantity.written(&Written {
+                    formulation,
+                    arm: &case.arm,
+                    at: &case.at,
+                    motion: &motion,
+                })
+            };
+            let n = case.arm.links.len();
+            let expected = by(Formulation::LagrangeEuler);
+            assert_eq!(expected.len(), quantity.len(n), "{quantity:?}");
+            assert!(expected.iter().any(|x| *x != Field::zero()) || n < 6);
+            for formulation in Formulation::ALL {
+                assert_eq!(by(formulation), expected, "{quantity:?} {formulation:?}");
+            }
+        }
+    }
+}
+
+/// The arm and its position as they change at the case's velocities.
+fn moving(case: &Case) -> (Arm<Dual<Field>>, Vec<DhVariables<Dual<Field>>>) {
+    let links = case.arm.links.iter().zip(&case.at).zip(&case.qd);
+    let at = links.map(|((link, at), rate)| {
+        let turns = link.kind == JointKind::Revolute;
+        let still = |x: &Field| Dual::constant(*x);
+        DhVariables {
+            theta: match turns {
+                true => at.theta.clone().turning(rate),
+                false => at.theta.map(still),
+            },
+            d: Dual {
+                value: at.d,
+                rate: if turns { Field::zero() } else { *rate },
+            },
+        }
+    });
+    (case.arm.map(|x| Dual::constant(*x)), at.collect())
+}
+
+/// Ḋ − 2C is skew, C q̇ = h, and ṗ = Ḋ q̇ + D q̈ obeys ṗ = τ + Cᵀ q̇ − c − b∘q̇.
+#[test]
+fn coriolis_matrix_is_the_christoffels() {
+    for case in cases() {
+        let Case { arm, at, qd, qdd } = &case;
+        let n = arm.links.len();
+        let form = Formulation::LagrangeEuler;
+        let c = form.coriolis_matrix(arm, at, qd);
+        let (arm_moving, at_moving) = moving(&case);
+        let d = form.inertia(&arm_moving, &at_moving);
+        let h = form.velocity_terms(arm, at, qd);
+        let slope = form.momentum_slope(arm, at, qd);
+        let tau = form.inverse_dynamics(arm, at, qd, qdd);
+        let gravity = form.gravity(arm, at);
+        for i in 0..n {
+            let mut load = Field::zero();
+            let mut rate = Field::zero();
+            for k in 0..n {
+                assert_eq!(d[i][k].rate, c[i][k].add(&c[k][i]));
+                load = load.add(&c[i][k].mul(&qd[k]));
+                let own = d[i][k].rate.mul(&qd[k]);
+                rate = rate.add(&own.add(&d[i][k].value.mul(&qdd[k])));
+            }
+            assert_eq!(load, h[i]);
+            let damping = arm.links[i].viscous.mul(&qd[i]);
+            let rest = tau[i].add(&slope[i]).sub(&gravity[i]).sub(&damping);
+            assert_eq!(rate, rest);
+        }
+    }
+}
+
+/// ∂U/∂q = c, and the wrenches' parts along the joints are the torques.
+#[test]
+fn energy_and_wrenches_belong_to_the_torques() {
+    for case in cases() {
+        let Case { arm, at, qd, qdd } = &case;
+        let form = Formulation::NewtonEulerLink;
+        let c = form.gravity(arm, at);
+        let tau = form.inverse_dynamics(arm, at, qd, qdd);
+        let wrenches = form.wrenches(arm, at, qd, qdd);
+        let jacobian_axes = dalembert_model::equations::kinematics::poses(arm, at);
+        let (arm_moving, at_moving) = moving(&case);
+        let power = form.potential_energy(&arm_moving, &at_moving).rate;
+        let of_c = c
+            .iter()
+            .zip(qd)
+            .fold(Field::zero(), |sum, (c, qd)| sum.add(&c.mul(qd)));
+        assert_eq!(power, of_c);
+        for (i, link) in arm.links.iter().enumerate() {
+            let axis = match (arm.convention, i) {
+                (Convention::Standard, 0) => [Field::zero(), Field::zero(), Field::one()],
+                (Convention::Standard, _) => jacobian_axes[i - 1].axes[2],
+                (Convention::Modified, _) => jacobian_axes[i].axes[2],
+            };
+            let load = match link.kind {
+                JointKind::Revolute => &wrenches[i].moment,
+                JointKind::Prismatic => &wrenches[i].force,
+            };
+            let along = (0..3).fold(Field::zero(), |sum, k| sum.add(&axis[k].mul(&load[k])));
+            let drive = link.viscous.mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
+            assert_eq!(along.add(&drive), tau[i]);
+        }
+    }
+}

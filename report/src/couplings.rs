@@ -1,0 +1,254 @@
+//! Which coefficients of the dynamics vanish or repeat, and why.
+//!
+//! D_ik, h_ikm and c_i are outputs of one graph that was merged by
+//! fingerprint: an output that vanishes is the constant zero there, and two
+//! that are equal or opposite are edges to one node.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use dalembert_model::equations::Formulation;
+use dalembert_model::robot::{JointKind, Robot};
+
+use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::generate::MOST_OUTPUTS;
+use dalembert_codegen::graph::{Folding, Graph, Node, NodeId};
+use dalembert_codegen::trace::trace;
+
+/// Why a coefficient vanishes or repeats another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Reason {
+    /// h_iii = 0 for every arm.
+    OwnSquare,
+    /// h_iim = 0 for m ≤ i, for every arm.
+    OwnProduct,
+    /// h_ikm = −h_kim for m ≤ min(i, k), for every arm.
+    Antisymmetry,
+    /// h_ikm = 0 if joint min(k, m) is prismatic.
+    Prismatic,
+    /// The numbers of this robot.
+    Geometry,
+}
+
+impl Reason {
+    /// A name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Reason::OwnSquare => "own_square",
+            Reason::OwnProduct => "own_product",
+            Reason::Antisymmetry => "antisymmetry",
+            Reason::Prismatic => "prismatic",
+            Reason::Geometry => "geometry",
+        }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Reason::OwnSquare => "h_iii = 0, always",
+            Reason::OwnProduct => "h_iim = 0 for m ≤ i, always",
+            Reason::Antisymmetry => "h_ikm = −h_kim for m ≤ min(i, k), always",
+            Reason::Prismatic => "joint min(k, m) is prismatic",
+            Reason::Geometry => "this robot's geometry",
+        })
+    }
+}
+
+/// What was found about a coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// It vanishes in every state.
+    Zero(Reason),
+    /// It is one that was met before, or its opposite.
+    Repeats {
+        /// The index of the other in [`Couplings::entries`].
+        entry: usize,
+        /// Whether it is the opposite.
+        opposite: bool,
+        /// Why.
+        reason: Reason,
+    },
+    /// It is not zero and none before it is equal or opposite.
+    Distinct,
+}
+
+/// One coefficient: D_ik with i ≤ k, h_ikm with k ≤ m, or c_i.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Coupling {
+    /// Inertia, Christoffel or Gravity.
+    pub quantity: Quantity,
+    /// Zero-based: i; i, k; or i, k, m.
+    pub joints: Vec<usize>,
+    /// What was found.
+    pub finding: Finding,
+    /// Whether it is the same in every state.
+    pub constant: bool,
+}
+
+/// The coefficients of a robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Couplings {
+    /// n
+    pub joints: usize,
+    /// D, then h, then c, each in the order of its indices.
+    pub entries: Vec<Coupling>,
+}
+
+/// How many coefficients of a quantity there are, vanish, and differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Summary {
+    /// All, symmetric ones once.
+    pub total: usize,
+    /// Those that vanish.
+    pub zero: usize,
+    /// Those that do not, equal and opposite ones once.
+    pub distinct: usize,
+}
+
+impl Couplings {
+    /// Of a robot; `None` if it has too many joints to list all h_ikm.
+    pub fn of(robot: &Robot) -> Option<Couplings> {
+        let function = Function::DynamicCoefficients;
+        let n = robot.joints.len();
+        if function.outputs(n) > MOST_OUTPUTS {
+            return None;
+        }
+        // Which formulation is traced does not matter to the findings: equal
+        // functions have equal fingerprints. Written out, Lagrange–Euler
+        // grows out of hand first.
+        let formulation = match n {
+            0..=6 => Formulation::LagrangeEuler,
+            _ => Formulation::NewtonEulerLink,
+        };
+        let graph = trace(robot, function, formulation)
+            .graph
+            .rebuild(Folding::Semantic);
+        let mut couplings = Couplings {
+            joints: n,
+            entries: Vec::new(),
+        };
+        let mut classes = HashMap::new();
+        for (quantity, joints) in coefficients(n) {
+            let output = graph.outputs[place(quantity, &joints, n)];
+            let class = Class {
+                quantity,
+                node: output.node(),
+            };
+            let finding = if graph.is_zero(output) {
+                Finding::Zero(why_zero(robot, quantity, &joints))
+            } else {
+                let index = couplings.entries.len();
+                let members: &mut Vec<(usize, bool)> = classes.entry(class).or_default();
+                let finding = couplings.repeats(&joints, members, output.is_negative());
+                members.push((index, output.is_negative()));
+                finding
+            };
+            couplings.entries.push(Coupling {
+                quantity,
+                joints,
+                finding,
+                constant: is_constant(&graph, output.node()),
+            });
+        }
+        Some(couplings)
+    }
+
+    /// The count of one quantity.
+    pub fn summary(&self, quantity: Quantity) -> Summary {
+        let mut summary = Summary::default();
+        for entry in self.entries.iter().filter(|e| e.quantity == quantity) {
+            summary.total += 1;
+            match entry.finding {
+                Finding::Zero(_) => summary.zero += 1,
+                Finding::Distinct => summary.distinct += 1,
+                Finding::Repeats { .. } => {}
+            }
+        }
+        summary
+    }
+
+    /// The name of an entry, one-based: `D_12`, `h_346`.
+    pub fn name(&self, entry: &Coupling) -> String {
+        let index = entry
+            .joints
+            .iter()
+            .fold(0, |index, &joint| index * self.joints + joint);
+        entry.quantity.entry(index, self.joints)
+    }
+
+    /// The member of a class that a coefficient repeats: one that a rule for
+    /// every arm ties it to if there is one, else the first.
+    fn repeats(&self, joints: &[usize], members: &[(usize, bool)], negative: bool) -> Finding {
+        let tied = members.iter().find(|(index, sign)| {
+            *sign != negative && antisymmetric(joints, &self.entries[*index].joints)
+        });
+        match (tied, members.first()) {
+            (Some(&(entry, _)), _) => Finding::Repeats {
+                entry,
+                opposite: true,
+                reason: Reason::Antisymmetry,
+            },
+            (None, Some(&(entry, sign))) => Finding::Repeats {
+                entry,
+                opposite: sign != negative,
+                reason: Reason::Geometry,
+            },
+            (None, None) => Finding::Distinct,
+        }
+    }
+}
+
+#[derive(PartialEq, Eq, Hash)]
+struct Class {
+    quantity: Quantity,
+    node: NodeId,
+}
+
+/// Every coefficient once: the symmetric ones in ascending order.
+fn coefficients(n: usize) -> impl Iterator<Item = (Quantity, Vec<usize>)> {
+    let d = (0..n).flat_map(move |i| (i..n).map(move |k| (Quantity::Inertia, vec![i, k])));
+    let h = (0..n).flat_map(move |i| {
+        (0..n).flat_map(move |k| (k..n).map(move |m| (Quantity::Christoffel, vec![i, k, m])))
+    });
+    let c = (0..n).map(|i| (Quantity::Gravity, vec![i]));
+    d.chain(h).chain(c)
+}
+
+/// The place of a coefficient among the outputs of `dynamic_coefficients`.
+fn place(quantity: Quantity, joints: &[usize], n: usize) -> usize {
+    let before: usize = Function::DynamicCoefficients
+        .quantities()
+        .iter()
+        .take_while(|&&q| q != quantity)
+        .map(|q| q.len(n))
+        .sum();
+    before + joints.iter().fold(0, |index, &joint| index * n + joint)
+}
+
+fn why_zero(robot: &Robot, quantity: Quantity, joints: &[usize]) -> Reason {
+    match (quantity, joints) {
+        (Quantity::Christoffel, &[i, k, m]) if i == k && k == m => Reason::OwnSquare,
+        // k ≤ m: h_imi = h_iim with the other index the lesser.
+        (Quantity::Christoffel, &[i, k, m]) if m == i && k <= i => Reason::OwnProduct,
+        (Quantity::Christoffel, &[_, k, _]) if robot.joints[k].kind == JointKind::Prismatic => {
+            Reason::Prismatic
+        }
+        _ => Reason::Geometry,
+    }
+}
+
+/// Whether h_ikm = −h_kim, m ≤ min(i, k), ties the two, with the last two
+/// indices of each in either order.
+fn antisymmetric(a: &[usize], b: &[usize]) -> bool {
+    let (&[i, x, y], &[j, u, v]) = (a, b) else {
+        return false;
+    };
+    [(x, y), (y, x)]
+        .into_iter()
+        .any(|(k, m)| k == j && m <= i.min(k) && ((i, m) == (u, v) || (m, i) == (u, v)))
+}
+
+fn is_constant(graph: &Graph, node: NodeId) -> bool {
+    matches!(graph.node(node), Node::Constant(_))
+}

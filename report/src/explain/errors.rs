@@ -1,0 +1,193 @@
+//! What rounding costs: each row, and what is emitted, against the big float.
+
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+use super::Explanation;
+use super::run::Runner;
+use super::steps::Code;
+use crate::stress::truth::Truth;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::program::{Input, Program, ScalarType};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::states::{JointState, seeded};
+
+/// The most states that are measured.
+pub const MOST_STATES: usize = 10_000;
+
+/// A seed of its own.
+const SEED: u64 = 0xe7_91a1;
+
+/// The worst errors over the states, in units of u: 2⁻⁵³ for f64, 2⁻²⁴ for f32.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Errors {
+    /// max_i |error_i| / max_i |truth_i|, each quantity by itself.
+    pub normwise: f64,
+    /// max_i |error_i| / the largest |truth_i| over the states.
+    pub per_joint: f64,
+}
+
+/// The errors of every row over the same states, inside the limits of the
+/// robot, or of its scene; those of what is emitted in f32 are rounded to it
+/// first.
+pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
+    let (setting, function) = (&explanation.setting, explanation.function);
+    let robot = setting.robot();
+    let drawn = seeded(robot, states.min(MOST_STATES), SEED);
+    let truth = Truth::in_setting(setting);
+    let runs = at(&truth, function, drawn.iter().cloned());
+    let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
+    let arm = exact.map(f64::nearest);
+    let joints = setting.rows().len();
+    let errors = |code: &Code| match code {
+        Code::Formula(formulation) => worst(function, joints, &runs, ScalarType::F64, |state| {
+            formula(setting, &arm, *formulation, function, state)
+        }),
+        Code::Program(program) => {
+            let runner = Runner::<f64>::new(program, ScalarType::F64);
+            worst(function, joints, &runs, ScalarType::F64, |state| {
+                runner.run(state)
+            })
+        }
+        Code::Emitted(text, scalar) => {
+            let single = drawn.iter().map(JointState::in_single);
+            let own = match scalar {
+                ScalarType::F64 => None,
+                ScalarType::F32 => Some(at(&truth, function, single)),
+            };
+            let runs = own.as_ref().unwrap_or(&runs);
+            worst(function, joints, runs, *scalar, |state| text.run_at(state))
+        }
+    };
+    explanation
+        .rows
+        .iter()
+        .map(|row| errors(&row.code))
+        .collect()
+}
+
+/// The errors of a program in each scalar, inside the limits of the robot, or
+/// of its scene; states of f32 are rounded to it first.
+pub fn of_program(
+    setting: &Setting,
+    program: &Program,
+    scalars: &[ScalarType],
+    states: usize,
+) -> Vec<Errors> {
+    let function = program.function;
+    let truth = Truth::in_setting(setting);
+    let drawn = seeded(setting.robot(), states.min(MOST_STATES), SEED);
+    let joints = setting.rows().len();
+    let errors = |&scalar: &ScalarType| match scalar {
+        ScalarType::F64 => {
+            let runner = Runner::<f64>::new(program, scalar);
+            let runs = at(&truth, function, drawn.iter().cloned());
+            worst(function, joints, &runs, scalar, |state| runner.run(state))
+        }
+        ScalarType::F32 => {
+            let runner = Runner::<f32>::new(program, scalar);
+            let runs = at(&truth, function, drawn.iter().map(JointState::in_single));
+            worst(function, joints, &runs, scalar, |state| runner.run(state))
+        }
+    };
+    scalars.iter().map(errors).collect()
+}
+
+/// How many states take seconds at most, whatever the robot: the reference's
+/// work grows with the cube of the number of joints where it returns D.
+pub fn affordable_states(joints: usize) -> usize {
+    const STATES: usize = 100;
+    const JOINTS: usize = 10;
+    match joints {
+        0..=JOINTS => STATES,
+        _ => (STATES * JOINTS.pow(3) / joints.pow(3)).max(1),
+    }
+}
+
+/// The states and the truth there, without those that are not finite.
+fn at(
+    truth: &Truth,
+    function: Function,
+    states: impl Iterator<Item = JointState>,
+) -> Vec<(JointState, Vec<Big>)> {
+    let with_truth =
+        |state: JointState| truth.run(function, &state).map(|results| (state, results));
+    states.filter_map(with_truth).collect()
+}
+
+/// A formulation over f64, its constants rounded once.
+fn formula(
+    setting: &Setting,
+    arm: &Arm<f64>,
+    formulation: Formulation,
+    function: Function,
+    state: &JointState,
+) -> Vec<f64> {
+    let pair = |angle: dalembert_codegen::program::AngleSum| {
+        // A motion reads the angles of single joints only.
+        libm::sincos(angle.terms().map(|(joint, _)| state.q[joint]).sum())
+    };
+    let input = |input| match input {
+        Input::Sin(angle) => pair(angle).0,
+        Input::Cos(angle) => pair(angle).1,
+        Input::Position(joint) => state.q[joint],
+        Input::Velocity(joint) => state.qd[joint],
+        Input::Acceleration(joint) => state.qdd[joint],
+    };
+    let motion = setting.motion(input, f64::nearest);
+    let results = function.evaluate(formulation, arm, &motion);
+    setting.select(function, setting.joints(), results)
+}
+
+fn worst(
+    function: Function,
+    joints: usize,
+    runs: &[(JointState, Vec<Big>)],
+    scalar: ScalarType,
+    run: impl Fn(&JointState) -> Vec<f64>,
+) -> Errors {
+    let outputs = function.outputs(joints);
+    let mut largest = vec![0.0f64; outputs];
+    let mut errors = vec![0.0f64; outputs];
+    let mut normwise = 0.0f64;
+    for (state, truth) in runs {
+        let found = run(state);
+        let mut start = 0;
+        for quantity in function.quantities() {
+            let range = start..start + quantity.len(joints);
+            start = range.end;
+            let (mut error, mut size) = (0.0f64, 0.0f64);
+            for i in range {
+                let difference = match Big::from_f64(found[i]) {
+                    Some(found) => found.sub(&truth[i]).abs().to_f64(),
+                    None => f64::INFINITY,
+                };
+                let value = truth[i].abs().to_f64();
+                (error, size) = (error.max(difference), size.max(value));
+                errors[i] = errors[i].max(difference);
+                largest[i] = largest[i].max(value);
+            }
+            normwise = normwise.max(ratio(error, size));
+        }
+    }
+    let per_joint = errors
+        .iter()
+        .zip(&largest)
+        .map(|(e, size)| ratio(*e, *size));
+    let u = scalar.unit_roundoff();
+    Errors {
+        normwise: normwise / u,
+        per_joint: per_joint.fold(0.0, f64::max) / u,
+    }
+}
+
+/// What vanishes leaves dust of the reference's 134 digits; robots are not as
+/// small as that.
+const DUST: f64 = 1e-100;
+
+/// error / size; where the truth vanishes there is nothing to relate it to.
+fn ratio(error: f64, size: f64) -> f64 {
+    if size > DUST { error / size } else { 0.0 }
+}

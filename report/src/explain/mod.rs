@@ -1,0 +1,143 @@
+//! What each step of the pipeline brought for a robot, and why.
+//!
+//! - [`steps`]: the rows of the table, each with code that can be run
+//! - [`parameters`]: what became of every link's parameters
+//! - [`merged`]: what the fingerprints alone found
+//! - `errors`: what rounding costs each row
+
+pub mod errors;
+pub mod merged;
+pub mod parameters;
+mod run;
+pub mod steps;
+
+use dalembert_model::equations::Formulation;
+use dalembert_model::equations::chain::Chain;
+use dalembert_model::robot::Robot;
+
+use crate::couplings::Couplings;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Request, tolerate};
+use dalembert_codegen::graph::Graph;
+use dalembert_codegen::plan;
+use dalembert_codegen::portfolio;
+use dalembert_codegen::program::Program;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::trace::trace_in;
+use merged::Merged;
+use parameters::Parameters;
+use steps::Row;
+
+/// The most joints for which Lagrange–Euler is written out: the graph grows
+/// with n⁴ to n⁵.
+pub const MOST_WRITTEN: usize = 8;
+
+/// What was found about one function of a robot.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// Of which robot, in which scene.
+    pub setting: Setting,
+    /// Which function.
+    pub function: Function,
+    /// The steps, in their order; the last is what is generated.
+    pub rows: Vec<Row>,
+    /// What the fingerprints found in each formulation as folded.
+    pub merged: Vec<(Formulation, Merged)>,
+    /// What became of the parameters.
+    pub parameters: Parameters,
+    /// Which coefficients of the whole robot vanish or repeat, unless there are
+    /// too many.
+    pub couplings: Option<Couplings>,
+}
+
+/// Explains one function, as if nothing else were asked for.
+///
+/// # Errors
+/// Those of [`explain_all`].
+pub fn explain(
+    robot: &Robot,
+    function: Function,
+    request: &Request,
+) -> Result<Explanation, GenerateError> {
+    let alone = Request {
+        functions: vec![function],
+        ..request.clone()
+    };
+    let mut all = explain_all(robot, &alone)?;
+    all.pop().ok_or(GenerateError::Empty)
+}
+
+/// Explains the functions of a request, in their order; of the rest, effort,
+/// preference, plan, scene, scalars, source of sines and watch count. With a
+/// tolerance the last rows are what it admits, a row a scalar: all functions
+/// together, since they are emitted in the same one.
+///
+/// # Errors
+/// Those of [`generate`](dalembert_codegen::generate::generate).
+pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
+    if let Some(plan) = &request.plan
+        && plan.input != plan::input_hash(robot)
+    {
+        let robot = plan.robot.clone();
+        return Err(GenerateError::StalePlan { robot });
+    }
+    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let mut explained = Vec::new();
+    for (index, &function) in request.functions.iter().enumerate() {
+        if !request.functions[..index].contains(&function) {
+            explained.push(exact(robot, &setting, function, request)?);
+        }
+    }
+    let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
+    let admitted = tolerate::admitted(&setting, &programs, request)?;
+    let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
+    for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
+        explanation.rows.extend(steps::tolerated(admitted)?);
+    }
+    Ok(explanations)
+}
+
+/// Everything but what a tolerance admits, and the program that it is applied
+/// to.
+fn exact(
+    robot: &Robot,
+    setting: &Setting,
+    function: Function,
+    request: &Request,
+) -> Result<(Explanation, Program), GenerateError> {
+    let found = steps::search(setting, function, request)?;
+    let tuned = found.tuned.as_ref();
+    let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
+    let mut rows = Vec::new();
+    let mut merged = Vec::new();
+    let mut fingerprints = |formulation: Formulation, graph: &Graph| {
+        merged.extend(Merged::of(graph).map(|merged| (formulation, merged)));
+    };
+    if robot.joints.len() <= MOST_WRITTEN {
+        let formulation = Formulation::LagrangeEuler;
+        let trace = trace_in(setting, function, formulation);
+        fingerprints(formulation, &trace.graph);
+        rows.extend(steps::lagrange_euler(setting, function, &trace, request));
+    }
+    let formulation = Formulation::NewtonEulerLink;
+    let trace = trace_in(setting, function, formulation);
+    fingerprints(formulation, &trace.graph);
+    rows.extend(steps::newton_euler(setting, function, &trace));
+    rows.extend(steps::chain(setting, function, tuned));
+    let (searched, program) = steps::searched(setting, function, request, &found)?;
+    rows.extend(searched);
+    let chain = Chain::new(&portfolio::skeleton(setting), &tuned.gauge);
+    let couplings = match setting.scene() {
+        None => Couplings::of(robot),
+        Some(_) => None,
+    };
+    let explanation = Explanation {
+        function,
+        rows,
+        merged,
+        parameters: Parameters::of(setting, function, tuned, &chain),
+        couplings,
+        setting: setting.clone(),
+    };
+    Ok((explanation, program))
+}

@@ -1,0 +1,241 @@
+//! What became of every link's parameters in the gauge that was chosen.
+
+use std::fmt;
+
+use dalembert_model::equations::chain::{Body, Chain, Gauge, Skeleton};
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::robot::JointKind;
+use dalembert_model::scalar::Scalar;
+
+use super::merged;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::graph::Folding;
+use dalembert_codegen::portfolio;
+use dalembert_codegen::portfolio::tune::Tuned;
+use dalembert_codegen::scene::Setting;
+
+/// A parameter of a body about the origin of its frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Parameter {
+    /// ∫ dm
+    Mass,
+    /// A component of ∫ r dm: x, y or z.
+    First(usize),
+    /// An entry of ∫ r rᵀ dm: xx, yy, zz, xy, yz or xz.
+    Second(usize),
+}
+
+impl Parameter {
+    /// All ten.
+    pub const ALL: [Parameter; 10] = {
+        use Parameter::*;
+        [
+            Mass,
+            First(0),
+            First(1),
+            First(2),
+            Second(0),
+            Second(1),
+            Second(2),
+            Second(3),
+            Second(4),
+            Second(5),
+        ]
+    };
+
+    fn of<S>(self, body: &mut Body<S>) -> &mut S {
+        let second = &mut body.second;
+        match self {
+            Parameter::Mass => &mut body.mass,
+            Parameter::First(axis) => &mut body.first[axis],
+            Parameter::Second(0) => &mut second.xx,
+            Parameter::Second(1) => &mut second.yy,
+            Parameter::Second(2) => &mut second.zz,
+            Parameter::Second(3) => &mut second.xy,
+            Parameter::Second(4) => &mut second.yz,
+            Parameter::Second(_) => &mut second.xz,
+        }
+    }
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Parameter::Mass => "m",
+            Parameter::First(0) => "s_x",
+            Parameter::First(1) => "s_y",
+            Parameter::First(_) => "s_z",
+            Parameter::Second(0) => "Σ_xx",
+            Parameter::Second(1) => "Σ_yy",
+            Parameter::Second(2) => "Σ_zz",
+            Parameter::Second(3) => "Σ_xy",
+            Parameter::Second(4) => "Σ_yz",
+            Parameter::Second(_) => "Σ_xz",
+        })
+    }
+}
+
+/// What became of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It is zero: it always was, or all of it moved to the link before.
+    Gone,
+    /// It has a value, but the function does not depend on it.
+    NoEffect,
+    /// It stays.
+    Stays,
+}
+
+/// How two parameters count as one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Together {
+    /// Their sum.
+    Sum,
+    /// Their difference.
+    Difference,
+}
+
+/// One link.
+#[derive(Clone, Debug)]
+pub struct LinkFate {
+    /// Its joint, zero-based.
+    pub joint: usize,
+    /// How that moves.
+    pub kind: JointKind,
+    /// What left it for the link before, or for the base if it is the first:
+    /// in kg, m and s, about its own origin.
+    pub moved: Vec<(Parameter, f64)>,
+    /// What is left, with its value, and whether the function needs it.
+    pub left: Vec<(Parameter, f64, Fate)>,
+    /// Whether only one combination of Σ_xx and Σ_yy counts.
+    pub together: Option<Together>,
+    /// Where its origin lies, from the end of the step before the joint, m.
+    pub origin: [f64; 3],
+    /// Whether q_n drops out because the link is symmetric about its axis.
+    pub spins_freely: bool,
+    /// By how many joints its frame turns more than the link (less if
+    /// negative).
+    pub axes: i32,
+}
+
+/// What became of the parameters of a robot.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    /// From the base to the hand.
+    pub links: Vec<LinkFate>,
+    /// The unit of length, m.
+    pub unit: f64,
+}
+
+impl LinkFate {
+    /// How many of the ten the function needs.
+    pub fn needed(&self) -> usize {
+        let stays = |(_, _, fate): &&(Parameter, f64, Fate)| *fate == Fate::Stays;
+        self.left.iter().filter(stays).count()
+    }
+}
+
+impl Parameters {
+    /// In a tuned gauge; `chain` is in it.
+    pub(super) fn of(
+        setting: &Setting,
+        function: Function,
+        tuned: &Tuned,
+        chain: &Chain<Exact>,
+    ) -> Parameters {
+        let arm = portfolio::skeleton(setting);
+        let mut metres = tuned.gauge.clone();
+        (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
+        let now = Chain::new(&arm, &metres);
+        let results = |chain: &Chain<Exact>| {
+            let form = tuned.form;
+            let traced = portfolio::trace_chain(setting, function, chain, form, Folding::Syntactic);
+            merged::results(&traced.0)
+        };
+        let expected = results(chain);
+        // Whether the function depends on a change of a link's body.
+        let counts = |link: usize, change: &dyn Fn(&mut Body<Exact>)| {
+            let mut other = chain.clone();
+            change(&mut other.links[link].body);
+            results(&other) != expected
+        };
+        let more = |value: &mut Exact| *value = value.add(&Exact::one());
+        let less = |value: &mut Exact| *value = value.sub(&Exact::one());
+        let needs =
+            |link: usize, parameter: Parameter| counts(link, &|body| more(parameter.of(body)));
+        let together = |link: usize| {
+            let second = |body: &mut Body<Exact>, first: &dyn Fn(&mut Exact)| {
+                first(&mut body.second.xx);
+                more(&mut body.second.yy);
+            };
+            if !needs(link, Parameter::Second(0)) || !needs(link, Parameter::Second(1)) {
+                None
+            } else if !counts(link, &|body| second(body, &less)) {
+                Some(Together::Sum)
+            } else {
+                let difference = !counts(link, &|body| second(body, &more));
+                difference.then_some(Together::Difference)
+            }
+        };
+        let freedoms = chain.freedoms();
+        let links = arm.links.iter().enumerate().map(|(i, segment)| {
+            let gauge = &metres.links[i];
+            let link = &now.links[i];
+            let moved = match segment.kind {
+                JointKind::Revolute => {
+                    let [mass, first, second] = &link.free;
+                    vec![
+                        (Parameter::Mass, mass.sub(&gauge.mass)),
+                        (Parameter::First(2), first.sub(&gauge.first)),
+                        (Parameter::Second(2), second.sub(&gauge.second)),
+                    ]
+                }
+                JointKind::Prismatic => seconds_moved(&arm, &metres, i),
+            };
+            let moved = moved.into_iter().filter(|(_, value)| !value.is_zero());
+            let mut body = link.body.clone();
+            let left = Parameter::ALL.into_iter().filter_map(|parameter| {
+                let value = parameter.of(&mut body);
+                let fate = match () {
+                    () if value.is_zero() => return None,
+                    () if needs(i, parameter) => Fate::Stays,
+                    () => Fate::NoEffect,
+                };
+                Some((parameter, f64::nearest(value), fate))
+            });
+            LinkFate {
+                joint: segment.joint,
+                kind: segment.kind,
+                moved: moved.map(|(p, value)| (p, f64::nearest(&value))).collect(),
+                left: left.collect(),
+                together: together(i),
+                origin: gauge.origin.each_ref().map(f64::nearest),
+                spins_freely: link.spins_freely,
+                axes: {
+                    let [less, more] = freedoms[i];
+                    link.axes.clamp(less, more)
+                },
+            }
+        });
+        Parameters {
+            links: links.collect(),
+            unit: f64::nearest(&tuned.gauge.unit),
+        }
+    }
+}
+
+/// The second moments that a slide gave to the link before.
+fn seconds_moved(
+    arm: &Skeleton<Exact>,
+    gauge: &Gauge<Exact>,
+    link: usize,
+) -> Vec<(Parameter, Exact)> {
+    if gauge.links[link].keep_seconds {
+        return Vec::new();
+    }
+    let mut whole = gauge.clone();
+    whole.links[link].keep_seconds = true;
+    let mut body = Chain::new(arm, &whole).links[link].body.clone();
+    let seconds = (0..6).map(Parameter::Second);
+    seconds.map(|p| (p, p.of(&mut body).clone())).collect()
+}

@@ -1,0 +1,15 @@
+//! What is reported about a robot and the code generated for it: nothing that
+//! a user of the macro compiles.
+//!
+//! - [`couplings`]: which coefficients vanish or repeat, and why
+//! - [`stress`]: stability at the extremes, against a big float
+//! - [`explain`]: what each step brought, and why
+//! - [`states`]: given states compared with the code, and why they disagree
+//! - [`sweep`]: certified error against operations, tolerance by tolerance
+#![forbid(unsafe_code)]
+
+pub mod couplings;
+pub mod explain;
+pub mod states;
+pub mod stress;
+pub mod sweep;

@@ -1,0 +1,85 @@
+//! Errors in units of u.
+
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+use dalembert_codegen::program::ScalarType;
+
+/// The error of a vector of joint torques, or of any other result.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Deviation {
+    /// max_i |error_i| / max_i |truth_i|, in u.
+    pub normwise: f64,
+    /// max_i |error_i| / T_i, in u.
+    pub per_joint: f64,
+    /// The joint (zero-based) where that is.
+    pub joint: usize,
+}
+
+/// How results are measured.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    /// The unit.
+    pub scalar: ScalarType,
+    /// T_i: empty if there are none.
+    pub scales: Vec<f64>,
+    /// What underflow may add, absolutely.
+    pub underflow: f64,
+}
+
+impl Measure {
+    /// For the torques of a robot.
+    ///
+    /// A product that underflows is off by half the least subnormal, whatever
+    /// its size; the robot's parameters then multiply that. A function has
+    /// some thousand products.
+    pub fn new(robot: &Robot, scalar: ScalarType, scales: Vec<f64>) -> Measure {
+        let sizes = robot
+            .joints
+            .iter()
+            .flat_map(|joint| [&joint.mass, &joint.a, &joint.d]);
+        let largest = sizes
+            .map(f64::nearest_rational)
+            .fold(1.0, |most, x| x.abs().max(most));
+        let least = match scalar {
+            ScalarType::F64 => f64::from_bits(1),
+            ScalarType::F32 => f64::from(f32::from_bits(1)),
+        };
+        Measure {
+            scalar,
+            scales,
+            underflow: 4096.0 * largest * least,
+        }
+    }
+
+    /// The error of a result; infinite if it is not finite.
+    pub fn of(&self, found: &[f64], truth: &[Big]) -> Deviation {
+        let u = self.scalar.unit_roundoff();
+        let error = |(found, truth): (&f64, &Big)| match Big::from_f64(*found) {
+            Some(found) => (found.sub(truth).abs().to_f64() - self.underflow).max(0.0),
+            None => f64::INFINITY,
+        };
+        let errors: Vec<f64> = found.iter().zip(truth).map(error).collect();
+        let most = errors.iter().copied().fold(0.0, f64::max);
+        let size = truth.iter().map(|x| x.abs().to_f64()).fold(0.0, f64::max);
+        let mut deviation = Deviation {
+            normwise: ratio(most, size) / u,
+            ..Deviation::default()
+        };
+        for (joint, (error, scale)) in errors.iter().zip(&self.scales).enumerate() {
+            let error = ratio(*error, *scale) / u;
+            if error > deviation.per_joint {
+                deviation.per_joint = error;
+                deviation.joint = joint;
+            }
+        }
+        deviation
+    }
+}
+
+/// error / size; nothing of nothing is nothing.
+fn ratio(error: f64, size: f64) -> f64 {
+    if error == 0.0 { 0.0 } else { error / size }
+}

@@ -1,0 +1,59 @@
+//! A robot whose parameters are numbers of a scalar.
+
+use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::robot::{Inertia, Joint, Robot};
+
+use dalembert_codegen::program::ScalarType;
+
+/// The robot with every number rounded to the scalar, angles in radians too;
+/// multiples of π stay what they are. `None` if a number is beyond its range.
+pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
+    let number = |value: &Rational| -> Option<Rational> {
+        let nearest = match scalar {
+            ScalarType::F64 => f64::nearest_rational(value),
+            ScalarType::F32 => f64::from(f32::nearest_rational(value)),
+        };
+        Rational::from_float(nearest)
+    };
+    let angle = |angle: &Angle| -> Option<Angle> {
+        Some(match angle {
+            Angle::PiTimes(_) => angle.clone(),
+            Angle::Radians(radians) => Angle::Radians(number(radians)?).canonical(),
+        })
+    };
+    let triple = |[x, y, z]: &[Rational; 3]| Some([number(x)?, number(y)?, number(z)?]);
+    let joint = |joint: &Joint| -> Option<Joint> {
+        let Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        } = &joint.inertia;
+        Some(Joint {
+            alpha: angle(&joint.alpha)?,
+            a: number(&joint.a)?,
+            d: number(&joint.d)?,
+            theta: angle(&joint.theta)?,
+            mass: number(&joint.mass)?,
+            com: triple(&joint.com)?,
+            inertia: Inertia {
+                xx: number(xx)?,
+                yy: number(yy)?,
+                zz: number(zz)?,
+                xy: number(xy)?,
+                yz: number(yz)?,
+                xz: number(xz)?,
+            },
+            viscous: number(&joint.viscous)?,
+            armature: number(&joint.armature)?,
+            ..joint.clone()
+        })
+    };
+    Some(Robot {
+        gravity: triple(&robot.gravity)?,
+        joints: robot.joints.iter().map(joint).collect::<Option<_>>()?,
+        ..robot.clone()
+    })
+}

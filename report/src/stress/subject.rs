@@ -1,0 +1,103 @@
+//! What is tested: emitted code, run from its text, and the generic runtime.
+
+use std::fmt;
+
+use dalembert_model::reference::{Float, JointVectors, Reference, WrongLength};
+use dalembert_model::robot::Robot;
+use nalgebra::DVector;
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Request, generate};
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::states::JointState;
+use dalembert_codegen::verify::floating::Emitted;
+
+/// Which code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Subject {
+    /// [`Reference`].
+    Runtime,
+    /// The text that [`generate`] prints, interpreted bit for bit.
+    Emitted,
+}
+
+impl Subject {
+    /// Both.
+    pub const ALL: [Subject; 2] = [Subject::Runtime, Subject::Emitted];
+}
+
+impl fmt::Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Subject::Runtime => "runtime",
+            Subject::Emitted => "emitted",
+        })
+    }
+}
+
+/// Code of one robot in one scalar.
+#[derive(Clone, Debug)]
+pub enum Code {
+    /// The runtime in f64.
+    Double(Reference<f64>),
+    /// The runtime in f32.
+    Single(Reference<f32>),
+    /// Emitted functions.
+    Emitted(Vec<Emitted>),
+}
+
+impl Code {
+    /// The generic runtime.
+    pub fn runtime(robot: &Robot, scalar: ScalarType) -> Code {
+        match scalar {
+            ScalarType::F64 => Code::Double(Reference::from_robot(robot)),
+            ScalarType::F32 => Code::Single(Reference::from_robot(robot)),
+        }
+    }
+
+    /// The functions that a request gives, read back from the text, in the
+    /// order of the request's scalars.
+    pub fn emitted(robot: &Robot, request: &Request) -> Result<Vec<Code>, GenerateError> {
+        let generated = generate(robot, request)?;
+        let of = |scalar: &ScalarType| {
+            let functions = generated.emitted.iter().filter(|f| f.scalar == *scalar);
+            Code::Emitted(functions.cloned().collect())
+        };
+        Ok(request.scalars.iter().map(of).collect())
+    }
+
+    /// The results of a function at a state, flat, as doubles that hold them
+    /// exactly; `None` if there is no such function here, or the state is of
+    /// another robot.
+    pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<f64>> {
+        match self {
+            Code::Double(runtime) => run(runtime, function, state, |x| x, |x| x).ok(),
+            Code::Single(runtime) => run(runtime, function, state, |x| x as f32, f64::from).ok(),
+            Code::Emitted(functions) => {
+                let emitted = functions.iter().find(|f| f.function == function)?;
+                Some(emitted.run(state))
+            }
+        }
+    }
+}
+
+fn run<T: Float>(
+    runtime: &Reference<T>,
+    function: Function,
+    state: &JointState,
+    narrow: impl Fn(f64) -> T,
+    widen: impl Fn(T) -> f64,
+) -> Result<Vec<f64>, WrongLength> {
+    let vector =
+        |values: &[f64]| DVector::from_iterator(values.len(), values.iter().map(|x| narrow(*x)));
+    let at = JointVectors {
+        q: vector(&state.q),
+        qd: vector(&state.qd),
+        qdd: vector(&state.qdd),
+    };
+    let mut results = Vec::new();
+    for quantity in function.quantities() {
+        results.extend(quantity.runtime(runtime, &at)?);
+    }
+    Ok(results.into_iter().map(widen).collect())
+}

@@ -1,0 +1,83 @@
+//! The reference: the link-frame recursion over a big float of 134 digits, at
+//! the exact parameters and the exact binary state.
+
+use dalembert_model::equations::{Arm, Formulation, Rotor};
+use dalembert_model::number::{Angle, Exact};
+use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::program::{AngleSum, Input};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::states::JointState;
+
+/// A robot in the big float, or in a scene.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    setting: Setting,
+    arm: Arm<Big>,
+}
+
+impl Truth {
+    /// Of a robot, nothing snapped, each parameter rounded to 448 bits.
+    pub fn new(robot: &Robot) -> Truth {
+        Truth::in_setting(&Setting::whole(robot))
+    }
+
+    /// Of a robot in a scene: whatever a state says, locked joints are exactly
+    /// where they are locked.
+    pub fn in_setting(setting: &Setting) -> Truth {
+        Truth {
+            arm: Arm::from_robot(setting.robot(), &mut number),
+            setting: setting.clone(),
+        }
+    }
+
+    /// The results of a function over the setting's rows, flat; `None` at a
+    /// state that is not finite.
+    pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
+        let values = state.q.iter().chain(&state.qd).chain(&state.qdd);
+        if values.into_iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let finite = |x: f64| Big::from_f64(x).unwrap_or_else(Big::zero);
+        // A motion reads the angles of single joints only; each joint's pair
+        // is made once.
+        let mut pairs: Vec<(AngleSum, (Big, Big))> = Vec::new();
+        let mut pair = |sum: AngleSum| match pairs.last() {
+            Some((last, pair)) if *last == sum => pair.clone(),
+            _ => {
+                let joint = sum.terms().map(|(joint, _)| joint).sum::<usize>();
+                let made = finite(state.q[joint]).sin_cos();
+                pairs.push((sum, made.clone()));
+                made
+            }
+        };
+        let input = |input| match input {
+            Input::Sin(sum) => pair(sum).0,
+            Input::Cos(sum) => pair(sum).1,
+            Input::Position(joint) => finite(state.q[joint]),
+            Input::Velocity(joint) => finite(state.qd[joint]),
+            Input::Acceleration(joint) => finite(state.qdd[joint]),
+        };
+        let setting = &self.setting;
+        let motion = setting.motion(input, number);
+        let recursion = Formulation::NewtonEulerLink;
+        let results = function.evaluate(recursion, &self.arm, &motion);
+        Some(setting.select(function, setting.joints(), results))
+    }
+}
+
+/// An exact constant, rounded to 448 bits.
+pub fn number(constant: &Exact) -> Big {
+    let value = constant.map(&mut |x| Some(Big::from_rational(x)), &mut |angle| {
+        let (sin, cos) = match angle {
+            Angle::PiTimes(multiple) => Big::sin_cos_pi(multiple),
+            Angle::Radians(radians) => Big::sin_cos_of(radians),
+        };
+        Rotor { sin, cos }
+    });
+    // Every rational has its big float.
+    value.unwrap_or_else(Big::zero)
+}

@@ -1,0 +1,202 @@
+//! The variants, tolerance by tolerance.
+//!
+//! From the largest tolerance down: where nothing more can be left out, less
+//! tolerance leaves out nothing either, and no search is needed.
+
+use dalembert_codegen::certify::attack::attack;
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::choose::{Admitted, Frame};
+use dalembert_codegen::certify::prune::Settings;
+use dalembert_codegen::certify::sensitivity::Fineness;
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::simplify::Effort;
+
+use super::rungs::{Rung, Rungs};
+use super::{Point, SweepError};
+
+/// How a sweep is done.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// States at which each variant is run.
+    pub samples: usize,
+    /// Climbs from there to the largest error of each output.
+    pub climbs: usize,
+    /// How long to search.
+    pub effort: Effort,
+}
+
+/// Who waits for a sweep.
+pub trait Waiting {
+    /// Something begins that takes long.
+    fn begin(&self, what: &str);
+    /// A rung is certified, or was kept by an earlier run.
+    fn done(&self, rung: &Rung, resumed: bool);
+}
+
+/// A scalar may share the others' variant if rounding takes less than this
+/// part of the tolerance.
+const SHARE: f64 = 1.0 / 16.0;
+
+/// The variants of one function, tolerance by tolerance.
+pub struct Ladder<'a> {
+    options: Options,
+    frame: &'a Frame<'a>,
+    waiting: &'a dyn Waiting,
+    settings: Settings,
+    /// The exact program in every scalar.
+    exact: Admitted,
+}
+
+impl<'a> Ladder<'a> {
+    /// For a function in its box.
+    pub fn new(options: Options, frame: &'a Frame<'a>, waiting: &'a dyn Waiting) -> Ladder<'a> {
+        waiting.begin("exact");
+        Ladder {
+            options,
+            frame,
+            waiting,
+            settings: Settings::of(options.effort),
+            exact: frame.unedited(&ScalarType::ALL, Fineness::CERTIFY),
+        }
+    }
+
+    /// The points of all tolerances, which ascend; the exact program's first.
+    ///
+    /// # Errors
+    /// A rung cannot be used or kept, or a variant cannot be run.
+    pub fn climb(
+        &self,
+        tolerances: &[f64],
+        rungs: Option<&Rungs>,
+    ) -> Result<Vec<Point>, SweepError> {
+        let descending = tolerances.iter().rev().copied().chain([0.0]);
+        let mut kept = Vec::new();
+        // Before the work: what cannot be used is no news an hour later.
+        for tolerance in descending {
+            let rung = rungs.map(|rungs| rungs.kept(tolerance)).transpose()?;
+            kept.push((tolerance, rung.flatten()));
+        }
+        let mut points = Vec::new();
+        let mut fruitful = true;
+        for (tolerance, kept) in kept {
+            let resumed = kept.is_some();
+            let rung = match kept {
+                Some(rung) => rung,
+                None => self.rung(tolerance, fruitful)?,
+            };
+            if let (false, Some(rungs)) = (resumed, rungs) {
+                rungs.keep(&rung)?;
+            }
+            self.waiting.done(&rung, resumed);
+            fruitful = rung.fruitful;
+            points.extend(rung.points);
+        }
+        points.sort_by(|a, b| {
+            let order = a.tolerance.total_cmp(&b.tolerance);
+            order.then(a.kind().cmp(&b.kind()))
+        });
+        Ok(points)
+    }
+
+    fn rung(&self, tolerance: f64, fruitful: bool) -> Result<Rung, SweepError> {
+        self.waiting.begin(&format!("tolerance {tolerance:e}"));
+        let exact = tolerance == 0.0;
+        let variants = match exact {
+            true => vec![self.exact.clone()],
+            false => self.variants(tolerance, fruitful),
+        };
+        let fruitful = variants.iter().any(|variant| !variant.stages.is_empty());
+        let tolerances = vec![tolerance; self.frame.scales.len()];
+        self.waiting
+            .begin(&format!("attempts to refute {tolerance:e}"));
+        let mut points = Vec::new();
+        for certificate in variants.into_iter().flat_map(|v| v.certificates) {
+            let polynomials = (!exact).then(|| {
+                self.frame
+                    .with_polynomials(&certificate, &tolerances, Fineness::CERTIFY)
+            });
+            points.push(self.point(tolerance, certificate)?);
+            let found = polynomials.and_then(Result::ok);
+            if let Some(certificate) = found.filter(|found| !found.sines.is_empty()) {
+                points.push(self.point(tolerance, certificate)?);
+            }
+        }
+        Ok(Rung {
+            tolerance,
+            fruitful,
+            points,
+        })
+    }
+
+    /// The cheapest variants that a tolerance admits, in each scalar that can
+    /// be that exact at all.
+    fn variants(&self, tolerance: f64, fruitful: bool) -> Vec<Admitted> {
+        let tolerances = vec![tolerance; self.frame.scales.len()];
+        let worst = |certificate: &Certificate| {
+            let totals = certificate.bounds.iter().map(|bound| bound.total());
+            totals.fold(0.0, f64::max)
+        };
+        let able = self.exact.certificates.iter();
+        let able: Vec<_> = able.filter(|c| worst(c) <= tolerance).collect();
+        let alike = able.iter().all(|c| worst(c) <= SHARE * tolerance);
+        let groups: Vec<Vec<ScalarType>> = match alike {
+            true => vec![able.iter().map(|c| c.scalar).collect()],
+            false => able.iter().map(|c| vec![c.scalar]).collect(),
+        };
+        let groups = groups.into_iter().filter(|scalars| !scalars.is_empty());
+        groups
+            .map(|scalars| {
+                let found = fruitful.then(|| {
+                    self.frame
+                        .choose(&tolerances, &scalars, &self.settings, Fineness::CERTIFY)
+                });
+                match found {
+                    Some(Ok(found)) => found,
+                    _ => self.exact_in(&scalars),
+                }
+            })
+            .collect()
+    }
+
+    fn exact_in(&self, scalars: &[ScalarType]) -> Admitted {
+        let mut exact = self.exact.clone();
+        exact.certificates.retain(|c| scalars.contains(&c.scalar));
+        exact
+    }
+
+    fn point(&self, tolerance: f64, certificate: Certificate) -> Result<Point, SweepError> {
+        let (observed, mut violation) = self.attacked(&certificate)?;
+        let mut rounding_observed = None;
+        if certificate.scalar == ScalarType::F32 {
+            let (observed, other) = self.attacked(&certificate.of_rounding())?;
+            rounding_observed = observed;
+            violation = violation.or(other);
+        }
+        Ok(Point {
+            observed,
+            rounding_observed,
+            violation,
+            ..Point::new(tolerance, certificate)
+        })
+    }
+
+    /// The largest error that is seen, and one above E.
+    fn attacked(
+        &self,
+        certificate: &Certificate,
+    ) -> Result<(Option<f64>, Option<String>), SweepError> {
+        let attack = attack(certificate, self.options.samples, self.options.climbs, 1)
+            .map_err(|error| SweepError::Text(error.to_string()))?;
+        let largest = || attack.observed.iter().copied().fold(0.0, f64::max);
+        let observed = (attack.states > 0).then(largest);
+        let violation = attack.violation.map(|(index, state)| {
+            format!(
+                "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",
+                certificate.emitted.entry(index),
+                attack.observed[index],
+                certificate.bounds[index].total()
+            )
+        });
+        Ok((observed, violation))
+    }
+}

@@ -1,0 +1,153 @@
+//! What accuracy costs: variants of one function for several tolerances, each
+//! certified and run at states that try to refute it.
+//!
+//! - this file: a variant, and which variants another one beats
+//! - [`ladder`]: the variants, tolerance by tolerance
+//! - [`rungs`]: the variants of a tolerance kept, so that a run that was ended
+//!   goes on where it was
+
+pub mod ladder;
+pub mod rungs;
+
+use std::fmt;
+
+use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::program::{Counts, ScalarType};
+use dalembert_codegen::sincos;
+
+/// One variant.
+pub struct Point {
+    /// Zero for the exact program.
+    pub tolerance: f64,
+    /// What is claimed of it.
+    pub certificate: Certificate,
+    /// The largest E of an output.
+    pub certified: f64,
+    /// The largest error that was seen, if it was run at any state.
+    pub observed: Option<f64>,
+    /// What operations and sines cost by themselves, the same way: the code
+    /// against its own program in double precision. Nothing in double.
+    pub rounding: f64,
+    /// The largest such error that was seen.
+    pub rounding_observed: Option<f64>,
+    /// Time of a call, and as a ratio to the exact f64 variant's.
+    pub time: Option<Time>,
+    /// Whether another one is neither dearer nor worse.
+    pub dominated: bool,
+    /// An error above E, in words: never, unless this program is wrong.
+    pub violation: Option<String>,
+}
+
+/// How long a call takes.
+#[derive(Clone, Copy)]
+pub struct Time {
+    /// Of the machine that it was measured on.
+    pub nanoseconds: f64,
+    /// To the exact f64 variant in the same run.
+    pub ratio: f64,
+}
+
+impl Point {
+    /// A variant that was not run yet.
+    pub fn new(tolerance: f64, certificate: Certificate) -> Point {
+        let largest = |certificate: &Certificate| {
+            let totals = certificate.bounds.iter().map(|bound| bound.total());
+            totals.fold(0.0, f64::max)
+        };
+        Point {
+            tolerance,
+            certified: largest(&certificate),
+            observed: None,
+            rounding: largest(&certificate.of_rounding()),
+            rounding_observed: None,
+            certificate,
+            time: None,
+            dominated: false,
+            violation: None,
+        }
+    }
+
+    /// Where its certificate goes.
+    pub fn file(&self) -> String {
+        let Certificate { scalar, sines, .. } = &self.certificate;
+        let by = if sines.is_empty() { "" } else { "-polynomials" };
+        format!("{:e}-{scalar}{by}.json", self.tolerance)
+    }
+
+    /// Which kind of variant it is: scalar and sines.
+    pub fn kind(&self) -> usize {
+        let polynomials = !self.certificate.sines.is_empty();
+        2 * usize::from(polynomials)
+            + match self.certificate.scalar {
+                ScalarType::F64 => 0,
+                ScalarType::F32 => 1,
+            }
+    }
+
+    /// What it costs, with the operations of its sines.
+    pub fn counts(&self) -> Counts {
+        let (trig_mul, trig_add) = sincos::counts(&self.certificate.sines);
+        Counts {
+            trig_mul,
+            trig_add,
+            ..self.certificate.emitted.counts()
+        }
+    }
+
+    /// How many values were replaced.
+    pub fn edits(&self) -> usize {
+        let stages = self.certificate.stages.iter();
+        stages.map(|stage| stage.edits.len()).sum()
+    }
+
+    /// What it costs, dimension by dimension: a narrower scalar is one too.
+    fn cost(&self) -> [usize; 3] {
+        let counts = self.counts();
+        let bits = match self.certificate.scalar {
+            ScalarType::F64 => 64,
+            ScalarType::F32 => 32,
+        };
+        // Polynomials are operations like others; what libm does is not known.
+        match self.certificate.sines.is_empty() {
+            true => [bits, counts.sincos, counts.operations()],
+            false => [
+                bits,
+                0,
+                counts.operations() + counts.trig_mul + counts.trig_add,
+            ],
+        }
+    }
+}
+
+/// Marks what is dominated: another point is no dearer, no worse, and not the
+/// same; of equal points the first stays.
+pub fn mark(points: &mut [Point]) {
+    let all: Vec<([usize; 3], f64)> = points.iter().map(|p| (p.cost(), p.certified)).collect();
+    for (index, point) in points.iter_mut().enumerate() {
+        let (mine, error) = all[index];
+        point.dominated = all.iter().enumerate().any(|(other, &(theirs, e))| {
+            let no_worse = theirs.iter().zip(&mine).all(|(a, b)| a <= b) && e <= error;
+            let same = theirs == mine && e == error;
+            no_worse && (!same || other < index)
+        });
+    }
+}
+
+/// Why a sweep ends early.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SweepError {
+    /// A variant's text cannot be run.
+    Text(String),
+    /// A kept rung cannot be used, or not be kept.
+    Rung(String),
+}
+
+impl fmt::Display for SweepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SweepError::Text(why) | SweepError::Rung(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for SweepError {}

@@ -1,0 +1,167 @@
+//! Rungs kept: the variants of one tolerance, in a file of their own as soon as
+//! they are certified.
+//!
+//! A file says by a hash which robot, scene, exact program and options it is of,
+//! and by another one that it is whole. Whoever wants to trust a certificate in
+//! it runs `dalembert certify`: here it is what this program wrote.
+
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use dalembert_codegen::certify::certificate::format::{read, text_hash};
+use serde_json::{Value, json};
+
+use super::{Point, SweepError};
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// The largest file that is read.
+const MAX_BYTES: u64 = 256 << 20;
+
+/// The variants of one tolerance.
+pub struct Rung {
+    /// Zero for the exact program.
+    pub tolerance: f64,
+    /// Whether anything was left out: if not, less tolerance leaves out
+    /// nothing either.
+    pub fruitful: bool,
+    /// The variants.
+    pub points: Vec<Point>,
+}
+
+/// A folder of rungs.
+pub struct Rungs {
+    folder: PathBuf,
+    key: String,
+}
+
+impl Rungs {
+    /// A folder, which need not be there, for a run that `identity` tells apart
+    /// from every other: robot, scene, exact program, options.
+    pub fn new(folder: &Path, identity: &str) -> Rungs {
+        let version = env!("CARGO_PKG_VERSION");
+        Rungs {
+            folder: folder.to_owned(),
+            key: text_hash(&format!("{version}\n{identity}")),
+        }
+    }
+
+    fn path(&self, tolerance: f64) -> PathBuf {
+        self.folder.join(format!("{tolerance:e}.json"))
+    }
+
+    /// A rung that was kept.
+    ///
+    /// # Errors
+    /// It is of another run, or damaged.
+    pub fn kept(&self, tolerance: f64) -> Result<Option<Rung>, SweepError> {
+        let path = self.path(tolerance);
+        let fail = |why: &str| {
+            SweepError::Rung(format!(
+                "the rung `{}` of a run that was ended {why}\n  = help: delete it to search \
+                 for it again, or choose another folder",
+                path.display()
+            ))
+        };
+        let mut bytes = Vec::new();
+        // Opening a pipe would wait for somebody who writes into it.
+        match fs::metadata(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(fail(&format!("cannot be read: {error}"))),
+            Ok(found) if !found.is_file() => return Err(fail("is no file")),
+            Ok(_) => {}
+        }
+        File::open(&path)
+            .and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes))
+            .map_err(|error| fail(&format!("cannot be read: {error}")))?;
+        let json: Value = serde_json::from_slice(&bytes)
+            .map_err(|error| fail(&format!("is damaged: {error}")))?;
+        let text = |key: &str| json.get(key).and_then(Value::as_str);
+        if json.get("rung").and_then(Value::as_u64) != Some(VERSION.into()) {
+            return Err(fail("is damaged: this version reads rungs of version 1"));
+        }
+        if text("run") != Some(&self.key) {
+            return Err(fail("is of another robot, scene, plan, version or options"));
+        }
+        let body = json.get("body").unwrap_or(&Value::Null);
+        if text("hash") != Some(&text_hash(&body.to_string())) {
+            return Err(fail("is damaged: its hash is not that of what it says"));
+        }
+        self.rung(tolerance, body)
+            .map(Some)
+            .map_err(|why| fail(&format!("is damaged: {why}")))
+    }
+
+    fn rung(&self, tolerance: f64, body: &Value) -> Result<Rung, String> {
+        if body.get("tolerance").and_then(Value::as_f64) != Some(tolerance) {
+            return Err("it is of another tolerance".into());
+        }
+        let missing = |key: &str| format!("`{key}` is missing");
+        let fruitful = body.get("fruitful").and_then(Value::as_bool);
+        let points = body.get("points").and_then(Value::as_array);
+        let point = |json: &Value| {
+            let text = json.get("certificate").and_then(Value::as_str);
+            let text = text.ok_or_else(|| missing("certificate"))?;
+            let certificates = read(text).map_err(|error| error.to_string())?;
+            let [certificate] = <[_; 1]>::try_from(certificates)
+                .map_err(|_| "there is more than one certificate in a point".to_owned())?;
+            let number = |key: &str| json.get(key).and_then(Value::as_f64);
+            Ok(Point {
+                observed: number("observed"),
+                rounding_observed: number("rounding_observed"),
+                ..Point::new(tolerance, certificate)
+            })
+        };
+        let points = points.ok_or_else(|| missing("points"))?.iter().map(point);
+        Ok(Rung {
+            tolerance,
+            fruitful: fruitful.ok_or_else(|| missing("fruitful"))?,
+            points: points.collect::<Result<_, String>>()?,
+        })
+    }
+
+    /// Keeps a rung, whole or not at all; one with a violation is looked into
+    /// instead.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn keep(&self, rung: &Rung) -> Result<(), SweepError> {
+        if rung.points.iter().any(|point| point.violation.is_some()) {
+            return Ok(());
+        }
+        let points = rung.points.iter().map(|point| {
+            json!({
+                "certificate": point.certificate.to_json(),
+                "observed": point.observed,
+                "rounding_observed": point.rounding_observed,
+            })
+        });
+        let body = json!({
+            "tolerance": rung.tolerance,
+            "fruitful": rung.fruitful,
+            "points": points.collect::<Vec<_>>(),
+        });
+        let hash = text_hash(&body.to_string());
+        let text = json!({ "rung": VERSION, "run": self.key, "hash": hash, "body": body });
+        let path = self.path(rung.tolerance);
+        let unfinished = path.with_extension("unfinished");
+        let written = fs::create_dir_all(&self.folder)
+            .and_then(|()| fs::write(&unfinished, text.to_string() + "\n"))
+            .and_then(|()| fs::rename(&unfinished, &path));
+        written.map_err(|error| {
+            let path = path.display();
+            SweepError::Rung(format!("`{path}` cannot be written: {error}"))
+        })
+    }
+
+    /// Deletes the rungs of these tolerances: the run is through.
+    pub fn forget(&self, tolerances: impl IntoIterator<Item = f64>) {
+        for tolerance in tolerances {
+            // What stays is found, and said to be of another run, next time.
+            let _ = fs::remove_file(self.path(tolerance));
+        }
+        let _ = fs::remove_dir(&self.folder);
+    }
+}

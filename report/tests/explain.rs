@@ -1,0 +1,205 @@
+//! The table of steps and the fate of the parameters, on arms where the
+//! answers are known.
+
+#[path = "../../codegen/tests/support/mod.rs"]
+mod support;
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::verify::exact::{prove, prove_in};
+use dalembert_model::number::Rational;
+use dalembert_model::scene::Scale;
+use dalembert_report::explain::parameters::{Fate, Parameter, Together};
+use dalembert_report::explain::steps::{Code, Step};
+use dalembert_report::explain::{Explanation, explain, explain_all};
+
+fn of(name: &str, function: Function) -> Explanation {
+    explain(&support::robot(name), function, &Request::default()).unwrap()
+}
+
+fn operations(explanation: &Explanation, step: Step) -> usize {
+    let mut rows = explanation.rows.iter();
+    let row = rows.find(|row| row.step == step).unwrap();
+    row.counts.operations()
+}
+
+/// Every row is a program of the same function.
+#[test]
+fn every_row_is_proved() {
+    for name in ["planar2r", "stanford"] {
+        let robot = support::robot(name);
+        for function in [Function::InverseDynamics, Function::Inertia] {
+            for row in of(name, function).rows {
+                if let Code::Program(program) = row.code {
+                    let step = row.step.key();
+                    assert_eq!(row.counts, program.counts());
+                    prove(&robot, &program).unwrap_or_else(|e| panic!("{name} {step}: {e}"));
+                }
+            }
+        }
+    }
+}
+
+/// In a scene too: every row but the last, which gives accuracy up, is the
+/// whole robot's at the scene's values; rounding alone costs it no digits.
+#[test]
+fn a_scene_is_explained() {
+    let scene = "\n[scene.hold]\noutputs = [\"gravity\"]\njoints = [2, 1]\nlock = { 3 = \"pi/6\" }\n\
+         tolerance = { value = 0.3, relative_to = \"range\" }\n";
+    let reading = support::reading_with("planar3r", scene);
+    let request = Request::default().in_scene(&reading.scenes[0]);
+    let explained = explain(&reading.robot, Function::Gravity, &request).unwrap();
+    let setting = Setting::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
+    let (last, exact) = explained.rows.split_last().unwrap();
+    assert_eq!(last.step, Step::Tolerance);
+    for row in exact {
+        if let Code::Program(program) = &row.code {
+            let step = row.step.key();
+            prove_in(&setting, program).unwrap_or_else(|e| panic!("{step}: {e}"));
+        }
+    }
+    let searched = operations(&explained, Step::Search);
+    assert!(last.counts.operations() < searched && searched < 14);
+    assert!(explained.couplings.is_none());
+    {
+        let errors = dalembert_report::explain::errors::measure(&explained, 50);
+        let (last, exact) = errors.split_last().unwrap();
+        assert!(
+            exact.iter().all(|e| e.normwise > 0.0 && e.normwise < 100.0),
+            "{exact:?}"
+        );
+        assert!(last.normwise > 1e6);
+    }
+}
+
+/// The last rows are what is generated, in its scalar and with its sines: all
+/// functions in the same one, though gravity alone could do with the other.
+#[test]
+fn the_last_row_is_what_is_generated() {
+    // At such accelerations f32 is off by a thousandth of the limits.
+    let scene = "\n[scene.move]\nbox = { velocity = [1, 1, 1], acceleration = [1e6, 1e6, 1e6] }\n\
+                 tolerance = { value = 1e-5, relative_to = \"range\" }\n";
+    let mut reading = support::reading_with("planar3r", scene);
+    for joint in &mut reading.robot.joints {
+        joint.limits.torque = Some(Rational::from_integer(100.into()));
+    }
+    let tolerance = reading.scenes[0].tolerance.as_mut().unwrap();
+    tolerance.relative_to = Scale::Actuator;
+    let torques = [Function::Gravity, Function::InverseDynamics];
+    for (functions, scalar) in [
+        (&torques[..1], ScalarType::F32),
+        (&torques[..], ScalarType::F64),
+    ] {
+        let scene = Some(&reading.scenes[0]);
+        let request = Request::default().choose(Some(functions.to_vec()), None, scene);
+        let explained = explain_all(&reading.robot, &request).unwrap();
+        let generated = generate(&reading.robot, &request).unwrap();
+        assert_eq!(explained.len(), functions.len());
+        for explanation in explained {
+            let mut all = generated.functions.iter();
+            let function = all.find(|f| f.function == explanation.function).unwrap();
+            let last = explanation.rows.last().unwrap();
+            let Code::Emitted(text, of) = &last.code else {
+                panic!("{:?}", last.step)
+            };
+            assert_eq!(*of, scalar, "{}", function.function);
+            assert_eq!(last.counts, function.counts_in(scalar));
+            let mut emitted = generated.emitted.iter();
+            let emitted = emitted.find(|e| e.function == function.function).unwrap();
+            assert_eq!((**text).clone(), emitted.text);
+        }
+    }
+}
+
+#[test]
+fn steps_do_not_make_it_dearer() {
+    let puma = of("puma560", Function::InverseDynamics);
+    let falling = [
+        Step::LagrangeWritten,
+        Step::LagrangeFolded,
+        Step::LagrangeFingerprints,
+        Step::LagrangeEGraph,
+        Step::LagrangeSearch,
+        Step::NewtonFingerprints,
+        Step::ChainKept,
+        Step::ChainBase,
+        Step::ChainTuned,
+        Step::ChainUnit,
+        Step::EGraph,
+        Step::Search,
+    ];
+    for pair in falling.windows(2) {
+        let (before, after) = (operations(&puma, pair[0]), operations(&puma, pair[1]));
+        assert!(
+            after <= before,
+            "{:?} {before}, {:?} {after}",
+            pair[0],
+            pair[1]
+        );
+    }
+    assert!(operations(&puma, Step::Search) < operations(&puma, Step::ChainBase));
+}
+
+/// Two links in a plane have three base parameters each way the books count
+/// them, one of them shared.
+#[test]
+fn the_parameters_of_two_links_in_a_plane() {
+    let planar = of("planar2r", Function::InverseDynamics).parameters;
+    let needed: Vec<usize> = planar.links.iter().map(|link| link.needed()).collect();
+    assert_eq!(needed, [2, 2]);
+    let moved = &planar.links[1].moved;
+    assert!(moved.contains(&(Parameter::Mass, 1.0)), "{moved:?}");
+}
+
+#[test]
+fn what_drops_out_of_the_puma() {
+    let puma = of("puma560", Function::InverseDynamics).parameters;
+    let free: Vec<bool> = puma.links.iter().map(|link| link.spins_freely).collect();
+    assert_eq!(free, [false, false, false, false, false, true]);
+    // The waist is vertical: gravity does not reach the mass beside its axis,
+    // and only its moment about the axis counts.
+    let waist = &puma.links[0];
+    assert_eq!(waist.together, Some(Together::Sum));
+    let idle = |(p, _, fate): &(Parameter, f64, Fate)| {
+        matches!(p, Parameter::First(_)) && *fate == Fate::NoEffect
+    };
+    assert!(waist.left.iter().any(idle), "{:?}", waist.left);
+    // Gravity is a matter of first moments.
+    let gravity = of("puma560", Function::Gravity).parameters;
+    for (p, _, fate) in gravity.links.iter().flat_map(|link| &link.left) {
+        let second = matches!(p, Parameter::Second(_));
+        assert!(!second || *fate == Fate::NoEffect, "{p}");
+    }
+}
+
+#[test]
+fn what_the_fingerprints_find() {
+    let puma = of("puma560", Function::InverseDynamics);
+    assert_eq!(puma.merged.len(), 2);
+    for (formulation, merged) in &puma.merged {
+        let found = merged.vanish + merged.constant + merged.repeat;
+        assert!(found > 0 && found < merged.operations, "{formulation:?}");
+    }
+    assert!(puma.couplings.is_some());
+}
+
+#[test]
+fn rounding_of_every_row() {
+    // Some symbols h_ikm and two loads c_i vanish: nothing to relate dust to.
+    for function in [Function::InverseDynamics, Function::DynamicCoefficients] {
+        let stanford = of("stanford", function);
+        let errors = dalembert_report::explain::errors::measure(&stanford, 20);
+        assert_eq!(errors.len(), stanford.rows.len());
+        for (row, errors) in stanford.rows.iter().zip(errors) {
+            let step = row.step.key();
+            assert!(errors.normwise > 0.0 && errors.normwise < 1e3, "{step}");
+            // Small symbols are differences of large numbers where poses are
+            // differentiated.
+            let bound = if row.step == Step::Search { 1e3 } else { 1e8 };
+            let error = errors.per_joint;
+            assert!(error > 0.0 && error < bound, "{function} {step}: {error}");
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Longer chains: linear inverse dynamics, code in parts, refusals.
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Request, generate};
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::states::seeded;
+use dalembert_report::stress::deviation::Measure;
+use dalembert_report::stress::growth::{chain, measure};
+use dalembert_report::stress::subject::Code;
+use dalembert_report::stress::truth::Truth;
+
+fn request(function: Function, start: &str) -> Request {
+    Request {
+        functions: vec![function],
+        scalars: vec![ScalarType::F64],
+        start: Start::from_name(start).unwrap(),
+        ..Request::default()
+    }
+}
+
+#[test]
+fn inverse_dynamics_grows_linearly() {
+    let recursion = request(Function::InverseDynamics, "newton_euler");
+    let operations = |n: usize| {
+        let growth = measure(n, &recursion).unwrap();
+        assert!(growth.error <= 100.0, "{n} joints: {} u", growth.error);
+        (growth.counts.mul + growth.counts.add) as f64
+    };
+    let [short, middle, long] = [12, 24, 48].map(operations);
+    // Twice the joints, twice the increase.
+    let ratio = (long - middle) / (middle - short);
+    assert!((1.8..2.2).contains(&ratio), "{short} {middle} {long}");
+}
+
+#[test]
+fn long_functions_come_in_parts_and_are_right() {
+    let robot = chain(12, 12);
+    let function = Function::ManipulatorEquation;
+    let generated = generate(&robot, &request(function, "newton_euler")).unwrap();
+    assert!(generated.functions[0].program.steps.len() > 5000);
+    assert!(generated.text.contains("fn part("));
+    let lines = |text: &str| text.lines().filter(|l| l.contains("inline(never)")).count();
+    assert!(lines(&generated.text) >= 6);
+    let code = Code::Emitted(generated.emitted);
+    let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
+    let truth = Truth::new(&robot);
+    for state in seeded(&robot, 3, 8) {
+        let found = code.run(function, &state).unwrap();
+        let expected = truth.run(function, &state).unwrap();
+        let n = robot.joints.len();
+        for range in [0..n * n, n * n..n * n + n, n * n + n..n * n + 2 * n] {
+            let error = measure.of(&found[range.clone()], &expected[range]);
+            assert!(error.normwise <= 100.0, "{error:?}");
+        }
+    }
+}
+
+#[test]
+fn what_would_explode_is_refused_with_its_size() {
+    let refused = generate(
+        &chain(60, 60),
+        &request(Function::DynamicCoefficients, "auto"),
+    );
+    match refused {
+        Err(error @ GenerateError::TooLarge { .. }) => {
+            // 60² + 60³ + 60
+            assert!(error.to_string().contains("219660 numbers"), "{error}");
+        }
+        other => panic!("{:?}", other.map(|g| g.text.len())),
+    }
+}

@@ -1,0 +1,117 @@
+//! NaN and ±inf reach the outputs whose function depends on them: exactly
+//! those in emitted code, at least those in the generic runtime.
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
+use dalembert_codegen::states::{JointState, seeded};
+use dalembert_model::read;
+use dalembert_model::robot::Robot;
+use dalembert_report::stress::subject::Code;
+
+fn robot(name: &str) -> Robot {
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let file = format!("{folder}/../generated/robots/{name}.toml");
+    let source = std::fs::read_to_string(file).unwrap();
+    let options = read::Options::default();
+    read::parse(&source, &options).unwrap().robot
+}
+
+/// Which of q, q̇ and q̈, and which joint.
+#[derive(Clone, Copy, PartialEq)]
+struct Place(usize, usize);
+
+fn reads(input: Input, place: Place) -> bool {
+    match input {
+        Input::Sin(angle) | Input::Cos(angle) => {
+            place.0 == 0 && angle.terms().any(|(joint, _)| joint == place.1)
+        }
+        Input::Position(joint) => place == Place(0, joint),
+        Input::Velocity(joint) => place == Place(1, joint),
+        Input::Acceleration(joint) => place == Place(2, joint),
+    }
+}
+
+/// Which outputs a program makes out of an input.
+fn dependent(program: &Program, place: Place) -> Vec<bool> {
+    let mut steps: Vec<bool> = Vec::new();
+    let of = |operand: &Operand, steps: &[bool]| match operand {
+        Operand::Input(input) => reads(*input, place),
+        Operand::Constant(_) => false,
+        Operand::Step(step) => steps[*step],
+    };
+    for step in &program.steps {
+        let depends = of(&step.left, &steps) || of(&step.right, &steps);
+        steps.push(depends);
+    }
+    let outputs = program.outputs.iter();
+    outputs.map(|output| of(&output.value, &steps)).collect()
+}
+
+fn with(state: &JointState, place: Place, value: f64) -> JointState {
+    let mut state = state.clone();
+    let values = [&mut state.q, &mut state.qd, &mut state.qdd];
+    values.into_iter().nth(place.0).unwrap()[place.1] = value;
+    state
+}
+
+/// Whether an output changes with an input, at some of the states.
+fn sensitive(code: &Code, function: Function, states: &[JointState], place: Place) -> Vec<bool> {
+    let mut sensitive = Vec::new();
+    for state in states {
+        let rows = [&state.q, &state.qd, &state.qdd];
+        let moved = with(state, place, rows[place.0][place.1] + 0.7);
+        let [a, b] = [state, &moved].map(|state| code.run(function, state).unwrap());
+        let size = a.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        sensitive.resize(a.len(), false);
+        for (sensitive, (a, b)) in sensitive.iter_mut().zip(a.iter().zip(&b)) {
+            *sensitive |= (a - b).abs() > 1e-9 * size;
+        }
+    }
+    sensitive
+}
+
+#[test]
+fn what_is_not_finite_reaches_what_depends_on_it() {
+    for name in ["planar2r", "planar3r", "stanford", "puma560"] {
+        let robot = robot(name);
+        let request = Request::default();
+        let Generated {
+            functions, emitted, ..
+        } = generate(&robot, &request).unwrap();
+        let states = seeded(&robot, 4, 11);
+        let emitted = Code::Emitted(
+            emitted
+                .into_iter()
+                .filter(|e| e.scalar == ScalarType::F64)
+                .collect(),
+        );
+        let runtime = Code::runtime(&robot, ScalarType::F64);
+        for generated in &functions {
+            let function = generated.function;
+            for place in (0..3).flat_map(|row| (0..robot.joints.len()).map(move |j| Place(row, j)))
+            {
+                let dependent = dependent(&generated.program, place);
+                let sensitive = sensitive(&runtime, function, &states, place);
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let state = with(&states[0], place, bad);
+                    let results = emitted.run(function, &state).unwrap();
+                    let of_runtime = runtime.run(function, &state).unwrap();
+                    for index in 0..results.len() {
+                        let at =
+                            || format!("{name} {function} {index} {} {} {bad}", place.0, place.1);
+                        let finite = results[index].is_finite();
+                        // An operation may lose an infinity only as a NaN; none
+                        // of +, −, × makes it finite.
+                        assert_eq!(finite, !dependent[index], "{}", at());
+                        // The program forgets no input that matters.
+                        if sensitive[index] {
+                            assert!(dependent[index], "{}", at());
+                            assert!(!of_runtime[index].is_finite(), "runtime {}", at());
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The extreme cases as robots with exact parameters.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::path::PathBuf;
+
+use dalembert_codegen::states::JointState;
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
+use serde_json::Value;
+
+/// One robot at one state.
+pub struct Extreme {
+    pub id: String,
+    pub category: String,
+    pub robot: Robot,
+    pub state: JointState,
+    /// To 30 digits.
+    pub tau: Vec<String>,
+}
+
+pub fn read() -> Vec<Extreme> {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../model/tests/data/extremes.json");
+    let json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    json["cases"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(extreme)
+        .collect()
+}
+
+fn extreme(json: &Value) -> Extreme {
+    let text = |x: &Value| x.as_str().unwrap().to_string();
+    Extreme {
+        id: text(&json["id"]),
+        category: text(&json["category"]),
+        robot: robot(&json["robot"]),
+        state: JointState {
+            q: numbers(&json["q"]),
+            qd: numbers(&json["qd"]),
+            qdd: numbers(&json["qdd"]),
+        },
+        tau: json["tau"].as_array().unwrap().iter().map(text).collect(),
+    }
+}
+
+/// The doubles taken at their word: no angle is snapped.
+fn robot(json: &Value) -> Robot {
+    let column = |key: &str| numbers(&json[key]);
+    let [alpha, a, d, offset, mass] = ["alpha", "a", "d", "off", "m"].map(column);
+    let kinds = json["types"].as_str().unwrap().chars();
+    let joint = |(i, kind): (usize, char)| {
+        let tensor = numbers(&json["I"][i]);
+        let com = numbers(&json["r"][i]);
+        Joint {
+            name: None,
+            kind: if kind == 'R' {
+                JointKind::Revolute
+            } else {
+                JointKind::Prismatic
+            },
+            alpha: match json["sa"][i].as_f64().zip(json["ca"][i].as_f64()) {
+                Some(pair) => right_angle(pair),
+                None => radians(alpha[i]),
+            },
+            a: exact(a[i]),
+            d: exact(d[i]),
+            theta: radians(offset[i]),
+            mass: exact(mass[i]),
+            com: [0, 1, 2].map(|axis| exact(com[axis])),
+            inertia: Inertia {
+                xx: exact(tensor[0]),
+                yy: exact(tensor[1]),
+                zz: exact(tensor[2]),
+                xy: exact(tensor[3]),
+                yz: exact(tensor[4]),
+                xz: exact(tensor[5]),
+            },
+            viscous: exact(0.0),
+            armature: exact(0.0),
+            limits: Limits::default(),
+        }
+    };
+    let gravity = numbers(&json["g"]);
+    Robot {
+        name: "extreme".into(),
+        convention: Convention::Standard,
+        gravity: [0, 1, 2].map(|axis| exact(gravity[axis])),
+        joints: kinds.enumerate().map(joint).collect(),
+    }
+}
+
+fn right_angle(pair: (f64, f64)) -> Angle {
+    let turns = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
+    let turns = turns.iter().position(|known| *known == pair);
+    Angle::right_angles(turns.expect("a right angle") as i64)
+}
+
+fn radians(value: f64) -> Angle {
+    Angle::Radians(exact(value)).canonical()
+}
+
+pub fn exact(value: f64) -> Rational {
+    Rational::from_float(value).unwrap()
+}
+
+pub fn numbers(json: &Value) -> Vec<f64> {
+    let number = |x: &Value| x.as_f64().unwrap();
+    json.as_array().unwrap().iter().map(number).collect()
+}
