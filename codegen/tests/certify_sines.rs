@@ -12,11 +12,12 @@ use dalembert_codegen::certify::scale;
 use dalembert_codegen::certify::sensitivity::{Fineness, Sensitivity};
 use dalembert_codegen::certify::sines::within;
 use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::kernel::Term;
 use dalembert_codegen::program::{AngleSum, Literal, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::sincos::{Sines, counts};
+use dalembert_codegen::sincos::{Sines, counts, stated};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 
@@ -58,7 +59,7 @@ impl Case {
         within(
             &self.program,
             scalar,
-            &self.limits,
+            &self.limits.position,
             &allowances,
             &sensitivity,
         )
@@ -209,5 +210,44 @@ fn a_claim_made_too_small_is_caught() {
         let lie = honest.to_json().replacen(was, is, 1);
         let error = format::read(&lie).unwrap_err().to_string();
         assert!(error.contains(why), "{was}: {error}");
+    }
+}
+
+/// A joint without limits may turn on: its sines are good far beyond the turn
+/// that the bounds are over, unless a sum of angles is formed of it.
+#[test]
+fn a_joint_without_limits_turns_on() {
+    let more = "\n[scene.turning]\noutputs = [\"gravity\"]\n\
+                tolerance = { value = 1e-5, relative_to = \"range\" }\n";
+    let mut reading = support::reading_with("planar2r", more);
+    reading.robot.joints[0].limits.position = None;
+    let (robot, scene) = (reading.robot, reading.scenes.pop().unwrap());
+    let setting = Setting::of(&robot, Some(&scene)).unwrap();
+    let request = Request {
+        functions: vec![Function::Gravity],
+        scene: Some(scene.clone()),
+        ..Request::default()
+    };
+    for start in [Start::Auto, Start::AngleSums] {
+        let request = Request {
+            start,
+            ..request.clone()
+        };
+        let generated = generate(&robot, &request).unwrap();
+        for scalar in [ScalarType::F64, ScalarType::F32] {
+            let function = &generated.functions[0];
+            let certificates = &function.admitted.as_ref().unwrap().certificates;
+            let certificate = certificates.iter().find(|c| c.scalar == scalar).unwrap();
+            let sums = certificate.emitted.trig.iter();
+            let sums = sums.filter(|trig| trig.angle.additions() > 0).count();
+            assert_eq!(sums > 0, start == Start::AngleSums);
+            let held = certificate.positions(&robot, 0).unwrap();
+            match start {
+                Start::AngleSums => assert_eq!(held, certificate.limits.position[0]),
+                _ => assert!(held.high() >= stated(scalar), "{held:?}"),
+            }
+            // Runs the text over all of it, against 256 bits.
+            certificate.check_in(&setting).unwrap();
+        }
     }
 }

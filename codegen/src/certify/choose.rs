@@ -375,10 +375,11 @@ impl<'a> Frame<'a> {
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
         let sensitivity = self.sensitivity(emitted, fineness);
+        let positions = sines::positions(self.setting.robot(), emitted, *scalar, &self.limits);
         // A tolerance may admit more than D bears.
         for part in [1.0, 0.1, 0.01] {
             let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
-            let sines = sines::within(emitted, *scalar, &self.limits, &allowances, &sensitivity);
+            let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity);
             let sines = sines.map_err(NoPolynomials::TooAccurate)?;
             let found = certificate.with_sines(self.setting, &sines, &sensitivity);
             within(&found, tolerances).map_err(NoPolynomials::Above)?;

@@ -16,10 +16,43 @@ use crate::program::kernel::Kernel;
 use crate::program::{Program, ScalarType, Trig};
 use crate::sincos::choose::{Candidates, Choice};
 use crate::sincos::proof::Errors;
-use crate::sincos::{self, AngleKernel, Sines, TooAccurate};
+use crate::sincos::{self, AngleKernel, Sines, TooAccurate, stated};
+use dalembert_model::robot::{JointKind, Robot};
 
 /// An error that is small beside any sine, and large beside libm's.
 const UNIT: f64 = 1e-4;
+
+/// Whether a joint may stand anywhere, however many turns: it has no limits, and
+/// no sum of angles is formed of it, which rounds the worse the larger it is.
+/// Everything else reads its sine and cosine, so that what holds over one turn
+/// holds wherever those two are good.
+pub fn turns_freely(robot: &Robot, trig: &[Trig], joint: usize) -> bool {
+    let free = robot
+        .joints
+        .get(joint)
+        .is_some_and(|joint| joint.kind == JointKind::Revolute && joint.limits.position.is_none());
+    let mut sums = trig.iter().filter(|trig| trig.angle.additions() > 0);
+    free && !sums.any(|trig| trig.angle.terms().any(|(of, _)| of == joint))
+}
+
+/// The positions over which a program's sines must be good: those of the box, and
+/// [`stated`] angles of a joint that [turns freely](turns_freely).
+pub fn positions(
+    robot: &Robot,
+    program: &Program,
+    scalar: ScalarType,
+    limits: &InputBox,
+) -> Vec<Interval> {
+    let ranges = limits.position.iter().enumerate();
+    let range = |(joint, range): (usize, &Interval)| {
+        let every = Interval::symmetric(stated(scalar));
+        match turns_freely(robot, &program.trig, joint) {
+            true => every,
+            false => *range,
+        }
+    };
+    ranges.map(range).collect()
+}
 
 /// The cheapest polynomials found with which sines and cosines cost no output
 /// more than its allowance, in its unit, over the box of the
@@ -30,11 +63,10 @@ const UNIT: f64 = 1e-4;
 pub fn within(
     program: &Program,
     scalar: ScalarType,
-    limits: &InputBox,
+    positions: &[Interval],
     allowances: &[f64],
     sensitivity: &Sensitivity,
 ) -> Result<Sines, TooAccurate> {
-    let positions = &limits.position;
     let error = uniform(program, scalar, allowances, sensitivity);
     let mut sines = sincos::polynomials(program, scalar, positions, error)?;
     let admitted = |sines: &[AngleKernel]| {

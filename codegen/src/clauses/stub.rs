@@ -7,8 +7,10 @@ use dalembert_model::outputs::Axis;
 
 use super::invocation::Invocation;
 use crate::emit::module;
-use crate::function::{Function, Quantity};
+use crate::emit::state_box::StateBox;
+use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
+use crate::sincos::SinCos;
 
 /// The modules' text. Without a number of joints the functions take arrays
 /// of any length.
@@ -37,8 +39,52 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
         for &function in functions {
             text += &self::function(function, joints, scalar);
         }
+        text += &state_box(&bounded(invocation, functions), joints, scalar);
         text += "}\n";
     }
+    text
+}
+
+/// The arguments that `BOX` may bound: those of all functions in a scene, which
+/// may have a tolerance, and the positions of sines by polynomials alone.
+fn bounded(invocation: &Invocation, functions: &[Function]) -> Vec<Argument> {
+    let taken = |argument: &Argument| match (&invocation.scene, invocation.sincos) {
+        (Some(_), _) => functions.iter().any(|f| f.arguments().contains(argument)),
+        (None, SinCos::Polynomial { .. }) => *argument == Argument::Position,
+        (None, _) => false,
+    };
+    let all = StateBox::ARGUMENTS.into_iter();
+    all.filter(taken).collect()
+}
+
+/// `BOX` and `in_box`, if arguments are bounded.
+fn state_box(arguments: &[Argument], joints: Option<usize>, scalar: ScalarType) -> String {
+    let mut text = String::new();
+    if arguments.is_empty() {
+        return text;
+    }
+    let (length, generic) = match joints {
+        Some(n) => (n.to_string(), ""),
+        None => ("L".to_owned(), "<const L: usize>"),
+    };
+    let stored = joints.unwrap_or(1);
+    let (mut fields, mut values, mut parameters) = (Vec::new(), Vec::new(), Vec::new());
+    for argument in arguments {
+        let name = argument.name();
+        fields.push(format!("pub {name}: [[{scalar}; 2]; {stored}]"));
+        values.push(format!("{name}: [[0.0; 2]; {stored}]"));
+        parameters.push(format!("_{name}: &[{scalar}; {length}]"));
+    }
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "#[derive(Clone, Copy, Debug, PartialEq)]\npub struct StateBox {{ {} }}\n\
+         pub const BOX: StateBox = StateBox {{ {} }};\n\
+         pub fn in_box{generic}({}) -> bool {{ ::core::unreachable!() }}",
+        fields.join(", "),
+        values.join(", "),
+        parameters.join(", ")
+    );
     text
 }
 

@@ -7,6 +7,7 @@
 use std::fmt::Write;
 
 use super::GeneratedFunction;
+use super::variant::held;
 use crate::bound::interval::Interval;
 use crate::function::Argument;
 use crate::program::ScalarType;
@@ -14,11 +15,18 @@ use crate::scene::Setting;
 use crate::sincos;
 
 /// The ranges of each argument's entries; none for those that nothing bounds.
-pub(super) struct StateBox {
+pub(crate) struct StateBox {
     columns: Vec<(Argument, Vec<Option<Interval>>)>,
 }
 
 impl StateBox {
+    /// The arguments that a box may bound, in order.
+    pub(crate) const ARGUMENTS: [Argument; 3] = [
+        Argument::Position,
+        Argument::Velocity,
+        Argument::Acceleration,
+    ];
+
     /// Where all of the functions hold; `None` if that is everywhere.
     pub(super) fn of(
         functions: &[GeneratedFunction],
@@ -26,12 +34,7 @@ impl StateBox {
         scalar: ScalarType,
     ) -> Option<StateBox> {
         let joints = setting.robot().joints.len();
-        let all = [
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ];
-        let columns = all.into_iter().map(|argument| {
+        let columns = StateBox::ARGUMENTS.into_iter().map(|argument| {
             let mut column = vec![None; joints];
             for generated in functions {
                 bound(&mut column, argument, generated, setting, scalar);
@@ -119,14 +122,11 @@ fn bound(
         if !certificate.emitted.arguments.contains(&argument) {
             return;
         }
-        let limits = match argument {
-            Argument::Position => &certificate.limits.position,
-            Argument::Velocity => &certificate.limits.velocity,
-            Argument::Acceleration => &certificate.limits.acceleration,
-        };
-        for (joint, (place, range)) in column.iter_mut().zip(limits).enumerate() {
-            if setting.lock(joint).is_none() {
-                *place = Some(*range);
+        for (joint, place) in column.iter_mut().enumerate() {
+            if setting.lock(joint).is_none()
+                && let Some(range) = held(certificate, setting, argument, joint)
+            {
+                *place = Some(narrower(*place, range));
             }
         }
     } else if argument == Argument::Position {
@@ -134,10 +134,18 @@ fn bound(
         let sines = generated.sines(scalar).iter();
         for (joint, _) in sines.flat_map(|sine| sine.angle.terms()) {
             if let (Some(place), Some(range)) = (column.get_mut(joint), positions.get(joint)) {
-                *place = Some(*range);
+                *place = Some(narrower(*place, *range));
             }
         }
     }
+}
+
+/// What is in both of two ranges that meet.
+fn narrower(known: Option<Interval>, range: Interval) -> Interval {
+    let both = known.and_then(|known| {
+        Interval::new(known.low().max(range.low()), known.high().min(range.high()))
+    });
+    both.unwrap_or(range)
 }
 
 fn quantity(argument: Argument) -> &'static str {

@@ -9,6 +9,7 @@ use crate::bound::interval::Interval;
 use crate::certify::certificate::Certificate;
 use crate::certify::choose::Admitted;
 use crate::certify::prune::{Omission, omissions};
+use crate::function::Argument;
 use crate::program::ScalarType;
 use crate::scene::Setting;
 
@@ -99,24 +100,33 @@ fn bounds(certificate: &Certificate, setting: &Setting) -> Vec<String> {
     lines
 }
 
+/// The entries of an argument for which a certificate holds; `None` for all.
+pub(super) fn held(
+    certificate: &Certificate,
+    setting: &Setting,
+    argument: Argument,
+    joint: usize,
+) -> Option<Interval> {
+    match argument {
+        Argument::Position => certificate.positions(setting.robot(), joint),
+        _ => certificate.limits.of_argument(argument).get(joint).copied(),
+    }
+}
+
 /// The box, for what the function reads; what is printed is inside it.
 fn states(certificate: &Certificate, setting: &Setting) -> Vec<String> {
     let limits = &certificate.limits;
-    let columns: Vec<(&str, &[Interval])> = certificate
-        .emitted
-        .arguments
-        .iter()
-        .map(|&argument| (argument.symbol(), limits.of_argument(argument)))
-        .collect();
-    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let columns = &certificate.emitted.arguments;
+    let names: Vec<&str> = columns.iter().map(|argument| argument.symbol()).collect();
     let mut lines = vec![
         format!("| joint | {} |", names.join(" | ")),
         format!("|{}", "---|".repeat(columns.len() + 1)),
     ];
     for joint in 0..limits.joints() {
-        let range = |(_, ranges): &(&str, &[Interval])| match ranges.get(joint) {
-            Some(range) if setting.lock(joint).is_none() => inside(range.low(), range.high()),
-            _ => "locked".to_owned(),
+        let range = |&argument: &Argument| match held(certificate, setting, argument, joint) {
+            _ if setting.lock(joint).is_some() => "locked".to_owned(),
+            Some(range) => inside(range.low(), range.high()),
+            None => "any".to_owned(),
         };
         let ranges: Vec<String> = columns.iter().map(range).collect();
         lines.push(format!("| {} | {} |", joint + 1, ranges.join(" | ")));

@@ -1,6 +1,6 @@
 //! The one function that macro, build script and command call.
 //!
-//! - [`request`], [`start`]: what somebody wants, and from which formulation
+//! - [`request`]: what somebody wants; [`in_scene`]: in which of a file's scenes
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`early`]: a search that was ended early, and what programs are compared by

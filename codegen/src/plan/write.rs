@@ -11,7 +11,7 @@ impl Plan {
     /// The text; [`Plan::parse`] reads it back.
     pub fn write(&self) -> String {
         let mut text = String::from(
-            "# Programs found by a long search, kept by `dalembert generate --save-plan`.\n\
+            "# Programs kept by `dalembert generate --save-plan`, so that nobody searches again.\n\
              # They are proved again whenever they are used.\n",
         );
         // Writing to a string cannot fail.

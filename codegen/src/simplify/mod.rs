@@ -6,7 +6,6 @@
 //! - [`discover`]: ways that only the fingerprints show
 //! - [`extract`]: the cheapest program that the ways allow
 //! - [`search`]: discovery and extraction in turns, to a plateau
-//! - [`random`]: the deterministic generator of the search
 
 pub mod classes;
 pub mod discover;

@@ -3,7 +3,7 @@
 //!
 //! It shares nothing with what is emitted but the robot and the state: no
 //! graph, no search, no proof, no printer. Its own error is bounded along with
-//! it: [`Size`] runs the same formula with every sum and difference replaced by
+//! it: `Size` runs the same formula with every sum and difference replaced by
 //! the sum of magnitudes.
 
 use dalembert_model::equations::{Arm, Formulation};

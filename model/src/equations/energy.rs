@@ -113,7 +113,7 @@ impl Formulation {
     }
 }
 
-/// [i][k] = Σ_m h_ikm q̇_m
+/// C_ik = Σ_m h_ikm q̇_m
 pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
     let entry = |row: &Vec<S>| total(row.iter().zip(qd).map(|(h, qd)| times(h, qd)));
     h.iter().map(|h| h.iter().map(entry).collect()).collect()

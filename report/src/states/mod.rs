@@ -1,7 +1,7 @@
 //! States from elsewhere (a simulator, another library, a measurement)
 //! compared with generated code.
 //!
-//! - [`file`]: reading them, strictly: an unknown key is an error
+//! - [`mod@file`]: reading them, strictly: an unknown key is an error
 //! - [`compare`]: the code's results beside the given ones
 //! - [`diagnose`]: which usual mistake explains a disagreement
 //! - `case`: a robot and states that may be changed, and how far they are apart

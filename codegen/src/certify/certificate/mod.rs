@@ -50,13 +50,15 @@ use dalembert_model::scene::Scale;
 use super::input_box::InputBox;
 use super::ranges::Finding;
 use super::sensitivity::Sensitivity;
+use super::sines::turns_freely;
 use crate::approximate::edits::Stage;
 use crate::bound::Split;
+use crate::bound::interval::Interval;
 use crate::certify::sensitivity::Fineness;
 use crate::plan::SceneKey;
 use crate::program::{Program, ScalarType};
 use crate::scene::Setting;
-use crate::sincos::Sines;
+use crate::sincos::{AngleKernel, Sines};
 use crate::verify::exact::Proof;
 pub use refuted::{Refuted, WrongInput};
 pub use run::Ran;
@@ -128,6 +130,18 @@ pub struct Checked {
 }
 
 impl Certificate {
+    /// The positions of a joint of this robot for which it holds; `None` for all.
+    ///
+    /// Where a joint [turns freely](turns_freely), one turn is certified and its
+    /// sine reaches further: so does the certificate.
+    pub fn positions(&self, robot: &Robot, joint: usize) -> Option<Interval> {
+        if !turns_freely(robot, &self.emitted.trig, joint) {
+            return self.limits.position.get(joint).copied();
+        }
+        let of = |sine: &&AngleKernel| sine.angle.terms().any(|(of, _)| of == joint);
+        self.sines.iter().find(of).map(|sine| sine.range)
+    }
+
     /// Bounds the emitted program's error and writes the claim down.
     ///
     /// `stages` are what was edited; none for an exact program.

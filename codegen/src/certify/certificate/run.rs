@@ -18,6 +18,7 @@ use crate::function::Argument;
 use crate::program::{Lowered, ScalarType};
 use crate::random::Random;
 use crate::scene::Setting;
+use crate::sincos::stated;
 use crate::states::JointState;
 use crate::verify::reference::{Reference, recursions};
 
@@ -66,12 +67,13 @@ pub(super) fn check_at(
         states: 0,
         observed: vec![0.0; bounds.len()],
     };
+    let limits = reached(certificate, setting);
     for index in 0..states {
         let drawn = match index {
-            0..MAX_CORNERS => corner(&certificate.limits, index, &mut random),
-            _ => draw(&certificate.limits, &mut random),
+            0..MAX_CORNERS => corner(&limits, index, &mut random),
+            _ => draw(&limits, &mut random),
         };
-        let Some(state) = held(&drawn, certificate, setting) else {
+        let Some(state) = held(&drawn, &limits, certificate.scalar, setting) else {
             continue;
         };
         let unread = with_garbage(&state, certificate, setting, &mut random);
@@ -95,6 +97,19 @@ pub(super) fn check_at(
         }
     }
     Ok(ran)
+}
+
+/// The box, and for joints that turn freely the angles that it reaches to.
+fn reached(certificate: &Certificate, setting: &Setting) -> InputBox {
+    let mut limits = certificate.limits.clone();
+    let every = Interval::symmetric(stated(certificate.scalar));
+    for (joint, range) in limits.position.iter_mut().enumerate() {
+        if setting.lock(joint).is_none() {
+            let held = certificate.positions(setting.robot(), joint);
+            *range = held.unwrap_or(every);
+        }
+    }
+    limits
 }
 
 /// From all that the claim says.
@@ -132,13 +147,17 @@ fn corner(limits: &InputBox, index: usize, random: &mut Random) -> JointState {
 
 /// The state in the scalar's own numbers; `None` if none are inside the box,
 /// or it is not finite. Locked joints are where the scene says.
-fn held(state: &JointState, certificate: &Certificate, setting: &Setting) -> Option<JointState> {
-    let limits = &certificate.limits;
+fn held(
+    state: &JointState,
+    limits: &InputBox,
+    scalar: ScalarType,
+    setting: &Setting,
+) -> Option<JointState> {
     let hold = |values: &[f64], ranges: &[Interval]| {
         let pairs = values.iter().zip(ranges).enumerate();
         let one = |(joint, (&x, range)): (usize, (&f64, &Interval))| {
             let inside = |x: f64| range.low() <= x && x <= range.high();
-            match certificate.scalar {
+            match scalar {
                 _ if setting.lock(joint).is_some() => Some(x),
                 ScalarType::F64 => inside(x).then_some(x),
                 ScalarType::F32 => {

@@ -18,6 +18,7 @@ use std::fmt;
 use super::Certificate;
 use document::Document;
 pub use document::text_hash;
+use serde_json::error::Category;
 
 /// The version of the format.
 pub const VERSION: u32 = 2;
@@ -56,9 +57,18 @@ impl From<String> for FormatError {
 
 impl From<serde_json::Error> for FormatError {
     fn from(error: serde_json::Error) -> Self {
+        let words = error.to_string();
+        // The place is reported by itself.
+        let place = format!(" at line {} column {}", error.line(), error.column());
+        let words = words.strip_suffix(&place).unwrap_or(&words);
+        let message = match error.classify() {
+            Category::Data => format!("this is no certificate of format {VERSION}: {words}"),
+            _ => format!("this is no JSON, which a certificate is: {words}"),
+        };
         FormatError {
             at: Some((error.line(), error.column())),
-            message: error.to_string(),
+            message: message
+                + "\n  = help: `dalembert generate` in a scene with a tolerance writes certificates",
         }
     }
 }
