@@ -225,13 +225,12 @@ fn every_omission_saves_something() {
 fn branch_and_bound_and_the_grid_bound_the_same() {
     let case = case(0.1);
     let graph = difference(&case.pruned.stages);
-    let budget = |points, linear| Budget {
-        boxes: 4000,
-        linear,
-        points,
-    };
-    let bound = |points, linear, limits: &InputBox| {
-        magnitudes(&graph, limits, &case.scales, 0.0, budget(points, linear))
+    let bound = |points, limits: &InputBox| {
+        let budget = Budget {
+            boxes: 40_000,
+            points,
+        };
+        magnitudes(&graph, limits, &case.scales, 0.0, budget)
     };
     let seen = attack(&case.certificate(ScalarType::F64), 2000, 3, 5).unwrap();
     // The whole circle, and a part of it.
@@ -239,15 +238,12 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     for q in &mut part.position {
         *q = dalembert_codegen::bound::interval::Interval::new(-0.5, 0.25).unwrap();
     }
-    let whole = bound(1 << 16, false, &case.limits);
-    for linear in [false, true] {
-        let boxes = bound(0, linear, &case.limits);
-        for i in 0..3 {
-            let truth = seen.observed[i] * case.scales[i];
-            assert!(boxes[i] >= truth * 0.999 - 1e-9 && whole[i] >= truth * 0.999 - 1e-9);
-        }
+    let (whole, boxes) = (bound(1 << 16, &case.limits), bound(0, &case.limits));
+    for i in 0..3 {
+        let truth = seen.observed[i] * case.scales[i];
+        assert!(boxes[i] >= truth * 0.999 - 1e-9 && whole[i] >= truth * 0.999 - 1e-9);
     }
-    let (grid, boxes) = (bound(1 << 16, false, &part), bound(0, true, &part));
+    let (grid, boxes) = (bound(1 << 16, &part), bound(0, &part));
     for i in 0..3 {
         assert!(grid[i] <= whole[i]);
         let (least, most) = (grid[i].min(boxes[i]), grid[i].max(boxes[i]));

@@ -23,7 +23,7 @@ pub(super) fn branch_and_bound(
     goal: f64,
     budget: Budget,
 ) -> Vec<f64> {
-    let forms = Forms::new(graph, whole.joints(), budget.linear);
+    let forms = Forms::new(graph, whole.joints());
     let mut search = Search {
         forms: &forms,
         scales,

@@ -18,8 +18,6 @@ use boxes::branch_and_bound;
 pub struct Budget {
     /// Sub-boxes evaluated at most.
     pub boxes: usize,
-    /// First-order terms in the positions: dearer and tighter.
-    pub linear: bool,
     /// Points of a grid at most; 0 for none.
     pub points: usize,
 }
@@ -28,13 +26,11 @@ impl Budget {
     /// For certificates.
     pub const CERTIFY: Budget = Budget {
         boxes: 300_000,
-        linear: false,
         points: 1 << 24,
     };
     /// For a search that asks often.
     pub const GLANCE: Budget = Budget {
         boxes: 20_000,
-        linear: false,
         points: 1 << 22,
     };
 }

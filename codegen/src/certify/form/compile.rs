@@ -12,14 +12,9 @@ const MOST_PRODUCTS: usize = 400_000;
 
 impl Forms {
     /// `None` if keeping the rates apart would be too much work.
-    pub(super) fn compile(
-        graph: &Graph,
-        joints: usize,
-        linear: bool,
-        rates: bool,
-    ) -> Option<Forms> {
+    pub(super) fn compile(graph: &Graph, joints: usize, rates: bool) -> Option<Forms> {
         let mut forms = Forms::empty(joints);
-        (forms.linear, forms.rates) = (linear, rates);
+        forms.rates = rates;
         let mut slots: Vec<BTreeMap<Monomial, u32>> = Vec::with_capacity(graph.nodes.len());
         let mut factors: BTreeMap<Vec<u8>, u32> = BTreeMap::from([(Vec::new(), 0)]);
         let mut positions = vec![false; joints];
@@ -35,15 +30,13 @@ impl Forms {
             match *node {
                 _ if !live => {}
                 Node::Constant(c) => {
-                    let out = place(([0; 2], 0), &mut forms);
+                    let out = place([0; 2], &mut forms);
                     let value = Interval::exact(&graph.constants[c as usize]);
                     forms.work.push(Work::Constant(out, value));
                 }
                 Node::Input(input) => {
                     let first = forms.coefficients as u32;
-                    for monomial in forms.leaf(input) {
-                        place(monomial, &mut forms);
-                    }
+                    place(forms.leaf(input), &mut forms);
                     forms.work.push(Work::Leaf(first, input));
                     for joint in position_joints(input) {
                         positions[joint] = true;
@@ -68,7 +61,7 @@ impl Forms {
                     }
                     for (left, &x) in &slots[a.index()] {
                         for (right, &y) in &slots[b.index()] {
-                            let (monomial, rest) = multiply(left, right, joints);
+                            let (monomial, rest) = multiply(left, right);
                             let next = factors.len() as u32;
                             let factor = *factors.entry(rest.clone()).or_insert_with(|| {
                                 forms.factors.push(rest);
@@ -91,21 +84,13 @@ impl Forms {
         Some(forms)
     }
 
-    /// The monomials of an input in the order of its coefficients.
-    fn leaf(&self, input: Input) -> Vec<Monomial> {
+    /// The monomial of an input.
+    fn leaf(&self, input: Input) -> Monomial {
         let n = self.joints;
         match input {
-            Input::Velocity(joint) if self.rates => vec![([0, joint as u8 + 1], 0)],
-            Input::Acceleration(joint) if self.rates => vec![([0, (n + joint) as u8 + 1], 0)],
-            Input::Velocity(_) | Input::Acceleration(_) => vec![([0; 2], 0)],
-            _ => {
-                let mut monomials = vec![([0; 2], 0)];
-                if self.linear {
-                    let joints = position_joints(input);
-                    monomials.extend(joints.map(|joint| ([0; 2], joint as u8 + 1)));
-                }
-                monomials
-            }
+            Input::Velocity(joint) if self.rates => [0, joint as u8 + 1],
+            Input::Acceleration(joint) if self.rates => [0, (n + joint) as u8 + 1],
+            _ => [0; 2],
         }
     }
 }
@@ -122,23 +107,15 @@ fn position_joints(input: Input) -> impl Iterator<Item = usize> {
 
 /// The product of two monomials: what is kept, and the variables that go into
 /// the coefficient.
-fn multiply(left: &Monomial, right: &Monomial, joints: usize) -> (Monomial, Vec<u8>) {
-    let mut rates: Vec<u8> = [left.0, right.0].concat();
+fn multiply(left: &Monomial, right: &Monomial) -> (Monomial, Vec<u8>) {
+    let mut rates: Vec<u8> = [*left, *right].concat();
     rates.retain(|&v| v != 0);
     rates.sort_unstable();
-    let mut rest = rates.split_off(rates.len().min(2));
+    let rest = rates.split_off(rates.len().min(2));
     let kept = match rates[..] {
         [] => [0, 0],
         [a] => [0, a],
         [a, b, ..] => [a, b],
     };
-    let position = match (left.1, right.1) {
-        (0, p) | (p, 0) => p,
-        (p, q) => {
-            rest.extend([p, q].map(|p| p + 2 * joints as u8));
-            0
-        }
-    };
-    rest.sort_unstable();
-    ((kept, position), rest)
+    (kept, rest)
 }

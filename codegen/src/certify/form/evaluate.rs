@@ -3,10 +3,7 @@
 use super::{Forms, Scratch, Work};
 use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
-use crate::program::{AngleSum, Input};
-
-/// Where the Taylor polynomial of a sine is worse than its range.
-const FARTHEST: f64 = 0.8;
+use crate::program::Input;
 
 impl Forms {
     /// Evaluates over a sub-box.
@@ -53,33 +50,6 @@ impl Forms {
                     sub.input(input)
                 };
             }
-            Input::Position(joint) if self.linear => {
-                let q = sub.position[joint];
-                values[out] = Interval::point(q.mid());
-                values[out + 1] = Interval::point(q.radius());
-            }
-            Input::Sin(angle) | Input::Cos(angle) if self.linear => {
-                let (centre, reach) = centre(angle, sub);
-                if reach > FARTHEST {
-                    values[out] = sub.input(input);
-                    return;
-                }
-                let (sin, cos) = (centre.sin(), centre.cos());
-                let whole = sub.input(input);
-                let (value, slope) = match input {
-                    Input::Sin(_) => (sin, cos),
-                    _ => (cos, -sin),
-                };
-                // −δ²/2·f(ξ), with |δ| at most the reach.
-                let squared = Interval::new(0.0, (0.5 * reach * reach).next_up());
-                let rest = -(whole * squared.unwrap_or(Interval::ALL));
-                values[out] = value + rest;
-                for (k, (joint, negative)) in angle.terms().enumerate() {
-                    let radius = Interval::point(sub.position[joint].radius());
-                    let slope = slope * radius;
-                    values[out + 1 + k] = if negative { -slope } else { slope };
-                }
-            }
             _ => values[out] = sub.input(input),
         }
     }
@@ -111,8 +81,7 @@ impl Forms {
         match index {
             0 => Interval::ONE,
             _ if index <= n => sub.velocity[index - 1],
-            _ if index <= 2 * n => sub.acceleration[index - 1 - n],
-            _ => Interval::symmetric(1.0),
+            _ => sub.acceleration[index - 1 - n],
         }
     }
 
@@ -122,13 +91,10 @@ impl Forms {
             .iter()
             .map(|(negative, terms)| {
                 let mut sum = Interval::ZERO;
-                for &((rates, position), x) in terms {
+                for &(rates, x) in terms {
                     let mut term = scratch.values[x as usize];
                     if rates[1] != 0 {
                         term = term * self.range(&rates, sub);
-                    }
-                    if position != 0 {
-                        term = term * Interval::symmetric(1.0);
                     }
                     accumulate(&mut sum, term);
                 }
@@ -146,22 +112,4 @@ fn accumulate(sum: &mut Interval, term: Interval) {
     } else {
         *sum + term
     };
-}
-
-/// An enclosure of the angle at the sub-box's middle, and how far at most it
-/// is from there.
-fn centre(angle: AngleSum, sub: &InputBox) -> (Interval, f64) {
-    let mut centre = Interval::ZERO;
-    let mut reach = 0.0;
-    for (index, (joint, negative)) in angle.terms().enumerate() {
-        let q = sub.position[joint];
-        let mid = Interval::point(q.mid());
-        let mid = if negative { -mid } else { mid };
-        (centre, reach) = if index == 0 {
-            (mid, q.radius())
-        } else {
-            (centre + mid, (reach + q.radius()).next_up())
-        };
-    }
-    (centre, reach)
 }

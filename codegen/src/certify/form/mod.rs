@@ -6,16 +6,14 @@
 //!
 //! Σ coefficient · monomial,
 //!
-//! the monomials being products of at most two rates and at most one position
-//! variable e_j ∈ \[−1, 1\] (q_j = middle + radius·e_j), the coefficients
+//! the monomials being products of at most two rates, the coefficients
 //! intervals that hold for every position in the sub-box. What a product has
 //! beyond that degree is put into its coefficient as an interval.
 //!
 //! **Soundness.** The claim kept by every operation: for each state in the
 //! sub-box there are coefficients in the intervals with which the polynomial
 //! has the node's value. Sums and products of polynomials keep it, since
-//! interval arithmetic does; replacing a variable by its range keeps it;
-//! sin(c + δ) = sin c + δ·cos c − δ²/2·sin ξ (Taylor) gives it for sines.
+//! interval arithmetic does, and so does replacing a variable by its range.
 //!
 //! Which monomials occur is decided once, from the graph alone; a sub-box is
 //! then a flat run over arrays.
@@ -30,8 +28,8 @@ use crate::bound::interval::Interval;
 use crate::graph::Graph;
 use crate::program::Input;
 
-/// At most two rates and one position; 0 is none. Rates are 1 … 2n, sorted.
-type Monomial = ([u8; 2], u8);
+/// At most two rates, 1 … 2n and sorted; 0 is none.
+type Monomial = [u8; 2];
 
 /// One accumulation into a coefficient.
 #[derive(Clone, Copy, Debug)]
@@ -60,8 +58,6 @@ pub struct Forms {
     outputs: Vec<(bool, Vec<(Monomial, u32)>)>,
     /// Position joints that matter.
     pub(super) positions: Vec<usize>,
-    /// Whether positions are variables.
-    linear: bool,
     /// Whether rates are variables.
     rates: bool,
 }
@@ -74,11 +70,10 @@ pub struct Scratch {
 }
 
 impl Forms {
-    /// Compiles a graph's live part. `linear` keeps one position variable a
-    /// monomial, which costs more and converges faster.
-    pub fn new(graph: &Graph, joints: usize, linear: bool) -> Forms {
-        Forms::compile(graph, joints, linear, true)
-            .or_else(|| Forms::compile(graph, joints, false, false))
+    /// Compiles a graph's live part.
+    pub fn new(graph: &Graph, joints: usize) -> Forms {
+        Forms::compile(graph, joints, true)
+            .or_else(|| Forms::compile(graph, joints, false))
             .unwrap_or_else(|| Forms::empty(joints))
     }
 
@@ -90,7 +85,6 @@ impl Forms {
             coefficients: 0,
             outputs: Vec::new(),
             positions: Vec::new(),
-            linear: false,
             rates: false,
         }
     }

@@ -66,7 +66,6 @@ impl Fineness {
         budget: Budget {
             boxes: 2_000,
             points: 1 << 18,
-            ..Budget::GLANCE
         },
         boxes: 64,
         points: 1 << 8,
