@@ -153,3 +153,90 @@ fn evaluation_order(graph: &Graph) -> Vec<NodeId> {
     }
     order
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::builder::Value;
+    use crate::graph::{Builder, Folding};
+    use crate::program::Input;
+    use dalembert_model::number::Exact;
+    use dalembert_model::scalar::Scalar;
+
+    fn program(outputs: impl Fn(&mut Builder) -> Vec<Value>) -> Program {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let outputs = outputs(&mut builder);
+        let graph = builder.finish(&outputs);
+        Program::new(Function::InverseDynamics, 4, &graph)
+    }
+
+    fn q(builder: &mut Builder, joint: usize) -> Value {
+        builder.input(Input::Position(joint))
+    }
+
+    /// The longer operand is computed first, whichever side it stands on, so that
+    /// two values are alive at most.
+    #[test]
+    fn the_longer_operand_comes_first() {
+        for swapped in [false, true] {
+            let program = program(|b| {
+                let (q0, q1, q2, q3) = (q(b, 0), q(b, 1), q(b, 2), q(b, 3));
+                let short = b.mul(&q2, &q3);
+                let long = b.mul(&q0, &q1);
+                let long = b.mul(&long, &q2);
+                let long = b.mul(&long, &q3);
+                vec![match swapped {
+                    false => b.add(&short, &long),
+                    true => b.add(&long, &short),
+                }]
+            });
+            let operations: Vec<Operation> = program.steps.iter().map(|s| s.operation).collect();
+            use Operation::{Add, Mul};
+            assert_eq!(operations, [Mul, Mul, Mul, Mul, Add]);
+            // The fourth step is the short one: it reads no other step.
+            let reads = |operand: &Operand| matches!(operand, Operand::Step(_));
+            let short = &program.steps[3];
+            assert!(!reads(&short.left) && !reads(&short.right), "{short:?}");
+        }
+    }
+
+    /// What two outputs share is computed once, what none needs not at all, and
+    /// every step reads earlier ones only.
+    #[test]
+    fn shared_once_and_dead_never() {
+        let program = program(|b| {
+            let (q0, q1, q2) = (q(b, 0), q(b, 1), q(b, 2));
+            let shared = b.mul(&q0, &q1);
+            let _dead = b.mul(&shared, &shared);
+            vec![b.add(&shared, &q2), b.sub(&q2, &shared)]
+        });
+        assert_eq!(program.steps.len(), 3);
+        for (index, step) in program.steps.iter().enumerate() {
+            for operand in [&step.left, &step.right] {
+                assert!(!matches!(operand, Operand::Step(of) if *of >= index));
+            }
+        }
+        // A difference keeps its order.
+        let last = &program.steps[2];
+        let order = (&last.left, &last.right);
+        assert_eq!(
+            order,
+            (&Operand::Input(Input::Position(2)), &Operand::Step(0))
+        );
+    }
+
+    /// A constant stands on the right of a product, and takes the sign of its output.
+    #[test]
+    fn constants_on_the_right_and_signs_within() {
+        let three = Exact::one().double().add(&Exact::one());
+        let program = program(|b| {
+            let (q0, three) = (q(b, 0), Value::Constant(three.clone()));
+            let product = b.mul(&three, &q0);
+            vec![product, b.negate_if(&three, true)]
+        });
+        assert!(matches!(program.steps[0].right, Operand::Constant(_)));
+        let constant = &program.outputs[1];
+        assert!(!constant.negative);
+        assert_eq!(constant.value, Operand::Constant(three.neg()));
+    }
+}
