@@ -1,7 +1,10 @@
 //! The generic runtime: the dynamics of any arm, without generated code.
 //!
 //! It evaluates the recursion of Table 2 in its most accurate form
-//! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface. Generated code is checked against it.
+//! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface.
+//! Generated code is checked against it. `derivatives` has its slopes.
+
+mod derivatives;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -329,7 +332,7 @@ impl<T: Float> Reference<T> {
     }
 }
 
-fn torques<T: Float>(arm: &Arm<T>, at: &[DhVariables<T>], qd: &[T], qdd: &[T]) -> Vec<T> {
+fn torques<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<S> {
     table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences, None)
 }
 

@@ -100,6 +100,8 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let inertia = textbook.inertia(arm, &at);
     let christoffel = textbook.christoffel(arm, &at);
     let gravity = textbook.gravity(arm, &at);
+    let by_position = textbook.torque_by_position(arm, &at, &qd, &qdd);
+    let by_velocity = textbook.torque_by_velocity(arm, &at, &qd);
 
     let skeleton = Skeleton::new(arm, &[]);
     let mut chain = Chain::new(&skeleton, &Gauge::base(&skeleton));
@@ -120,6 +122,9 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
         for travel in [Travel::Outward, Travel::Inward] {
             assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
             assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
+            let slopes = composite.slopes(&qd, &qdd, travel);
+            assert_eq!(slopes.position, by_position, "{choice:?}");
+            assert_eq!(slopes.velocity, by_velocity, "{choice:?}");
         }
         assert_eq!(composite.christoffel(), christoffel, "{choice:?}");
     }

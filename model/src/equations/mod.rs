@@ -7,6 +7,7 @@
 //! | [`newton_euler`] | the recursions, Table 1 (base axes) and Table 2 (link axes) |
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
+//! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
@@ -26,6 +27,7 @@ mod arm;
 mod base;
 pub mod chain;
 pub mod dalembert;
+pub mod derivatives;
 pub mod energy;
 mod formulation;
 mod from_robot;

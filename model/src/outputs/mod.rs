@@ -28,6 +28,7 @@ mod forward_kinematics;
 mod gravity;
 mod inertia;
 mod inverse_dynamics;
+mod inverse_dynamics_derivatives;
 mod jacobian;
 mod jacobian_rate;
 mod kinetic_energy;
@@ -77,4 +78,8 @@ registry! {
     jacobian_rate: JacobianRate { JacobianRate }
     /// Force and moment at every joint.
     reaction_wrenches: ReactionWrenches { Wrench }
+    /// ∂τ/∂q, ∂τ/∂q̇ and D.
+    inverse_dynamics_derivatives: InverseDynamicsDerivatives {
+        TorqueByPosition, TorqueByVelocity
+    }
 }

@@ -110,8 +110,21 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
+    /// Force and moment of a body in this motion.
+    pub(super) fn wrench(&self, body: &Body<S>, couple: Couple) -> (Vector<S>, Vector<S>) {
+        let force = sum(
+            &scaled(&body.mass, &self.acceleration),
+            &self.u_times(&body.first),
+        );
+        let moment = sum(
+            &self.couple(body, couple),
+            &cross(&body.first, &self.acceleration),
+        );
+        (force, moment)
+    }
+
     /// ∫ r × (U r) dm
-    pub(super) fn couple(&self, body: &Body<S>, form: Couple) -> Vector<S> {
+    fn couple(&self, body: &Body<S>, form: Couple) -> Vector<S> {
         match form {
             Couple::SecondMoments => {
                 let sigma = &body.second;
@@ -215,25 +228,12 @@ impl<S: Scalar> Chain<S> {
         spin: Spin,
         couple: Couple,
     ) -> Vec<S> {
-        let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
-        let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
-        let base = Motion::base(&self.gravity);
-        for (i, link) in self.links.iter().enumerate() {
-            let before = motions.last().unwrap_or(&base);
-            motions.push(before.next(link, &at[i], &rates[i], &accelerations[i], spin));
-        }
+        let motions = self.motions(at, qd, qdd, spin);
         let mut torques = Vec::with_capacity(self.links.len());
         let (mut force, mut moment) = (zero_vector(), zero_vector());
         for (i, link) in self.links.iter().enumerate().rev() {
             let (body, motion) = (&link.body, &motions[i]);
-            let own = sum(
-                &scaled(&body.mass, &motion.acceleration),
-                &motion.u_times(&body.first),
-            );
-            let own_moment = sum(
-                &motion.couple(body, couple),
-                &cross(&body.first, &motion.acceleration),
-            );
+            let (own, own_moment) = motion.wrench(body, couple);
             force = sum(&force, &own);
             moment = sum(&moment, &own_moment);
             let load = self.load(i, &force, &moment);
@@ -246,6 +246,24 @@ impl<S: Scalar> Chain<S> {
         }
         torques.reverse();
         torques
+    }
+
+    /// The motion of every link.
+    pub(super) fn motions(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        spin: Spin,
+    ) -> Vec<Motion<S>> {
+        let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
+        let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
+        let base = Motion::base(&self.gravity);
+        for (i, link) in self.links.iter().enumerate() {
+            let before = motions.last().unwrap_or(&base);
+            motions.push(before.next(link, &at[i], &rates[i], &accelerations[i], spin));
+        }
+        motions
     }
 
     /// The part of a wrench on link i that the joint feels.
