@@ -19,6 +19,7 @@ use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor, from_torques};
 use crate::number::{Exact, Rounded};
+use crate::outputs::Argument;
 use crate::robot::{JointKind, Robot};
 use crate::scalar::Scalar;
 
@@ -49,7 +50,7 @@ impl Float for f32 {
 /// A vector of joint values that is not as long as the arm has joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WrongLength {
-    /// Which argument: `"q"`, `"qd"` or `"qdd"`.
+    /// The argument's name, such as `"qd"`.
     pub argument: &'static str,
     /// The number of joints.
     pub expected: usize,
@@ -82,6 +83,27 @@ pub struct JointVectors<T> {
     pub qd: DVector<T>,
     /// Accelerations.
     pub qdd: DVector<T>,
+    /// Torques.
+    pub tau: DVector<T>,
+    /// Velocities wished for.
+    pub v: DVector<T>,
+    /// Accelerations wished for.
+    pub a: DVector<T>,
+}
+
+impl<T> JointVectors<T> {
+    /// From the entries of each argument; of those that nothing reads none.
+    pub fn new(entries: impl FnMut(Argument) -> DVector<T>) -> Self {
+        let [q, qd, qdd, tau, v, a] = Argument::ALL.map(entries);
+        JointVectors {
+            q,
+            qd,
+            qdd,
+            tau,
+            v,
+            a,
+        }
+    }
 }
 
 /// The dynamics of one arm in floating point.

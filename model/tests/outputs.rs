@@ -4,7 +4,7 @@
 mod equations_support;
 
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
-use dalembert_model::outputs::{Function, Motion, Quantity, Written};
+use dalembert_model::outputs::{Argument, Function, Motion, Quantity, Written};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
@@ -75,11 +75,12 @@ fn cases() -> Vec<Case> {
 #[test]
 fn formulations_agree_on_every_quantity() {
     for case in cases() {
-        let motion = Motion {
-            q: Vec::new(),
-            qd: case.qd.clone(),
-            qdd: case.qdd.clone(),
-        };
+        let mut points = Points::new(7);
+        let motion = Motion::new(Vec::new(), |argument| match argument {
+            Argument::Velocity => case.qd.clone(),
+            Argument::Acceleration => case.qdd.clone(),
+            _ => case.qd.iter().map(|_| points.field()).collect(),
+        });
         for &quantity in Quantity::ALL {
             let by = |formulation| {
                 quantity.written(&Written {

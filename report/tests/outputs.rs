@@ -39,6 +39,7 @@ fn given(name: &str) -> Vec<GivenState> {
                 q: numbers(&json["q"]),
                 qd: numbers(&json["qd"]),
                 qdd: numbers(&json["qdd"]),
+                ..JointState::default()
             },
             known: known.collect(),
         }
@@ -181,11 +182,7 @@ fn runtime_gives_what_is_known() {
         let runtime = Reference::<f64>::from_robot(&support::robot(name));
         for GivenState { state, known } in given(name) {
             let vector = |values: &[f64]| DVector::from_row_slice(values);
-            let at = JointVectors {
-                q: vector(&state.q),
-                qd: vector(&state.qd),
-                qdd: vector(&state.qdd),
-            };
+            let at = JointVectors::new(|argument| vector(state.of(argument)));
             assert_eq!(known.len(), 6);
             for (quantity, expected) in known {
                 let found = quantity.runtime(&runtime, &at).unwrap();

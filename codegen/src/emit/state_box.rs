@@ -26,12 +26,7 @@ impl StateBox {
         scalar: ScalarType,
     ) -> Option<StateBox> {
         let joints = setting.robot().joints.len();
-        let all = [
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ];
-        let columns = all.into_iter().map(|argument| {
+        let columns = Argument::STATE.into_iter().map(|argument| {
             let mut column = vec![None; joints];
             for generated in functions {
                 bound(&mut column, argument, generated, setting, scalar);
@@ -67,7 +62,7 @@ impl StateBox {
              pub struct StateBox {\n",
         );
         for (argument, column) in &self.columns {
-            let (what, n) = (quantity(*argument), column.len());
+            let (what, n) = (argument.meaning(), column.len());
             let _ = writeln!(
                 text,
                 "    /// {what}\n    pub {}: [[{scalar}; 2]; {n}],",
@@ -119,11 +114,7 @@ fn bound(
         if !certificate.emitted.arguments.contains(&argument) {
             return;
         }
-        let limits = match argument {
-            Argument::Position => &certificate.limits.position,
-            Argument::Velocity => &certificate.limits.velocity,
-            Argument::Acceleration => &certificate.limits.acceleration,
-        };
+        let limits = certificate.limits.of_argument(argument);
         for (joint, (place, range)) in column.iter_mut().zip(limits).enumerate() {
             if setting.lock(joint).is_none() {
                 *place = Some(*range);
@@ -137,14 +128,6 @@ fn bound(
                 *place = Some(*range);
             }
         }
-    }
-}
-
-fn quantity(argument: Argument) -> &'static str {
-    match argument {
-        Argument::Position => "Positions, rad or m.",
-        Argument::Velocity => "Velocities, rad/s or m/s.",
-        Argument::Acceleration => "Accelerations, rad/s² or m/s².",
     }
 }
 

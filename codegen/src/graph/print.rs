@@ -88,9 +88,11 @@ impl Points {
         match input {
             Input::Sin(angle) => angle.pair(|joint| self.joint(joint, point)).sin,
             Input::Cos(angle) => angle.pair(|joint| self.joint(joint, point)).cos,
-            Input::Position(joint) => draw(2, joint),
-            Input::Velocity(joint) => draw(3, joint),
-            Input::Acceleration(joint) => draw(4, joint),
+            // From 2, around 5, which is that of constant angles.
+            Input::Entry(argument, joint) => match argument.index() as u64 {
+                index @ 0..=2 => draw(index + 2, joint),
+                index => draw(index + 3, joint),
+            },
         }
     }
 

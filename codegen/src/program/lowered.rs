@@ -125,6 +125,7 @@ impl Lowered {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::function::Argument;
     use crate::program::{Input, evaluate};
 
     fn code() -> Lowered {
@@ -138,10 +139,13 @@ mod tests {
             trig: Vec::new(),
             steps: vec![
                 step(
-                    Operand::Input(Input::Velocity(0)),
+                    Operand::Input(Input::Entry(Argument::Velocity, 0)),
                     Operand::Constant(Literal(0.0)),
                 ),
-                step(Operand::Step(0), Operand::Input(Input::Acceleration(1))),
+                step(
+                    Operand::Step(0),
+                    Operand::Input(Input::Entry(Argument::Acceleration, 1)),
+                ),
             ],
             outputs: vec![Output {
                 negative: true,
@@ -180,8 +184,8 @@ mod tests {
     #[test]
     fn what_cannot_be_read_has_no_value() {
         let input = |input: &Input| match input {
-            Input::Velocity(0) => Some(3.0),
-            Input::Acceleration(1) => Some(5.0),
+            Input::Entry(Argument::Velocity, 0) => Some(3.0),
+            Input::Entry(Argument::Acceleration, 1) => Some(5.0),
             _ => None,
         };
         let constant = |literal: &Literal| Some(literal.0);
@@ -189,7 +193,10 @@ mod tests {
         assert_eq!(run(&code()), Some(vec![2.0]));
         for (left, right) in [
             (Operand::Step(1), Operand::Step(0)),
-            (Operand::Input(Input::Velocity(7)), Operand::Step(0)),
+            (
+                Operand::Input(Input::Entry(Argument::Velocity, 7)),
+                Operand::Step(0),
+            ),
             (Operand::Step(usize::MAX), Operand::Step(0)),
         ] {
             let mut other = code();

@@ -15,6 +15,7 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
 use super::classes::{ClassId, Classes, Leaf, Way};
+use crate::function::Argument;
 use crate::graph::Print;
 use crate::program::Input;
 
@@ -307,8 +308,10 @@ fn sample(input: Input) -> Rational {
     match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
-        Input::Position(joint) => ratio(joint as i64 + 2, 7),
-        Input::Velocity(joint) => ratio(joint as i64 + 3, 11),
-        Input::Acceleration(joint) => ratio(joint as i64 + 4, 13),
+        Input::Entry(argument, joint) => {
+            const DENOMINATORS: [i64; Argument::COUNT] = [7, 11, 13, 17, 19, 23];
+            let place = argument.index();
+            ratio((joint + place) as i64 + 2, DENOMINATORS[place])
+        }
     }
 }

@@ -93,9 +93,7 @@ impl Runtime {
             match input {
                 Input::Sin(sum) => libm::sincos(angle(sum)).0,
                 Input::Cos(sum) => libm::sincos(angle(sum)).1,
-                Input::Position(joint) => state.q[joint],
-                Input::Velocity(joint) => state.qd[joint],
-                Input::Acceleration(joint) => state.qdd[joint],
+                Input::Entry(argument, joint) => state.of(argument)[joint],
             }
         };
         let motion = self.setting.motion(input, f64::nearest);

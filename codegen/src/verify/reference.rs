@@ -73,15 +73,11 @@ impl<'s> Reference<'s> {
         let values = self.evaluate(function, &self.arm, Wide::from_exact, |input| match input {
             Input::Sin(angle) => pairs[joint(angle)].sin.clone(),
             Input::Cos(angle) => pairs[joint(angle)].cos.clone(),
-            Input::Position(joint) => finite(state.q[joint]),
-            Input::Velocity(joint) => finite(state.qd[joint]),
-            Input::Acceleration(joint) => finite(state.qdd[joint]),
+            Input::Entry(argument, joint) => finite(state.of(argument)[joint]),
         });
         let sizes = self.evaluate(function, &self.sizes, Size::of, |input| match input {
             Input::Sin(_) | Input::Cos(_) => Size(1.0),
-            Input::Position(joint) => Size(state.q[joint].abs()),
-            Input::Velocity(joint) => Size(state.qd[joint].abs()),
-            Input::Acceleration(joint) => Size(state.qdd[joint].abs()),
+            Input::Entry(argument, joint) => Size(state.of(argument)[joint].abs()),
         });
         let pairs = values.into_iter().zip(sizes);
         pairs

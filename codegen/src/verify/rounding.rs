@@ -152,9 +152,7 @@ impl<'a> Network<'a> {
             found.unwrap_or(usize::MAX)
         };
         let input = |input: Input| match input {
-            Input::Position(joint) => state.q[joint],
-            Input::Velocity(joint) => state.qd[joint],
-            Input::Acceleration(joint) => state.qdd[joint],
+            Input::Entry(argument, joint) => state.of(argument)[joint],
             Input::Sin(angle) => pairs.get(place(angle)).map_or(0.0, |pair| pair.0),
             Input::Cos(angle) => pairs.get(place(angle)).map_or(1.0, |pair| pair.1),
         };

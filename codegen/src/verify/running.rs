@@ -131,9 +131,9 @@ impl<'s, T: Machine> Run<'s, T> {
                     ..exact(value)
                 }
             }
-            Operand::Input(Input::Position(joint)) => exact(self.state.q[*joint]),
-            Operand::Input(Input::Velocity(joint)) => exact(self.state.qd[*joint]),
-            Operand::Input(Input::Acceleration(joint)) => exact(self.state.qdd[*joint]),
+            Operand::Input(Input::Entry(argument, joint)) => {
+                exact(self.state.of(*argument)[*joint])
+            }
             Operand::Input(input) => self.trig.get(input).copied().unwrap_or(Bounded {
                 error: f64::INFINITY,
                 ..exact(0.0)

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
@@ -30,7 +31,7 @@ pub(super) trait Formula {
     ) -> Result<Vec<T>, WrongLength>;
 }
 
-/// q, q̇ and q̈ in the scalar of a computation.
+/// The arguments in the scalar of a computation.
 #[derive(Clone, Debug)]
 pub struct Motion<S> {
     /// Positions.
@@ -39,6 +40,38 @@ pub struct Motion<S> {
     pub qd: Vec<S>,
     /// Accelerations.
     pub qdd: Vec<S>,
+    /// Torques.
+    pub tau: Vec<S>,
+    /// Velocities wished for.
+    pub v: Vec<S>,
+    /// Accelerations wished for.
+    pub a: Vec<S>,
+}
+
+impl<S> Motion<S> {
+    /// At these positions, with the entries of all other arguments.
+    pub fn new(q: Vec<JointPosition<S>>, mut entries: impl FnMut(Argument) -> Vec<S>) -> Self {
+        Motion {
+            q,
+            qd: entries(Argument::Velocity),
+            qdd: entries(Argument::Acceleration),
+            tau: entries(Argument::Torque),
+            v: entries(Argument::ReferenceVelocity),
+            a: entries(Argument::ReferenceAcceleration),
+        }
+    }
+
+    /// The entries of an argument; of the positions none.
+    pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
+        match argument {
+            Argument::Position => None,
+            Argument::Velocity => Some(&mut self.qd),
+            Argument::Acceleration => Some(&mut self.qdd),
+            Argument::Torque => Some(&mut self.tau),
+            Argument::ReferenceVelocity => Some(&mut self.v),
+            Argument::ReferenceAcceleration => Some(&mut self.a),
+        }
+    }
 }
 
 impl<S: Clone> Motion<S> {
@@ -50,6 +83,9 @@ impl<S: Clone> Motion<S> {
             q: joints.iter().map(|&joint| self.q[joint].clone()).collect(),
             qd: pick(&self.qd),
             qdd: pick(&self.qdd),
+            tau: pick(&self.tau),
+            v: pick(&self.v),
+            a: pick(&self.a),
         }
     }
 }

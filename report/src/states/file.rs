@@ -144,6 +144,7 @@ fn state(value: &Value, n: usize) -> Result<GivenState, String> {
             q,
             qd: vector(keys, "qd", n)?.unwrap_or_else(|| vec![0.0; n]),
             qdd: vector(keys, "qdd", n)?.unwrap_or_else(|| vec![0.0; n]),
+            ..JointState::default()
         },
         known: Default::default(),
     };

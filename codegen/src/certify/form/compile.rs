@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Forms, Monomial, Work};
 use crate::bound::interval::Interval;
+use crate::function::Argument;
 use crate::graph::{Graph, Node};
 use crate::program::{AngleSum, Input};
 
@@ -95,9 +96,13 @@ impl Forms {
     fn leaf(&self, input: Input) -> Vec<Monomial> {
         let n = self.joints;
         match input {
-            Input::Velocity(joint) if self.rates => vec![([0, joint as u8 + 1], 0)],
-            Input::Acceleration(joint) if self.rates => vec![([0, (n + joint) as u8 + 1], 0)],
-            Input::Velocity(_) | Input::Acceleration(_) => vec![([0; 2], 0)],
+            Input::Entry(Argument::Velocity, joint) if self.rates => {
+                vec![([0, joint as u8 + 1], 0)]
+            }
+            Input::Entry(Argument::Acceleration, joint) if self.rates => {
+                vec![([0, (n + joint) as u8 + 1], 0)]
+            }
+            Input::Entry(argument, _) if argument != Argument::Position => vec![([0; 2], 0)],
             _ => {
                 let mut monomials = vec![([0; 2], 0)];
                 if self.linear {
@@ -113,7 +118,7 @@ impl Forms {
 fn position_joints(input: Input) -> impl Iterator<Item = usize> {
     let (angle, slide) = match input {
         Input::Sin(angle) | Input::Cos(angle) => (Some(angle), None),
-        Input::Position(joint) => (None, Some(joint)),
+        Input::Entry(Argument::Position, joint) => (None, Some(joint)),
         _ => (None, None),
     };
     let turned = angle.into_iter().flat_map(AngleSum::terms);

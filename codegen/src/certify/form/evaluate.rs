@@ -3,6 +3,7 @@
 use super::{Forms, Scratch, Work};
 use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
+use crate::function::Argument;
 use crate::program::{AngleSum, Input};
 
 /// Where the Taylor polynomial of a sine is worse than its range.
@@ -45,7 +46,7 @@ impl Forms {
 
     fn evaluate_leaf(&self, out: usize, input: Input, sub: &InputBox, values: &mut [Interval]) {
         match input {
-            Input::Velocity(_) | Input::Acceleration(_) => {
+            Input::Entry(Argument::Velocity | Argument::Acceleration, _) => {
                 // As a variable its coefficient is one.
                 values[out] = if self.rates {
                     Interval::ONE
@@ -53,7 +54,7 @@ impl Forms {
                     sub.input(input)
                 };
             }
-            Input::Position(joint) if self.linear => {
+            Input::Entry(Argument::Position, joint) if self.linear => {
                 let q = sub.position[joint];
                 values[out] = Interval::point(q.mid());
                 values[out + 1] = Interval::point(q.radius());

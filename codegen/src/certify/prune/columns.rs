@@ -282,8 +282,6 @@ fn at(input: Input, state: &JointState) -> f64 {
     match input {
         Input::Sin(sum) => libm::sin(angle(sum)),
         Input::Cos(sum) => libm::cos(angle(sum)),
-        Input::Position(joint) => state.q[joint],
-        Input::Velocity(joint) => state.qd[joint],
-        Input::Acceleration(joint) => state.qdd[joint],
+        Input::Entry(argument, joint) => state.of(argument)[joint],
     }
 }

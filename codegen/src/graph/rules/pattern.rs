@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use dalembert_model::number::{Exact, Rational};
 
+use crate::function::Argument;
 use crate::graph::{Builder, Folding, Graph, Value};
 use crate::program::Input;
 
@@ -139,7 +140,7 @@ pub(crate) fn graph(outputs: &[&str]) -> Graph {
         let mut variables = HashMap::new();
         for name in pattern.variables() {
             let joint = name as usize - 'a' as usize;
-            variables.insert(name, builder.input(Input::Velocity(joint)));
+            variables.insert(name, builder.input(Input::Entry(Argument::Velocity, joint)));
         }
         values.push(pattern.evaluate(&mut InBuilder(&mut builder), &variables));
     }
