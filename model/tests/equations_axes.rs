@@ -101,6 +101,8 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let christoffel = textbook.christoffel(arm, &at);
     let gravity = textbook.gravity(arm, &at);
     let by_position = textbook.torque_by_position(arm, &at, &qd, &qdd);
+    let (v, a) = (draw(), draw());
+    let passivity = textbook.passivity(arm, &at, &qd, [&v, &a]);
     let by_velocity = textbook.torque_by_velocity(arm, &at, &qd);
 
     let skeleton = Skeleton::new(arm, &[]);
@@ -118,6 +120,7 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
             let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
             assert_eq!(found, torque, "{choice:?}");
         }
+        assert_eq!(posed.passivity(&at, &qd, &v, &a), passivity, "{choice:?}");
         let composite = Composite::new(&posed, &at);
         for travel in [Travel::Outward, Travel::Inward] {
             assert_eq!(composite.inertia(travel), inertia, "{choice:?}");

@@ -12,7 +12,7 @@ use dalembert_model::scalar::field::{Field, Points};
 use equations_support::random::{Case, case, kinds};
 
 /// Every function with its arguments, and its results' axes for six joints.
-const GOLDEN: [&str; 17] = [
+const GOLDEN: [&str; 18] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -30,6 +30,7 @@ const GOLDEN: [&str; 17] = [
     "jacobian_rate(q, qd) -> jacobian_rate[6]",
     "reaction_wrenches(q, qd, qdd) -> wrenches[6][6]",
     "inverse_dynamics_derivatives(q, qd, qdd) -> dtau_dq[6][6] dtau_dqd[6][6] d[6][6]",
+    "passivity(q, qd, v, a) -> tau[6]",
 ];
 
 #[test]

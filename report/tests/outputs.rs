@@ -127,12 +127,13 @@ fn six_joints() {
 
 /// Modified DH.
 #[test]
-fn kinematics_and_energies_of_the_panda() {
+fn some_of_the_panda() {
     let functions = [
         Function::KineticEnergy,
         Function::PotentialEnergy,
         Function::ForwardKinematics,
         Function::Jacobian,
+        Function::Passivity,
     ];
     check("panda", &functions);
 }
@@ -183,7 +184,7 @@ fn runtime_gives_what_is_known() {
         for GivenState { state, known } in given(name) {
             let vector = |values: &[f64]| DVector::from_row_slice(values);
             let at = JointVectors::new(|argument| vector(state.of(argument)));
-            assert_eq!(known.len(), 6);
+            assert_eq!(known.len(), 8);
             for (quantity, expected) in known {
                 let found = quantity.runtime(&runtime, &at).unwrap();
                 assert_eq!(found.len(), expected.len());

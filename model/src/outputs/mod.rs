@@ -35,6 +35,7 @@ mod kinetic_energy;
 mod link_poses;
 mod manipulator_equation;
 mod momentum;
+mod passivity;
 mod potential_energy;
 mod reaction_wrenches;
 
@@ -82,4 +83,6 @@ registry! {
     inverse_dynamics_derivatives: InverseDynamicsDerivatives {
         TorqueByPosition, TorqueByVelocity
     }
+    /// D a + C v + c + b∘v.
+    passivity: Passivity { Passivity }
 }

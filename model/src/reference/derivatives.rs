@@ -1,4 +1,5 @@
-//! Slopes of the torques in floating point: duals through the recursion.
+//! Slopes of the torques in floating point, duals through the recursion, and
+//! its bilinear form.
 
 use alloc::vec::Vec;
 
@@ -33,5 +34,23 @@ impl<T: Float> Reference<T> {
             from_torques::velocity_terms(torques, arm, at, qd)
         };
         Ok(matrix(&derivatives::by_velocity(h, &self.arm, &at, qd)))
+    }
+
+    /// D a + C v + c + b∘v, with C of the Christoffel symbols.
+    pub fn passivity(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+        v: &DVector<T>,
+        a: &DVector<T>,
+    ) -> Result<DVector<T>, WrongLength> {
+        let at = self.at(q)?;
+        let qd = self.values("qd", qd)?;
+        let [v, a] = [self.values("v", v)?, self.values("a", a)?];
+        let mut tau = from_torques::passivity(torques, &self.arm, &at, qd, [v, a]);
+        for ((tau, link), v) in tau.iter_mut().zip(&self.arm.links).zip(v) {
+            *tau = tau.add(&link.viscous.mul(v));
+        }
+        Ok(DVector::from_vec(tau))
     }
 }

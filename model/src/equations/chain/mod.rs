@@ -10,6 +10,7 @@
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
+//! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
 //! `README.md` beside this file derives each from the textbook form.
@@ -20,6 +21,7 @@ pub mod derivatives;
 mod form;
 pub mod gauge;
 mod momentum;
+mod passivity;
 pub mod pose;
 pub mod recursion;
 pub mod skeleton;
