@@ -45,6 +45,13 @@ impl JointState {
         }
     }
 
+    /// A joint's entry of an argument; NaN where the state has none, which
+    /// reaches whatever reads it.
+    pub fn entry(&self, argument: Argument, joint: usize) -> f64 {
+        let entry = self.of(argument).get(joint);
+        entry.copied().unwrap_or(f64::NAN)
+    }
+
     /// The same to be changed.
     pub fn of_mut(&mut self, argument: Argument) -> &mut Vec<f64> {
         match argument {

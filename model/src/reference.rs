@@ -21,10 +21,10 @@ use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor, from
 use crate::number::{Exact, Rounded};
 use crate::outputs::Argument;
 use crate::robot::{JointKind, Robot};
-use crate::scalar::Scalar;
+use crate::scalar::{Divide, Scalar};
 
 /// The floats that a [`Reference`] computes in: f64 and f32.
-pub trait Float: Scalar + Rounded + fmt::Debug + sealed::Sealed + 'static {
+pub trait Float: Divide + Rounded + fmt::Debug + sealed::Sealed + 'static {
     /// sin and cos, within an ulp at every size.
     fn sin_cos(self) -> (Self, Self);
 }

@@ -39,6 +39,7 @@ fn given(name: &str) -> Vec<GivenState> {
                 q: numbers(&json["q"]),
                 qd: numbers(&json["qd"]),
                 qdd: numbers(&json["qdd"]),
+                tau: numbers(&json["torque"]),
                 ..JointState::default()
             },
             known: known.collect(),

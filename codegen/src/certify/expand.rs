@@ -101,6 +101,8 @@ pub(super) fn visit(
                 }
                 product(a, b)?
             }
+            // No polynomial.
+            Node::Quotient(..) => return None,
         };
         if is_output[index] {
             show(index, &value);

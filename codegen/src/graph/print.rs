@@ -10,8 +10,8 @@
 
 use dalembert_model::equations::Rotor;
 use dalembert_model::number::{Angle, Exact, Rational};
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
+use dalembert_model::scalar::{Divide, Scalar};
 
 use crate::program::input::Input;
 
@@ -41,6 +41,11 @@ impl Print {
     /// Of a product.
     pub fn mul(&self, other: &Print) -> Print {
         self.zip(other, Field::mul)
+    }
+    /// Of a quotient. A divisor that is zero at a point has a chance of 2⁻⁶¹
+    /// if it is not zero everywhere.
+    pub fn div(&self, other: &Print) -> Print {
+        self.zip(other, Field::div)
     }
     /// Of the negated node.
     pub fn neg(&self) -> Print {

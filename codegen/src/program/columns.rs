@@ -54,6 +54,7 @@ impl Lowered {
                 Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
                 Operation::Sub => zip(out, left, right, |x, y| x.sub(&y)),
                 Operation::Mul => zip(out, left, right, |x, y| x.mul(&y)),
+                Operation::Div => zip(out, left, right, |x, y| x.div(&y)),
             }
         }
         let output = |output: &Output<Literal>| {

@@ -105,16 +105,18 @@ impl Lowered {
 
     /// What it costs, with the polynomials of its sines.
     pub fn counts(&self) -> Counts {
-        let is_mul = |step: &&Step<Literal>| step.operation == Operation::Mul;
-        let mul = self.steps.iter().filter(is_mul).count();
+        let [mul, div] = [Operation::Mul, Operation::Div].map(|operation| {
+            let steps = self.steps.iter();
+            steps.filter(|step| step.operation == operation).count()
+        });
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
         let kernels = self.trig.iter().filter_map(|t| t.kernel.as_ref());
         let trig = kernels.map(Kernel::counts);
         let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
         Counts {
             mul,
-            add: self.steps.len() - mul + angles,
-            div: 0,
+            add: self.steps.len() - mul - div + angles,
+            div,
             sincos: self.trig.len(),
             trig_mul,
             trig_add,

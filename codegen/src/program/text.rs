@@ -74,6 +74,17 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, Strin
     })
 }
 
+/// A step of a program whose errors are bounded.
+///
+/// # Errors
+/// Nothing is certified of a program that divides.
+pub(crate) fn without_quotient(step: Step) -> Result<Step, String> {
+    match step.operation {
+        Operation::Div => Err("a quotient, of which no bound is known".into()),
+        _ => Ok(step),
+    }
+}
+
 /// An operand of a program's next step.
 pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, String> {
     if let Some(constant) = word.strip_prefix('#') {

@@ -266,14 +266,8 @@ impl<'a> Values<'a> {
                         };
                         let print = self.classes.way_print(way);
                         match (x, y) {
-                            (Some(x), Some(y)) => {
-                                let value = match way {
-                                    Way::Sum(..) => x + y,
-                                    Way::Difference(..) => x - y,
-                                    Way::Product(..) => x * y,
-                                };
-                                Some(if print == class.print { value } else { -value })
-                            }
+                            (Some(x), Some(y)) => operate(way, x, y)
+                                .map(|value| if print == class.print { value } else { -value }),
                             _ => None,
                         }
                     }
@@ -284,6 +278,17 @@ impl<'a> Values<'a> {
         }
         self.known.get(&id).cloned().flatten()
     }
+}
+
+/// The value of a way; none of a quotient by zero.
+fn operate(way: Way, x: &Rational, y: &Rational) -> Option<Rational> {
+    Some(match way {
+        Way::Sum(..) => x + y,
+        Way::Difference(..) => x - y,
+        Way::Product(..) => x * y,
+        Way::Quotient(..) if num_traits::Zero::is_zero(y) => return None,
+        Way::Quotient(..) => x / y,
+    })
 }
 
 /// A fixed rational state in general position. Sums of angles are composed

@@ -14,7 +14,7 @@
 //! which it is not below 1e-9 after 2⁶⁴ attempts is refused.
 //!
 //! A prime that divides a denominator, or a coefficient that is not zero, is
-//! unfit: the next is drawn instead.
+//! unfit, and so is a point where a divisor is zero: the next is drawn instead.
 
 use std::cell::{Cell, RefCell};
 use std::fmt;
@@ -22,12 +22,13 @@ use std::fmt;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::residue::Residue;
+use dalembert_model::scalar::{Divide, Scalar};
 
 use super::challenge::{Point, Transcript};
 use super::degree::Degree;
 use super::miss;
+use super::ratio::Ratio;
 use super::size::Denominators;
 use crate::program::Program;
 use crate::scene::Setting;
@@ -69,7 +70,7 @@ pub enum Disproof {
     },
     /// The program has another number of outputs.
     Shape,
-    /// Constants vanish, or have no value, modulo prime after prime.
+    /// Constants or divisors vanish, or have no value, modulo prime after prime.
     Unfit,
     /// Degree or coefficients are so large that a miss is not unlikely.
     Large {
@@ -104,7 +105,7 @@ impl fmt::Display for Disproof {
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
             Disproof::Unfit => write!(
                 f,
-                "constants vanish modulo too many of {MAX_DRAWS} random primes: \
+                "constants or divisors vanish modulo too many of {MAX_DRAWS} random primes: \
                  write parameters as short decimals"
             ),
             Disproof::Large { degree, height } => write!(
@@ -150,10 +151,10 @@ pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof>
     compare(transcript, program, expected)?;
     let denominators = RefCell::default();
     let constant = |constant: &Exact| {
-        let degree = Degree::constant(constant, &mut denominators.borrow_mut());
+        let degree = Ratio::constant(constant, &mut denominators.borrow_mut());
         Some(degree)
     };
-    let formula = formula(setting, program, yardstick, Degree::input, constant);
+    let formula = formula(setting, program, yardstick, Ratio::input, constant);
     let formula = formula.unwrap_or_default();
     let mut denominators = denominators.borrow().clone();
     let (degree, height) = bounded(program, &formula, &mut denominators)?;
@@ -185,7 +186,7 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
 ///
 /// The formula runs on the whole arm: a locked joint is one whose pair or
 /// position is constant and whose rates are zero.
-fn formula<S: Scalar>(
+fn formula<S: Divide>(
     setting: &Setting,
     program: &Program,
     yardstick: Formulation,
@@ -225,11 +226,15 @@ fn compare(
         if expected.len() != actual.len() {
             return Err(Disproof::Shape);
         }
-        // What has no value equals nothing.
-        let value = |x: &Residue| x.value(point.prime());
-        let equal = |a: &Residue, b: &Residue| value(a).is_some() && value(a) == value(b);
+        // Where a divisor is zero there is no value, and nothing to compare.
+        let values = |of: &[Residue]| -> Option<Vec<u64>> {
+            of.iter().map(|x| x.value(point.prime())).collect()
+        };
+        let Some((actual, expected)) = values(&actual).zip(values(&expected)) else {
+            continue;
+        };
         let mut pairs = actual.iter().zip(&expected);
-        if let Some(index) = pairs.position(|(a, b)| !equal(a, b)) {
+        if let Some(index) = pairs.position(|(a, b)| a != b) {
             let entry = program.entry(index);
             return Err(Disproof::Output { index, entry });
         }
@@ -245,14 +250,17 @@ fn compare(
 /// others, if a miss is unlikely.
 fn bounded(
     program: &Program,
-    others: &[Degree],
+    others: &[Ratio],
     denominators: &mut Denominators,
 ) -> Result<(u64, u64), Disproof> {
     let own = program.degrees(denominators);
-    let differences = || own.iter().zip(others).map(|(a, b)| a.add(b));
-    let degree = differences().map(|d| d.bound()).max().unwrap_or(0);
-    let heights = differences().map(|d| d.height(denominators));
-    let height = heights.max().unwrap_or(0);
+    let differences: Vec<Ratio> = own.iter().zip(others).map(|(a, b)| a.add(b)).collect();
+    let most = |of: &dyn Fn(&Degree) -> u64| {
+        let bounds = differences.iter().map(|d| d.top().map_or(u64::MAX, of));
+        bounds.max().unwrap_or(0)
+    };
+    let degree = most(&Degree::bound);
+    let height = most(&|degree| degree.height(denominators));
     match miss::is_small(degree, height, PRIMES) {
         true => Ok((degree, height)),
         false => Err(Disproof::Large { degree, height }),

@@ -93,7 +93,7 @@ impl Runtime {
             match input {
                 Input::Sin(sum) => libm::sincos(angle(sum)).0,
                 Input::Cos(sum) => libm::sincos(angle(sum)).1,
-                Input::Entry(argument, joint) => state.of(argument)[joint],
+                Input::Entry(argument, joint) => state.entry(argument, joint),
             }
         };
         let motion = self.setting.motion(input, f64::nearest);

@@ -15,6 +15,7 @@ pub mod degree;
 pub mod exact;
 pub mod floating;
 pub mod miss;
+pub mod ratio;
 pub mod reference;
 pub mod rounding;
 pub mod running;

@@ -24,6 +24,7 @@ struct Facts {
     name: &'static str,
     symbol: &'static str,
     noun: &'static str,
+    given: Option<&'static str>,
     meaning: &'static str,
     limit: Field,
     reach: f64,
@@ -35,6 +36,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         name: "q",
         symbol: "q",
         noun: "position",
+        given: Some("q"),
         meaning: "Positions, rad or m.",
         limit: Field::Position,
         reach: 1.0,
@@ -43,6 +45,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         name: "qd",
         symbol: "q̇",
         noun: "velocity",
+        given: Some("qd"),
         meaning: "Velocities, rad/s or m/s.",
         limit: Field::Velocity,
         reach: 3.0,
@@ -51,6 +54,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         name: "qdd",
         symbol: "q̈",
         noun: "acceleration",
+        given: Some("qdd"),
         meaning: "Accelerations, rad/s² or m/s².",
         limit: Field::Acceleration,
         reach: 10.0,
@@ -59,6 +63,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         name: "tau",
         symbol: "τ",
         noun: "torque",
+        given: Some("torque"),
         meaning: "Torques, N·m or N.",
         limit: Field::Torque,
         reach: 100.0,
@@ -67,6 +72,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         name: "v",
         symbol: "v",
         noun: "reference velocity",
+        given: None,
         meaning: "Velocities wished for, rad/s or m/s.",
         limit: Field::Velocity,
         reach: 3.0,
@@ -75,6 +81,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         name: "a",
         symbol: "a",
         noun: "reference acceleration",
+        given: None,
         meaning: "Accelerations wished for, rad/s² or m/s².",
         limit: Field::Acceleration,
         reach: 10.0,
@@ -124,6 +131,11 @@ impl Argument {
     /// Its letter in the equations.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol
+    }
+
+    /// Its key in files of given states; none if these do not give it.
+    pub fn given(self) -> Option<&'static str> {
+        self.facts().given
     }
 
     /// What an entry is, in one or two words.

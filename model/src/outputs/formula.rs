@@ -8,7 +8,7 @@ use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 /// A quantity: what it is, and its formulas, each over any scalar.
 pub(super) trait Formula {
@@ -16,11 +16,11 @@ pub(super) trait Formula {
     const FACTS: Facts;
 
     /// By a textbook formulation: what everything else is proved against.
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S>;
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S>;
 
     /// By the chain formulas with regrouped parameters; `None` if these do not
     /// give it: then [`Formula::written`] is where a search starts.
-    fn regrouped<S: Scalar>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
         None
     }
 

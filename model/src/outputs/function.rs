@@ -6,7 +6,7 @@ use core::fmt;
 use super::{Argument, Function, Motion, Quantity, Written};
 use crate::equations::chain::Form;
 use crate::equations::{Arm, Formulation};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 /// What an output's file says of its function.
 pub(super) struct Definition {
@@ -70,7 +70,7 @@ impl Function {
 
     /// Its results by one formulation, flat, in the order of its quantities;
     /// each array row by row.
-    pub fn evaluate<S: Scalar>(
+    pub fn evaluate<S: Divide>(
         self,
         formulation: Formulation,
         arm: &Arm<S>,

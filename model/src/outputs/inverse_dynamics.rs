@@ -8,7 +8,7 @@ use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{plus, times};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "inverse_dynamics",
@@ -47,13 +47,13 @@ impl Formula for Torque {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
         at.formulation
             .inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let (chain, motion, form) = (at.chain, at.motion, at.form);
         if !form.composite_h {
             let (spin, couple) = (form.spin, form.couple);

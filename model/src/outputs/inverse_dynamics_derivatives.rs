@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "inverse_dynamics_derivatives",
@@ -54,7 +54,7 @@ impl Formula for TorqueByPosition {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
         let slopes = at
             .formulation
@@ -62,7 +62,7 @@ impl Formula for TorqueByPosition {
         slopes.into_iter().flatten().collect()
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
         Some(slopes.position.into_iter().flatten().collect())
@@ -107,14 +107,14 @@ impl Formula for TorqueByVelocity {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let slopes = at
             .formulation
             .torque_by_velocity(at.arm, at.at, &at.motion.qd);
         slopes.into_iter().flatten().collect()
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
         Some(slopes.velocity.into_iter().flatten().collect())

@@ -8,7 +8,7 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "passivity",
@@ -48,13 +48,13 @@ impl Formula for Passivity {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
         let wished = [&motion.v[..], &motion.a[..]];
         at.formulation.passivity(at.arm, at.at, &motion.qd, wished)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let torques = at.chain.passivity(at.at, &motion.qd, &motion.v, &motion.a);
         Some(torques)

@@ -42,7 +42,7 @@ macro_rules! registry {
             }
 
             /// Its entries by a textbook formulation, flat, row by row.
-            pub fn written<S: $crate::scalar::Scalar>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
+            pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)*)*
                 }
@@ -50,7 +50,7 @@ macro_rules! registry {
 
             /// Its entries by the chain formulas, over the chain's joints; `None`
             /// if these do not give it.
-            pub fn regrouped<S: $crate::scalar::Scalar>(
+            pub fn regrouped<S: $crate::scalar::Divide>(
                 self,
                 at: &Regrouped<'_, S>,
             ) -> ::core::option::Option<::alloc::vec::Vec<S>> {

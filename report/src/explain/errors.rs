@@ -132,7 +132,7 @@ fn formula(
     let input = |input| match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
-        Input::Entry(argument, joint) => state.of(argument)[joint],
+        Input::Entry(argument, joint) => state.entry(argument, joint),
     };
     let motion = setting.motion(input, f64::nearest);
     let results = function.evaluate(formulation, arm, &motion);

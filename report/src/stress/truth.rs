@@ -59,7 +59,7 @@ impl Truth {
         let input = |input| match input {
             Input::Sin(sum) => pair(sum).0,
             Input::Cos(sum) => pair(sum).1,
-            Input::Entry(argument, joint) => finite(state.of(argument)[joint]),
+            Input::Entry(argument, joint) => finite(state.entry(argument, joint)),
         };
         let setting = &self.setting;
         let motion = setting.motion(input, number);

@@ -62,6 +62,8 @@ impl Forms {
                         forms.work.push(work(out, x));
                     }
                 }
+                // No polynomial.
+                Node::Quotient(..) => return None,
                 Node::Product(a, b) => {
                     products += slots[a.index()].len() * slots[b.index()].len();
                     if rates && products > MOST_PRODUCTS {

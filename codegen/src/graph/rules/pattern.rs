@@ -28,7 +28,7 @@ pub(crate) trait Algebra {
     fn number(&mut self, number: u64) -> Self::Value;
     /// −a
     fn neg(&mut self, a: &Self::Value) -> Self::Value;
-    /// a + b, a − b or a · b.
+    /// a + b, a − b, a · b or a / b.
     fn operate(&mut self, symbol: &str, a: &Self::Value, b: &Self::Value) -> Self::Value;
 }
 
@@ -54,7 +54,7 @@ impl Pattern {
             };
         }
         let name = words.next().expect("an operation");
-        let known = ["+", "-", "*", "neg"]
+        let known = ["+", "-", "*", "/", "neg"]
             .into_iter()
             .find(|known| *known == name);
         let name = known.unwrap_or_else(|| panic!("`{name}` is no operation"));

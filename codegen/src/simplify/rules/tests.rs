@@ -4,8 +4,8 @@
 use std::collections::HashMap;
 
 use dalembert_model::number::{Exact, Rational};
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points as FieldPoints};
+use dalembert_model::scalar::{Divide, Scalar};
 
 use super::{DISCOVERY, SATURATION};
 use crate::function::Argument;
@@ -32,6 +32,7 @@ impl Algebra for InField {
         match symbol {
             "+" => a.add(b),
             "-" => a.sub(b),
+            "/" => a.div(b),
             _ => a.mul(b),
         }
     }
