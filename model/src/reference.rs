@@ -2,9 +2,11 @@
 //!
 //! It evaluates the recursion of Table 2 in its most accurate form
 //! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface.
-//! Generated code is checked against it. `derivatives` has its slopes.
+//! Generated code is checked against it. `derivatives` has its slopes,
+//! `forward` what motions torques bring about.
 
 mod derivatives;
+mod forward;
 
 use alloc::vec::Vec;
 use core::fmt;

@@ -12,7 +12,7 @@ use dalembert_model::scalar::field::{Field, Points};
 use equations_support::random::{Case, case, kinds};
 
 /// Every function with its arguments, and its results' axes for six joints.
-const GOLDEN: [&str; 18] = [
+const GOLDEN: [&str; 20] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -31,6 +31,8 @@ const GOLDEN: [&str; 18] = [
     "reaction_wrenches(q, qd, qdd) -> wrenches[6][6]",
     "inverse_dynamics_derivatives(q, qd, qdd) -> dtau_dq[6][6] dtau_dqd[6][6] d[6][6]",
     "passivity(q, qd, v, a) -> tau[6]",
+    "forward_dynamics(q, qd, tau) -> qdd[6]",
+    "inertia_inverse(q) -> d_inv[6][6]",
 ];
 
 #[test]
@@ -77,11 +79,12 @@ fn cases() -> Vec<Case> {
 fn formulations_agree_on_every_quantity() {
     for case in cases() {
         let mut points = Points::new(7);
-        let motion = Motion::new(Vec::new(), |argument| match argument {
+        let mut motion = Motion::new(Vec::new(), |argument| match argument {
             Argument::Velocity => case.qd.clone(),
             Argument::Acceleration => case.qdd.clone(),
             _ => case.qd.iter().map(|_| points.field()).collect(),
         });
+        motion.moves = vec![true; case.qd.len()];
         for &quantity in Quantity::ALL {
             let by = |formulation| {
                 quantity.written(&Written {

@@ -199,6 +199,7 @@ impl Setting {
                 JointPosition::Revolute(pair) => JointPosition::Revolute(pair.map(&mut constant)),
                 JointPosition::Prismatic(q) => JointPosition::Prismatic(constant(q)),
             };
+            motion.moves[joint] = false;
             // Zero by structure: what it multiplies is gone.
             for argument in Argument::ALL {
                 if let Some(entries) = motion.of_mut(argument) {

@@ -13,6 +13,10 @@
 //! stated is that of one such attempt ([`miss`](super::miss)); a proof for
 //! which it is not below 1e-9 after 2⁶⁴ attempts is refused.
 //!
+//! What inverts D is not only compared with a formula that does: at every point
+//! the formula's own values are put into the equation that they solve, with D
+//! and the loads as written, and must solve it.
+//!
 //! A prime that divides a denominator, or a coefficient that is not zero, is
 //! unfit, and so is a point where a divisor is zero: the next is drawn instead.
 
@@ -21,6 +25,7 @@ use std::fmt;
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
+use dalembert_model::outputs::Motion;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::residue::Residue;
 use dalembert_model::scalar::{Divide, Scalar};
@@ -41,7 +46,7 @@ pub const WRITTEN_LIMIT: usize = 10;
 pub const PRIMES: usize = 4;
 
 /// Primes to draw before a statement is given up for want of fit ones.
-const MAX_DRAWS: usize = 64;
+pub(super) const MAX_DRAWS: usize = 64;
 
 /// What was proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +73,9 @@ pub enum Disproof {
         /// Its name, one-based.
         entry: String,
     },
+    /// What should solve an equation of the arm does not: a defect of this
+    /// library.
+    Equation,
     /// The program has another number of outputs.
     Shape,
     /// Constants or divisors vanish, or have no value, modulo prime after prime.
@@ -102,6 +110,7 @@ impl fmt::Display for Disproof {
             Disproof::Output { entry, .. } => {
                 write!(f, "{entry} differs from the formula as written")
             }
+            Disproof::Equation => f.write_str("the formula does not solve its own equation"),
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
             Disproof::Unfit => write!(
                 f,
@@ -139,14 +148,10 @@ pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof>
     transcript.setting(setting);
     transcript.program(program);
     let expected = |point: &Point| {
+        let input = |input| point.input(input);
         let constant = |constant: &Exact| point.constant(constant);
-        formula(
-            setting,
-            program,
-            yardstick,
-            |input| point.input(input),
-            constant,
-        )
+        let formula = Formula::new(setting, yardstick, input, constant);
+        formula.map_or(Ok(None), |formula| formula.checked(program, point))
     };
     compare(transcript, program, expected)?;
     let denominators = RefCell::default();
@@ -154,8 +159,8 @@ pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof>
         let degree = Ratio::constant(constant, &mut denominators.borrow_mut());
         Some(degree)
     };
-    let formula = formula(setting, program, yardstick, Ratio::input, constant);
-    let formula = formula.unwrap_or_default();
+    let formula = Formula::new(setting, yardstick, Ratio::input, constant);
+    let formula = formula.map_or_else(Vec::new, |formula| formula.results(program));
     let mut denominators = denominators.borrow().clone();
     let (degree, height) = bounded(program, &formula, &mut denominators)?;
     Ok(Proof {
@@ -175,51 +180,92 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     let mut transcript = Transcript::new("two programs");
     transcript.program(a);
     transcript.program(b);
-    compare(transcript, b, |point| run(a, point))?;
+    compare(transcript, b, |point| Ok(run(a, point)))?;
     let mut denominators = Denominators::default();
     let degrees = a.degrees(&mut denominators);
     bounded(b, &degrees, &mut denominators).map(drop)
 }
 
-/// The outputs by a formula, from the values of inputs and constants; `None`
-/// if a constant has none.
-///
-/// The formula runs on the whole arm: a locked joint is one whose pair or
-/// position is constant and whose rates are zero.
-fn formula<S: Divide>(
-    setting: &Setting,
-    program: &Program,
+/// A formula over the whole arm at a motion: a locked joint is one whose pair
+/// or position is constant and whose rates are zero.
+struct Formula<'a, S> {
+    setting: &'a Setting,
     yardstick: Formulation,
-    input: impl FnMut(crate::program::Input) -> S,
-    constant: impl Fn(&Exact) -> Option<S>,
-) -> Option<Vec<S>> {
-    let failed = Cell::new(false);
-    let constant = |value: &Exact| {
-        constant(value).unwrap_or_else(|| {
-            failed.set(true);
-            S::zero()
+    arm: Arm<S>,
+    motion: Motion<S>,
+}
+
+impl<'a, S: Divide> Formula<'a, S> {
+    /// From the values of inputs and constants; `None` if a constant has none.
+    fn new(
+        setting: &'a Setting,
+        yardstick: Formulation,
+        input: impl FnMut(crate::program::Input) -> S,
+        constant: impl Fn(&Exact) -> Option<S>,
+    ) -> Option<Self> {
+        let failed = Cell::new(false);
+        let constant = |value: &Exact| {
+            constant(value).unwrap_or_else(|| {
+                failed.set(true);
+                S::zero()
+            })
+        };
+        let arm = Arm::from_robot(setting.robot(), &mut { constant });
+        let motion = setting.motion(input, constant);
+        (!failed.get()).then_some(Formula {
+            setting,
+            yardstick,
+            arm,
+            motion,
         })
-    };
-    let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let motion = setting.motion(input, constant);
-    if failed.get() {
-        return None;
     }
-    let outputs = program.function.evaluate(yardstick, &arm, &motion);
-    Some(setting.select(program.function, setting.joints(), outputs))
+
+    fn evaluate(&self, program: &Program) -> Vec<S> {
+        let function = program.function;
+        function.evaluate(self.yardstick, &self.arm, &self.motion)
+    }
+
+    fn select(&self, program: &Program, outputs: Vec<S>) -> Vec<S> {
+        let joints = self.setting.joints();
+        self.setting.select(program.function, joints, outputs)
+    }
+
+    /// The results over the setting's rows.
+    fn results(&self, program: &Program) -> Vec<S> {
+        self.select(program, self.evaluate(program))
+    }
+}
+
+impl Formula<'_, Residue> {
+    /// The results over the setting's rows, which solve the equations that
+    /// they are to solve: D q̈ + h + c + b∘q̇ = τ, or D D⁻¹ = 1, with D and the
+    /// loads as written. None where they have no values.
+    fn checked(&self, program: &Program, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
+        let outputs = self.evaluate(program);
+        let function = program.function;
+        let residual = function.residual(self.yardstick, &self.arm, &self.motion, &outputs);
+        for value in residual {
+            match value.value(point.prime()) {
+                None => return Ok(None),
+                Some(0) => {}
+                Some(_) => return Err(Disproof::Equation),
+            }
+        }
+        Ok(Some(self.select(program, outputs)))
+    }
 }
 
 /// Compares a program's outputs with what is expected at [`PRIMES`] primes.
 fn compare(
     transcript: Transcript,
     program: &Program,
-    expected: impl Fn(&Point) -> Option<Vec<Residue>>,
+    expected: impl Fn(&Point) -> Result<Option<Vec<Residue>>, Disproof>,
 ) -> Result<(), Disproof> {
     let challenge = transcript.seal();
     let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
     let mut good = 0;
     for point in points {
-        let values = run(program, &point).zip(expected(&point));
+        let values = run(program, &point).zip(expected(&point)?);
         let Some((actual, expected)) = values else {
             continue;
         };

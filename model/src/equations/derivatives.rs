@@ -89,7 +89,7 @@ fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
 }
 
 /// The rates of change of columns, row by row.
-fn columns<S: Scalar>(n: usize, column: impl Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
+pub(super) fn columns<S: Scalar>(n: usize, column: impl Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
     let columns: Vec<Vec<Dual<S>>> = (0..n).map(column).collect();
     let row = |i: usize| {
         columns

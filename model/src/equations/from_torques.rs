@@ -112,7 +112,7 @@ pub(super) fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
 }
 
 /// The arm without viscous damping.
-fn undamped<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
+pub(super) fn undamped<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     let mut arm = arm.clone();
     for link in &mut arm.links {
         link.viscous = S::zero();

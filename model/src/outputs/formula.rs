@@ -24,6 +24,16 @@ pub(super) trait Formula {
         None
     }
 
+    /// Whether it exists only where D has an inverse.
+    const INVERTS_INERTIA: bool = false;
+
+    /// What vanishes if these entries over all joints are the quantity's, by an
+    /// equation that it solves; nothing where [`Formula::written`] says what it
+    /// is.
+    fn residual<S: Divide>(_: &Written<'_, S>, _: &[S]) -> Vec<S> {
+        Vec::new()
+    }
+
     /// By the generic runtime.
     fn runtime<T: Float>(
         runtime: &Reference<T>,
@@ -46,12 +56,15 @@ pub struct Motion<S> {
     pub v: Vec<S>,
     /// Accelerations wished for.
     pub a: Vec<S>,
+    /// Whether each joint moves; one that does not is held where it is.
+    pub moves: Vec<bool>,
 }
 
 impl<S> Motion<S> {
     /// At these positions, with the entries of all other arguments.
     pub fn new(q: Vec<JointPosition<S>>, mut entries: impl FnMut(Argument) -> Vec<S>) -> Self {
         Motion {
+            moves: alloc::vec![true; q.len()],
             q,
             qd: entries(Argument::Velocity),
             qdd: entries(Argument::Acceleration),
@@ -86,6 +99,7 @@ impl<S: Clone> Motion<S> {
             tau: pick(&self.tau),
             v: pick(&self.v),
             a: pick(&self.a),
+            moves: joints.iter().map(|&joint| self.moves[joint]).collect(),
         }
     }
 }

@@ -88,6 +88,36 @@ impl Function {
             .collect()
     }
 
+    /// What vanishes if these results over all joints solve the equations that
+    /// they are to solve.
+    pub fn residual<S: Divide>(
+        self,
+        formulation: Formulation,
+        arm: &Arm<S>,
+        motion: &Motion<S>,
+        results: &[S],
+    ) -> Vec<S> {
+        let written = Written {
+            formulation,
+            arm,
+            at: &arm.at(&motion.q),
+            motion,
+        };
+        let mut rest = results;
+        let mut residual = Vec::new();
+        for quantity in self.quantities() {
+            let (own, others) = rest.split_at(quantity.len(arm.links.len()).min(rest.len()));
+            residual.extend(quantity.residual(&written, own));
+            rest = others;
+        }
+        residual
+    }
+
+    /// Whether it exists only where D has an inverse.
+    pub fn inverts_inertia(self) -> bool {
+        self.quantities().iter().any(|q| q.inverts_inertia())
+    }
+
     /// The associations of the chain formulas that differ for it, the usually
     /// cheapest first.
     pub fn forms(self) -> Vec<Form> {

@@ -24,9 +24,11 @@ mod coriolis;
 mod coriolis_matrix;
 mod dalembert_terms;
 mod dynamic_coefficients;
+mod forward_dynamics;
 mod forward_kinematics;
 mod gravity;
 mod inertia;
+mod inertia_inverse;
 mod inverse_dynamics;
 mod inverse_dynamics_derivatives;
 mod jacobian;
@@ -85,4 +87,8 @@ registry! {
     }
     /// D a + C v + c + b∘v.
     passivity: Passivity { Passivity }
+    /// q̈(q, q̇, τ): forward dynamics.
+    forward_dynamics: ForwardDynamics { Acceleration }
+    /// D⁻¹(q): the inverse of the inertia matrix.
+    inertia_inverse: InertiaInverse { InertiaInverse }
 }

@@ -59,6 +59,25 @@ macro_rules! registry {
                 }
             }
 
+            /// Whether it exists only where D has an inverse.
+            pub fn inverts_inertia(self) -> bool {
+                match self {
+                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)*)*
+                }
+            }
+
+            /// What vanishes if these entries over all joints are its own, by an
+            /// equation that it solves; nothing if it solves none.
+            pub fn residual<S: $crate::scalar::Divide>(
+                self,
+                at: &Written<'_, S>,
+                values: &[S],
+            ) -> ::alloc::vec::Vec<S> {
+                match self {
+                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)*)*
+                }
+            }
+
             /// Its entries by the generic runtime.
             ///
             /// # Errors
