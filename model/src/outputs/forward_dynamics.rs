@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
+use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::forward::solved;
@@ -38,7 +39,7 @@ impl Formula for Acceleration {
         given: Some("forward_dynamics"),
         given_as: None,
         choices: Some(Choices {
-            recursion: false,
+            recursion: true,
             travel: true,
         }),
         starts_from_recursion: false,
@@ -67,10 +68,9 @@ impl Formula for Acceleration {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let (chain, motion, form) = (at.chain, at.motion, at.form);
-        let d = at.composite.inertia(form.travel);
-        let rest = zeros(motion.qd.len());
-        let bias = chain.inverse_dynamics(at.at, &motion.qd, &rest, form.spin, form.couple);
+        let motion = at.motion;
+        let d = at.composite.inertia(at.form.travel);
+        let bias = torques(at, &zeros(motion.qd.len()));
         Some(solved(&d, &bias, &motion.tau, &motion.moves))
     }
 

@@ -25,6 +25,7 @@ mod coriolis_matrix;
 mod dalembert_terms;
 mod dynamic_coefficients;
 mod forward_dynamics;
+mod forward_dynamics_derivatives;
 mod forward_kinematics;
 mod gravity;
 mod inertia;
@@ -91,4 +92,8 @@ registry! {
     forward_dynamics: ForwardDynamics { Acceleration }
     /// D⁻¹(q): the inverse of the inertia matrix.
     inertia_inverse: InertiaInverse { InertiaInverse }
+    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
+    forward_dynamics_derivatives: ForwardDynamicsDerivatives {
+        AccelerationByPosition, AccelerationByVelocity, AccelerationByTorque
+    }
 }

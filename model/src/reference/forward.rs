@@ -21,6 +21,21 @@ impl<T: Float> Reference<T> {
         Ok(DVector::from_vec(qdd))
     }
 
+    /// ∂q̈/∂q and ∂q̈/∂q̇, n×n each: duals through the articulated bodies.
+    pub fn acceleration_slopes(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+        tau: &DVector<T>,
+    ) -> Result<[DMatrix<T>; 2], WrongLength> {
+        let at = self.at(q)?;
+        let [qd, tau] = [self.values("qd", qd)?, self.values("tau", tau)?];
+        let moves = alloc::vec![true; self.joints()];
+        let recursion = Formulation::NewtonEulerLink;
+        let slopes = recursion.acceleration_slopes(&self.arm, &at, qd, tau, &moves);
+        Ok(slopes.map(|rows| matrix(&rows)))
+    }
+
     /// D⁻¹, n×n, symmetric.
     pub fn inertia_inverse(&self, q: &DVector<T>) -> Result<DMatrix<T>, WrongLength> {
         let at = self.at(q)?;
