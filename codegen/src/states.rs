@@ -1,7 +1,8 @@
 //! Seeded joint states inside a robot's limits.
 
 use dalembert_model::number::Rounded;
-use dalembert_model::robot::{Joint, JointKind, Position, Robot};
+use dalembert_model::outputs::Argument;
+use dalembert_model::robot::{Field, Joint, JointKind, Position, Robot};
 
 use crate::random::Random;
 
@@ -14,6 +15,54 @@ pub struct JointState {
     pub qd: Vec<f64>,
     /// Accelerations, per second squared.
     pub qdd: Vec<f64>,
+    /// Torques; as what follows empty where nothing reads them.
+    pub tau: Vec<f64>,
+    /// Velocities wished for.
+    pub v: Vec<f64>,
+    /// Accelerations wished for.
+    pub a: Vec<f64>,
+}
+
+impl JointState {
+    /// From the entries of each argument.
+    pub fn new(mut entries: impl FnMut(Argument) -> Vec<f64>) -> JointState {
+        let mut state = JointState::default();
+        for argument in Argument::ALL {
+            *state.of_mut(argument) = entries(argument);
+        }
+        state
+    }
+
+    /// The entries of an argument.
+    pub fn of(&self, argument: Argument) -> &[f64] {
+        match argument {
+            Argument::Position => &self.q,
+            Argument::Velocity => &self.qd,
+            Argument::Acceleration => &self.qdd,
+            Argument::Torque => &self.tau,
+            Argument::ReferenceVelocity => &self.v,
+            Argument::ReferenceAcceleration => &self.a,
+        }
+    }
+
+    /// A joint's entry of an argument; NaN where the state has none, which
+    /// reaches whatever reads it.
+    pub fn entry(&self, argument: Argument, joint: usize) -> f64 {
+        let entry = self.of(argument).get(joint);
+        entry.copied().unwrap_or(f64::NAN)
+    }
+
+    /// The same to be changed.
+    pub fn of_mut(&mut self, argument: Argument) -> &mut Vec<f64> {
+        match argument {
+            Argument::Position => &mut self.q,
+            Argument::Velocity => &mut self.qd,
+            Argument::Acceleration => &mut self.qdd,
+            Argument::Torque => &mut self.tau,
+            Argument::ReferenceVelocity => &mut self.v,
+            Argument::ReferenceAcceleration => &mut self.a,
+        }
+    }
 }
 
 /// How many states the floating check takes unless told otherwise.
@@ -22,50 +71,61 @@ pub const STATES: usize = 200;
 /// The seed of the floating check.
 pub const SEED: u64 = 0xa1e3;
 
+/// What the seed of the arguments that are no part of a state differs by.
+const OTHERS: u64 = 0x6172_6773;
+
 /// States drawn evenly from the robot's limits; where it has none: ±π, or
-/// ±1 m, ±3 per second, ±10 per second squared. The same on every machine.
+/// ±1 m, ±3 per second, ±10 per second squared, ±100 N·m or N. The same on
+/// every machine.
 pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
-    let mut random = Random::new(seed);
-    let mut draw = |[low, high]: [f64; 2]| low + (high - low) * random.unit();
     // Once, not state by state: a multiple of π is rounded from 120 digits.
-    let ranges = robot.joints.iter().map(|joint| {
-        let (velocity, acceleration) = (
-            rate(&joint.limits.velocity, 3.0),
-            rate(&joint.limits.acceleration, 10.0),
-        );
-        (
-            range(joint),
-            [-velocity, velocity],
-            [-acceleration, acceleration],
-        )
-    });
-    let ranges: Vec<_> = ranges.collect();
-    (0..count)
-        .map(|_| {
-            let mut state = JointState::default();
-            for &(position, velocity, acceleration) in &ranges {
-                state.q.push(draw(position));
-                state.qd.push(draw(velocity));
-                state.qdd.push(draw(acceleration));
+    let range = |joint: &Joint| Argument::ALL.map(|argument| range(joint, argument));
+    let ranges: Vec<_> = robot.joints.iter().map(range).collect();
+    let mut states = vec![JointState::default(); count];
+    let (state, others) = Argument::ALL.split_at(Argument::STATE.len());
+    // Other arguments have draws of their own: theirs do not move the states.
+    for (arguments, seed) in [(state, seed), (others, seed ^ OTHERS)] {
+        let mut random = Random::new(seed);
+        let mut draw = |[low, high]: [f64; 2]| low + (high - low) * random.unit();
+        for state in &mut states {
+            for ranges in &ranges {
+                for &argument in arguments {
+                    let entry = draw(ranges[argument.index()]);
+                    state.of_mut(argument).push(entry);
+                }
             }
-            state
-        })
-        .collect()
+        }
+    }
+    states
 }
 
 impl JointState {
     /// The nearest f32 state, held in doubles.
     pub fn in_single(&self) -> JointState {
-        let single = |values: &[f64]| values.iter().map(|&x| f64::from(x as f32)).collect();
-        JointState {
-            q: single(&self.q),
-            qd: single(&self.qd),
-            qdd: single(&self.qdd),
+        let mut state = self.clone();
+        for argument in Argument::ALL {
+            let entries = state.of_mut(argument).iter_mut();
+            entries.for_each(|x| *x = f64::from(*x as f32));
         }
+        state
     }
 }
 
-fn range(joint: &Joint) -> [f64; 2] {
+/// Between which ends a joint's entry of an argument is drawn.
+fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
+    let limits = &joint.limits;
+    let most = match argument.limit() {
+        Field::Velocity => &limits.velocity,
+        Field::Acceleration => &limits.acceleration,
+        Field::Torque => &limits.torque,
+        _ => return position(joint),
+    };
+    let most = most.as_ref();
+    let most = most.map_or(argument.reach(), f64::nearest_rational);
+    [-most, most]
+}
+
+fn position(joint: &Joint) -> [f64; 2] {
     let value = |position: &Position| match position {
         Position::Angle(angle) => angle.to_f64(),
         Position::Length(length) => f64::nearest_rational(length),
@@ -75,8 +135,4 @@ fn range(joint: &Joint) -> [f64; 2] {
         (None, JointKind::Revolute) => [-core::f64::consts::PI, core::f64::consts::PI],
         (None, JointKind::Prismatic) => [-1.0, 1.0],
     }
-}
-
-fn rate(limit: &Option<dalembert_model::number::Rational>, default: f64) -> f64 {
-    limit.as_ref().map_or(default, f64::nearest_rational)
 }

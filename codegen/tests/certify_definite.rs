@@ -254,6 +254,7 @@ fn sines_that_are_off_leave_d_positive() {
                 q: vec![0.3, elbow],
                 qd: still.clone(),
                 qdd: still.clone(),
+                ..JointState::default()
             };
             let d = emitted.run(&state);
             assert!(d[0] > 0.0 && d[0] * d[3] > d[1] * d[2], "{elbow}: {d:?}");

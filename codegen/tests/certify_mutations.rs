@@ -196,6 +196,7 @@ fn is_true(claim: &Certificate, setting: &Setting) -> bool {
             q: draw(&limits.position),
             qd: draw(&limits.velocity),
             qdd: draw(&limits.acceleration),
+            ..JointState::default()
         };
         let state = match claim.scalar {
             ScalarType::F64 => state,

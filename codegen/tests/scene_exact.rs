@@ -2,7 +2,7 @@
 
 mod support;
 
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::plan::{self, Entry, Plan, SceneKey};
 use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
@@ -176,9 +176,11 @@ fn reads(program: &Program, joint: impl Fn(usize) -> bool) -> bool {
         Operand::Input(Input::Sin(angle) | Input::Cos(angle)) => {
             angle.terms().any(|(i, _)| joint(i))
         }
-        Operand::Input(Input::Position(i) | Input::Velocity(i) | Input::Acceleration(i)) => {
-            joint(*i)
-        }
+        Operand::Input(
+            Input::Entry(Argument::Position, i)
+            | Input::Entry(Argument::Velocity, i)
+            | Input::Entry(Argument::Acceleration, i),
+        ) => joint(*i),
         _ => false,
     })
 }

@@ -1,7 +1,12 @@
 //! The generic runtime: the dynamics of any arm, without generated code.
 //!
 //! It evaluates the recursion of Table 2 in its most accurate form
-//! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface. Generated code is checked against it.
+//! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface.
+//! Generated code is checked against it. `derivatives` has its slopes,
+//! `forward` what motions torques bring about.
+
+mod derivatives;
+mod forward;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -16,11 +21,12 @@ use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor, from_torques};
 use crate::number::{Exact, Rounded};
+use crate::outputs::Argument;
 use crate::robot::{JointKind, Robot};
-use crate::scalar::Scalar;
+use crate::scalar::{Divide, Scalar};
 
 /// The floats that a [`Reference`] computes in: f64 and f32.
-pub trait Float: Scalar + Rounded + fmt::Debug + sealed::Sealed + 'static {
+pub trait Float: Divide + Rounded + fmt::Debug + sealed::Sealed + 'static {
     /// sin and cos, within an ulp at every size.
     fn sin_cos(self) -> (Self, Self);
 }
@@ -46,7 +52,7 @@ impl Float for f32 {
 /// A vector of joint values that is not as long as the arm has joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WrongLength {
-    /// Which argument: `"q"`, `"qd"` or `"qdd"`.
+    /// The argument's name, such as `"qd"`.
     pub argument: &'static str,
     /// The number of joints.
     pub expected: usize,
@@ -79,6 +85,27 @@ pub struct JointVectors<T> {
     pub qd: DVector<T>,
     /// Accelerations.
     pub qdd: DVector<T>,
+    /// Torques.
+    pub tau: DVector<T>,
+    /// Velocities wished for.
+    pub v: DVector<T>,
+    /// Accelerations wished for.
+    pub a: DVector<T>,
+}
+
+impl<T> JointVectors<T> {
+    /// From the entries of each argument; of those that nothing reads none.
+    pub fn new(entries: impl FnMut(Argument) -> DVector<T>) -> Self {
+        let [q, qd, qdd, tau, v, a] = Argument::ALL.map(entries);
+        JointVectors {
+            q,
+            qd,
+            qdd,
+            tau,
+            v,
+            a,
+        }
+    }
 }
 
 /// The dynamics of one arm in floating point.
@@ -329,7 +356,7 @@ impl<T: Float> Reference<T> {
     }
 }
 
-fn torques<T: Float>(arm: &Arm<T>, at: &[DhVariables<T>], qd: &[T], qdd: &[T]) -> Vec<T> {
+fn torques<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<S> {
     table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences, None)
 }
 

@@ -100,6 +100,10 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let inertia = textbook.inertia(arm, &at);
     let christoffel = textbook.christoffel(arm, &at);
     let gravity = textbook.gravity(arm, &at);
+    let by_position = textbook.torque_by_position(arm, &at, &qd, &qdd);
+    let (v, a) = (draw(), draw());
+    let passivity = textbook.passivity(arm, &at, &qd, [&v, &a]);
+    let by_velocity = textbook.torque_by_velocity(arm, &at, &qd);
 
     let skeleton = Skeleton::new(arm, &[]);
     let mut chain = Chain::new(&skeleton, &Gauge::base(&skeleton));
@@ -116,10 +120,14 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
             let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
             assert_eq!(found, torque, "{choice:?}");
         }
+        assert_eq!(posed.passivity(&at, &qd, &v, &a), passivity, "{choice:?}");
         let composite = Composite::new(&posed, &at);
         for travel in [Travel::Outward, Travel::Inward] {
             assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
             assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
+            let slopes = composite.slopes(&qd, &qdd, travel);
+            assert_eq!(slopes.position, by_position, "{choice:?}");
+            assert_eq!(slopes.velocity, by_velocity, "{choice:?}");
         }
         assert_eq!(composite.christoffel(), christoffel, "{choice:?}");
     }

@@ -4,7 +4,7 @@
 mod equations_support;
 
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
-use dalembert_model::outputs::{Function, Motion, Quantity, Written};
+use dalembert_model::outputs::{Argument, Function, Motion, Quantity, Written};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
@@ -12,7 +12,7 @@ use dalembert_model::scalar::field::{Field, Points};
 use equations_support::random::{Case, case, kinds};
 
 /// Every function with its arguments, and its results' axes for six joints.
-const GOLDEN: [&str; 16] = [
+const GOLDEN: [&str; 21] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -29,6 +29,11 @@ const GOLDEN: [&str; 16] = [
     "jacobian(q) -> jacobian[6][6]",
     "jacobian_rate(q, qd) -> jacobian_rate[6]",
     "reaction_wrenches(q, qd, qdd) -> wrenches[6][6]",
+    "inverse_dynamics_derivatives(q, qd, qdd) -> dtau_dq[6][6] dtau_dqd[6][6] d[6][6]",
+    "passivity(q, qd, v, a) -> tau[6]",
+    "forward_dynamics(q, qd, tau) -> qdd[6]",
+    "inertia_inverse(q) -> d_inv[6][6]",
+    "forward_dynamics_derivatives(q, qd, tau) -> dqdd_dq[6][6] dqdd_dqd[6][6] dqdd_dtau[6][6]",
 ];
 
 #[test]
@@ -74,11 +79,13 @@ fn cases() -> Vec<Case> {
 #[test]
 fn formulations_agree_on_every_quantity() {
     for case in cases() {
-        let motion = Motion {
-            q: Vec::new(),
-            qd: case.qd.clone(),
-            qdd: case.qdd.clone(),
-        };
+        let mut points = Points::new(7);
+        let mut motion = Motion::new(Vec::new(), |argument| match argument {
+            Argument::Velocity => case.qd.clone(),
+            Argument::Acceleration => case.qdd.clone(),
+            _ => case.qd.iter().map(|_| points.field()).collect(),
+        });
+        motion.moves = vec![true; case.qd.len()];
         for &quantity in Quantity::ALL {
             let by = |formulation| {
                 quantity.written(&Written {
@@ -180,6 +187,92 @@ fn energy_and_wrenches_belong_to_the_torques() {
             let along = (0..3).fold(Field::zero(), |sum, k| sum.add(&axis[k].mul(&load[k])));
             let drive = link.viscous.mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
             assert_eq!(along.add(&drive), tau[i]);
+        }
+    }
+}
+
+/// The case with torques, where only some joints move.
+fn driven(case: &Case, moves: &[bool], points: &mut Points) -> Motion<Field> {
+    let held = |values: &[Field]| -> Vec<Field> {
+        let values = values.iter().zip(moves);
+        let held = values.map(|(x, moves)| if *moves { *x } else { Field::zero() });
+        held.collect()
+    };
+    let mut motion = Motion::new(Vec::new(), |argument| match argument {
+        Argument::Velocity => held(&case.qd),
+        _ => case.qd.iter().map(|_| points.field()).collect(),
+    });
+    motion.moves = moves.to_vec();
+    motion
+}
+
+/// D q̈ + h + c + b∘q̇ = τ and D D⁻¹ = 1 over the joints that move, whichever
+/// do, of every formulation; what is held does not move, and a residual of
+/// anything else does not vanish.
+#[test]
+fn forward_dynamics_solves_the_equations_of_motion() {
+    let mut points = Points::new(0x6664);
+    for case in cases() {
+        let n = case.arm.links.len();
+        for bits in 1..1u32 << n.min(4) {
+            let moves: Vec<bool> = (0..n).map(|i| i >= 4 || bits >> i & 1 == 1).collect();
+            let motion = driven(&case, &moves, &mut points);
+            let inverting = Quantity::ALL.iter().filter(|q| q.inverts_inertia());
+            for &quantity in inverting {
+                let written = |formulation| Written {
+                    formulation,
+                    arm: &case.arm,
+                    at: &case.at,
+                    motion: &motion,
+                };
+                let expected = quantity.written(&written(Formulation::LagrangeEuler));
+                let recursion = written(Formulation::NewtonEulerLink);
+                assert_eq!(
+                    quantity.written(&recursion),
+                    expected,
+                    "{quantity:?} {moves:?}"
+                );
+                let residual = quantity.residual(&recursion, &expected);
+                assert!(residual.iter().all(|x| *x == Field::zero()));
+                let wrong: Vec<Field> = expected.iter().map(|x| x.double()).collect();
+                let residual = quantity.residual(&recursion, &wrong);
+                assert!(residual.is_empty() || residual.iter().any(|x| *x != Field::zero()));
+                for (index, value) in expected.iter().enumerate() {
+                    let row = index / (expected.len() / n);
+                    assert!(moves[row] || *value == Field::zero());
+                }
+            }
+        }
+    }
+}
+
+/// ∂q̈/∂q and ∂q̈/∂q̇ are the slopes of q̈ itself: its rate along the motion, with
+/// q̇ for the rate of q and q̈ for that of q̇.
+#[test]
+fn acceleration_slopes_are_its_rates() {
+    let mut points = Points::new(0x736c);
+    for case in cases() {
+        let n = case.arm.links.len();
+        let moves = vec![true; n];
+        let motion = driven(&case, &moves, &mut points);
+        let form = Formulation::LagrangeEuler;
+        let (arm_moving, at_moving) = moving(&case);
+        let qd: Vec<Dual<Field>> = (case.qd.iter().zip(&case.qdd))
+            .map(|(value, rate)| Dual {
+                value: *value,
+                rate: *rate,
+            })
+            .collect();
+        let tau: Vec<_> = motion.tau.iter().copied().map(Dual::constant).collect();
+        let whole = form.forward_dynamics(&arm_moving, &at_moving, &qd, &tau, &moves);
+        let [by_position, by_velocity] =
+            form.acceleration_slopes(&case.arm, &case.at, &case.qd, &motion.tau, &moves);
+        for i in 0..n {
+            let rate = (0..n).fold(Field::zero(), |rate, k| {
+                let position = by_position[i][k].mul(&case.qd[k]);
+                rate.add(&position.add(&by_velocity[i][k].mul(&case.qdd[k])))
+            });
+            assert_eq!(rate, whole[i].rate);
         }
     }
 }

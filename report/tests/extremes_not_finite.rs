@@ -26,9 +26,7 @@ fn reads(input: Input, place: Place) -> bool {
         Input::Sin(angle) | Input::Cos(angle) => {
             place.0 == 0 && angle.terms().any(|(joint, _)| joint == place.1)
         }
-        Input::Position(joint) => place == Place(0, joint),
-        Input::Velocity(joint) => place == Place(1, joint),
-        Input::Acceleration(joint) => place == Place(2, joint),
+        Input::Entry(argument, joint) => place == Place(argument.index(), joint),
     }
 }
 

@@ -39,6 +39,8 @@ fn given(name: &str) -> Vec<GivenState> {
                 q: numbers(&json["q"]),
                 qd: numbers(&json["qd"]),
                 qdd: numbers(&json["qdd"]),
+                tau: numbers(&json["torque"]),
+                ..JointState::default()
             },
             known: known.collect(),
         }
@@ -126,12 +128,13 @@ fn six_joints() {
 
 /// Modified DH.
 #[test]
-fn kinematics_and_energies_of_the_panda() {
+fn some_of_the_panda() {
     let functions = [
         Function::KineticEnergy,
         Function::PotentialEnergy,
         Function::ForwardKinematics,
         Function::Jacobian,
+        Function::Passivity,
     ];
     check("panda", &functions);
 }
@@ -181,12 +184,8 @@ fn runtime_gives_what_is_known() {
         let runtime = Reference::<f64>::from_robot(&support::robot(name));
         for GivenState { state, known } in given(name) {
             let vector = |values: &[f64]| DVector::from_row_slice(values);
-            let at = JointVectors {
-                q: vector(&state.q),
-                qd: vector(&state.qd),
-                qdd: vector(&state.qdd),
-            };
-            assert_eq!(known.len(), 6);
+            let at = JointVectors::new(|argument| vector(state.of(argument)));
+            assert_eq!(known.len(), 8);
             for (quantity, expected) in known {
                 let found = quantity.runtime(&runtime, &at).unwrap();
                 assert_eq!(found.len(), expected.len());

@@ -268,14 +268,18 @@ fn unknown_keys_are_errors_with_the_likely_word() {
     for (keys, meant) in [
         (
             r#""torque": [1, 2]"#,
-            "`torque` is no key of a state\n  = help: did you mean `tau`?",
+            "= help: torques that q, qd and qdd give are `tau`",
         ),
         (r#""Tau": [1, 2]"#, "did you mean `tau`?"),
         (r#""d": [1, 0, 0, 1]"#, "did you mean `D`?"),
         (r#""M": [1, 0, 0, 1]"#, "did you mean `D`?"),
         (r#""tua": [1, 2]"#, "did you mean `tau`?"),
         (r#""ddq": [1, 2]"#, "did you mean `qdd`?"),
-        (r#""forward_dynamics": [1, 2]"#, "help: a state has `q`"),
+        (r#""regressor": [1, 2]"#, "help: a state has `q`"),
+        (
+            r#""forward_dynamics": [1, 2]"#,
+            "`torque` is missing, which `forward_dynamics` depends on",
+        ),
         (r#""\u001b[31m": [1, 2]"#, "`\u{fffd}[31m` is no key"),
     ] {
         let FileError::Content(error) = read(file(keys).as_bytes(), 2).unwrap_err() else {

@@ -203,6 +203,7 @@ fn source(points: &[Point]) -> String {
                 Argument::Position => (1, 3.0),
                 Argument::Velocity => (2, 2.0),
                 Argument::Acceleration => (3, 10.0),
+                other => (other.index() + 1, other.reach()),
             };
             let cast = match scalar {
                 ScalarType::F64 => "",

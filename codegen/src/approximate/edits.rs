@@ -278,7 +278,7 @@ impl<'a> Run<'a> {
                     } else {
                         b.clone()
                     };
-                    let sum = step.operation != Operation::Mul;
+                    let sum = matches!(step.operation, Operation::Add | Operation::Sub);
                     let minus = step.operation == Operation::Sub;
                     let rest = if sum && edit.value == step.left && !edit.negative {
                         self.builder.negate_if(&right, true)
@@ -308,6 +308,15 @@ impl<'a> Run<'a> {
                 let right = self.builder.mul(b, da);
                 self.builder.add(&left, &right)
             }
+            // (a + Δa)/(b + Δb) − a/b = (Δa − (a/b) Δb)/(b + Δb)
+            Operation::Div => {
+                let before = self.builder.sub(a_after, da);
+                let quotient = self.builder.div(&before, b);
+                let part = self.builder.mul(&quotient, db);
+                let moved = self.builder.sub(da, &part);
+                let divisor = self.builder.add(b, db);
+                self.builder.div(&moved, &divisor)
+            }
         }
     }
 }
@@ -318,6 +327,7 @@ pub(crate) fn operate(builder: &mut Builder, operation: Operation, a: &Value, b:
         Operation::Add => builder.add(a, b),
         Operation::Sub => builder.sub(a, b),
         Operation::Mul => builder.mul(a, b),
+        Operation::Div => builder.div(a, b),
     }
 }
 

@@ -21,6 +21,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::backend::statement::{last_uses, statement};
+use crate::function::Argument;
 use crate::program::text::input_name;
 use crate::program::{Input, Operand, Program, ScalarType};
 
@@ -65,20 +66,19 @@ pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
 /// What a part reads from outside.
 #[derive(Default)]
 struct Reads {
-    /// Of q, qd, qdd.
-    arrays: [bool; 3],
+    /// Whether it reads each argument.
+    arrays: [bool; Argument::COUNT],
     /// Sines, cosines and earlier steps.
     values: Vec<String>,
 }
 
 impl Reads {
     fn of<'a>(operands: impl Iterator<Item = &'a Operand>, start: usize) -> Reads {
-        let (mut arrays, mut trig, mut steps) = ([false; 3], BTreeSet::new(), BTreeSet::new());
+        let (mut arrays, mut trig, mut steps) =
+            ([false; Argument::COUNT], BTreeSet::new(), BTreeSet::new());
         for operand in operands {
             match operand {
-                Operand::Input(Input::Position(_)) => arrays[0] = true,
-                Operand::Input(Input::Velocity(_)) => arrays[1] = true,
-                Operand::Input(Input::Acceleration(_)) => arrays[2] = true,
+                Operand::Input(Input::Entry(argument, _)) => arrays[argument.index()] = true,
                 Operand::Input(input) => {
                     trig.insert(*input);
                 }
@@ -97,8 +97,8 @@ impl Reads {
     }
 
     fn arrays(&self) -> impl Iterator<Item = &'static str> + '_ {
-        let names = ["q", "qd", "qdd"].into_iter().zip(self.arrays);
-        names.filter_map(|(name, read)| read.then_some(name))
+        let arguments = Argument::ALL.into_iter().zip(self.arrays);
+        arguments.filter_map(|(argument, read)| read.then_some(argument.name()))
     }
 
     fn parameters(&self, n: usize, scalar: ScalarType) -> String {

@@ -174,5 +174,6 @@ fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState
         q: hold(&state.q, &limits.position),
         qd: hold(&state.qd, &limits.velocity),
         qdd: hold(&state.qdd, &limits.acceleration),
+        ..JointState::default()
     }
 }

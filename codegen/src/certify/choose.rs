@@ -24,6 +24,7 @@ use super::work::Meter;
 use crate::approximate::edits::{Stage, has_edits};
 use crate::bound::Split;
 use crate::certify::sensitivity::Fineness;
+use crate::function::Argument;
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::scene::Setting;
 use crate::sincos::TooAccurate;
@@ -78,6 +79,8 @@ pub struct Claim {
 /// Why no variant meets a tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
+    /// Errors of such a function have no bound.
+    Function(Unbounded),
     /// A limit that a bound needs.
     Missing(MissingLimit),
     /// The actuators are no measure of its outputs.
@@ -104,9 +107,43 @@ pub enum Refusal {
     },
 }
 
+/// Why errors of a function have no bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unbounded {
+    /// It reads an argument that no box bounds.
+    Reads(Argument),
+    /// Its program divides.
+    Divides,
+}
+
+impl Unbounded {
+    fn find(program: &Program) -> Option<Unbounded> {
+        let mut arguments = program.arguments.iter();
+        let other = arguments.find(|argument| !Argument::STATE.contains(argument));
+        let divides = program.divides().then_some(Unbounded::Divides);
+        divides.or(other.map(|&argument| Unbounded::Reads(argument)))
+    }
+}
+
+impl fmt::Display for Unbounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unbounded::Divides => f.write_str("it divides by what depends on the state")?,
+            Unbounded::Reads(argument) => {
+                write!(f, "no box bounds its argument `{}`", argument.name())?;
+            }
+        }
+        f.write_str(
+            ", so its errors have no certified bound; what has one is what it is made of: give \
+             the tolerance to `inverse_dynamics`, or to `manipulator_equation` for D, h and c",
+        )
+    }
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Refusal::Function(why) => why.fmt(f),
             Refusal::Missing(missing) => missing.fmt(f),
             Refusal::Scale(why) => why.fmt(f),
             Refusal::Work { limit, scene } => write!(
@@ -175,6 +212,7 @@ impl<'a> Frame<'a> {
         exact: &'a Program,
         relative_to: Scale,
     ) -> Result<Frame<'a>, Refusal> {
+        Unbounded::find(exact).map_or(Ok(()), |why| Err(Refusal::Function(why)))?;
         let limits = InputBox::within(setting, exact.function).map_err(Refusal::Missing)?;
         let scales = match relative_to {
             Scale::Actuator => scale::actuator(setting.robot(), exact).map_err(Refusal::Scale)?,

@@ -150,6 +150,7 @@ fn scales(
         q: limits.position.iter().map(|q| q.mid()).collect(),
         qd: rest.clone(),
         qdd: rest,
+        ..JointState::default()
     };
     let values = program.lower(ScalarType::F64, |_| None).run_at(&middle);
     let scale = |i: usize| {

@@ -18,6 +18,7 @@
 use super::input_box::InputBox;
 use super::work;
 use crate::bound::interval::Interval;
+use crate::function::Argument;
 use crate::graph::{Graph, Node};
 use crate::program::Input;
 
@@ -100,6 +101,8 @@ pub(super) fn visit(
                 }
                 product(a, b)?
             }
+            // No polynomial.
+            Node::Quotient(..) => return None,
         };
         if is_output[index] {
             show(index, &value);
@@ -127,7 +130,7 @@ fn mixes(graph: &Graph, live: &[bool]) -> bool {
     let (mut slides, mut turns) = (0u64, 0u64);
     for (node, _) in graph.nodes.iter().zip(live).filter(|(_, live)| **live) {
         match node {
-            Node::Input(Input::Position(joint)) => slides |= 1 << joint,
+            Node::Input(Input::Entry(Argument::Position, joint)) => slides |= 1 << joint,
             Node::Input(Input::Sin(angle) | Input::Cos(angle)) => {
                 angle.terms().for_each(|(joint, _)| turns |= 1 << joint);
             }
@@ -158,9 +161,15 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
     let cosine = |joint: usize| 1u128 << shift(joint);
     let sine = |joint: usize| 16u128 << shift(joint);
     Some(match input {
-        Input::Velocity(joint) => vec![(joint as u128 + 1, Interval::ONE)],
-        Input::Acceleration(joint) => vec![((n + joint) as u128 + 1, Interval::ONE)],
-        Input::Position(joint) => {
+        Input::Entry(Argument::Velocity, joint) => vec![(joint as u128 + 1, Interval::ONE)],
+        Input::Entry(Argument::Acceleration, joint) => {
+            vec![((n + joint) as u128 + 1, Interval::ONE)]
+        }
+        Input::Entry(
+            Argument::Torque | Argument::ReferenceVelocity | Argument::ReferenceAcceleration,
+            _,
+        ) => return None,
+        Input::Entry(Argument::Position, joint) => {
             let q = limits.position[joint];
             let middle = (0, Interval::point(q.mid()));
             vec![middle, (cosine(joint), Interval::point(q.radius()))]
@@ -300,7 +309,7 @@ mod tests {
         let written = |slides: usize| {
             let mut builder = Builder::new(Folding::Syntactic);
             let sine = builder.input(Input::Sin(AngleSum::joint(0)));
-            let position = builder.input(Input::Position(slides));
+            let position = builder.input(Input::Entry(Argument::Position, slides));
             let output = builder.sub(&sine, &position);
             expand(&builder.finish(&[output]), &limits)
         };

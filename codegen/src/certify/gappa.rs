@@ -191,9 +191,7 @@ fn computed_input(input: Input) -> String {
     match input {
         Input::Sin(angle) => format!("s{angle}"),
         Input::Cos(angle) => format!("c{angle}"),
-        Input::Position(joint) => format!("q{joint}"),
-        Input::Velocity(joint) => format!("qd{joint}"),
-        Input::Acceleration(joint) => format!("qdd{joint}"),
+        Input::Entry(argument, joint) => format!("{}{joint}", argument.name()),
     }
 }
 

@@ -130,12 +130,13 @@ impl InputBox {
             && pairs(&self.acceleration, &other.acceleration)
     }
 
-    /// The ranges of an argument.
+    /// The ranges of an argument; none of one that a box does not bound.
     pub fn of_argument(&self, argument: Argument) -> &[Interval] {
         match argument {
             Argument::Position => &self.position,
             Argument::Velocity => &self.velocity,
             Argument::Acceleration => &self.acceleration,
+            _ => &[],
         }
     }
 
@@ -164,9 +165,10 @@ impl InputBox {
         match input {
             Input::Sin(angle) => self.angle(angle).sin(),
             Input::Cos(angle) => self.angle(angle).cos(),
-            Input::Position(joint) => self.position[joint],
-            Input::Velocity(joint) => self.velocity[joint],
-            Input::Acceleration(joint) => self.acceleration[joint],
+            Input::Entry(argument, joint) => {
+                let range = self.of_argument(argument).get(joint);
+                range.copied().unwrap_or(Interval::ALL)
+            }
         }
     }
 }

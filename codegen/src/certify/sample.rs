@@ -32,6 +32,7 @@ pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
             .iter()
             .map(|x| rate(x, random))
             .collect(),
+        ..JointState::default()
     }
 }
 

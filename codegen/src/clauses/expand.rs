@@ -195,6 +195,7 @@ fn functions(
                 | GenerateError::Scene(_) => None,
                 GenerateError::Constant { function, .. }
                 | GenerateError::Contradicted { function, .. }
+                | GenerateError::Singular { function, .. }
                 | GenerateError::TooLarge { function, .. }
                 | GenerateError::SinCos(function, _)
                 | GenerateError::Disproved(function, _)

@@ -7,7 +7,6 @@ use dalembert_model::outputs::Axis;
 
 use super::invocation::Invocation;
 use crate::emit::module;
-use crate::emit::state_box::StateBox;
 use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
@@ -53,7 +52,7 @@ fn bounded(invocation: &Invocation, functions: &[Function]) -> Vec<Argument> {
         (None, SinCos::Polynomial { .. }) => *argument == Argument::Position,
         (None, _) => false,
     };
-    let all = StateBox::ARGUMENTS.into_iter();
+    let all = Argument::STATE.into_iter();
     all.filter(taken).collect()
 }
 

@@ -15,7 +15,7 @@ pub mod module;
 mod scale;
 mod scene;
 mod sines;
-pub(crate) mod state_box;
+mod state_box;
 mod variant;
 
 pub use generated::GeneratedFunction;

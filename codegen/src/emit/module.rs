@@ -1,6 +1,6 @@
 //! The module of a robot: header, table, structs and functions.
 
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 
 use dalembert_model::robot::{Convention, JointKind, Robot};
 
@@ -203,22 +203,8 @@ fn header(
         lines.push(String::new());
         lines.extend(describe(scene, robot));
     }
-    lines.extend([
-        String::new(),
-        "| function | mul | add | sincos | from |".into(),
-        "|---|---|---|---|---|".into(),
-    ]);
-    for generated in functions {
-        let counts = generated.counts;
-        lines.push(format!(
-            "| `{}` | {} | {} | {} | {} |",
-            generated.function,
-            counts.mul,
-            counts.add,
-            counts.sincos,
-            generated.source.name()
-        ));
-    }
+    lines.push(String::new());
+    lines.extend(table(functions));
     lines.push(String::new());
     let proved = match functions.iter().any(|function| function.admitted.is_some()) {
         false => [
@@ -241,6 +227,31 @@ fn header(
     lines
 }
 
+/// The operation counts, divisions among them where there are any.
+fn table(functions: &[GeneratedFunction]) -> Vec<String> {
+    let divides = functions.iter().any(|generated| generated.counts.div > 0);
+    let line = |[function, mul, add, div, sincos, from]: [&dyn Display; 6]| match divides {
+        true => format!("| {function} | {mul} | {add} | {div} | {sincos} | {from} |"),
+        false => format!("| {function} | {mul} | {add} | {sincos} | {from} |"),
+    };
+    let mut lines = vec![
+        line([&"function", &"mul", &"add", &"div", &"sincos", &"from"]),
+        line([&"---"; 6]).replace(' ', ""),
+    ];
+    for generated in functions {
+        let counts = generated.counts;
+        lines.push(line([
+            &format!("`{}`", generated.function),
+            &counts.mul,
+            &counts.add,
+            &counts.div,
+            &counts.sincos,
+            &generated.source.name(),
+        ]));
+    }
+    lines
+}
+
 fn function_doc(
     generated: &GeneratedFunction,
     setting: &Setting,
@@ -258,6 +269,13 @@ fn function_doc(
             ),
         },
     ];
+    if generated.program.divides() {
+        lines.push(String::new());
+        lines.push(
+            "Divides by what D is eliminated to, which is positive wherever D is: it fails".into(),
+        );
+        lines.push("where a joint moves no inertia, with infinities and NaN.".into());
+    }
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
         lines.extend(variant::describe(admitted, setting, scalar));

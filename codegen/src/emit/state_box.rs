@@ -15,18 +15,11 @@ use crate::scene::Setting;
 use crate::sincos;
 
 /// The ranges of each argument's entries; none for those that nothing bounds.
-pub(crate) struct StateBox {
+pub(super) struct StateBox {
     columns: Vec<(Argument, Vec<Option<Interval>>)>,
 }
 
 impl StateBox {
-    /// The arguments that a box may bound, in order.
-    pub(crate) const ARGUMENTS: [Argument; 3] = [
-        Argument::Position,
-        Argument::Velocity,
-        Argument::Acceleration,
-    ];
-
     /// Where all of the functions hold; `None` if that is everywhere.
     pub(super) fn of(
         functions: &[GeneratedFunction],
@@ -34,7 +27,7 @@ impl StateBox {
         scalar: ScalarType,
     ) -> Option<StateBox> {
         let joints = setting.robot().joints.len();
-        let columns = StateBox::ARGUMENTS.into_iter().map(|argument| {
+        let columns = Argument::STATE.into_iter().map(|argument| {
             let mut column = vec![None; joints];
             for generated in functions {
                 bound(&mut column, argument, generated, setting, scalar);
@@ -70,7 +63,7 @@ impl StateBox {
              pub struct StateBox {\n",
         );
         for (argument, column) in &self.columns {
-            let (what, n) = (quantity(*argument), column.len());
+            let (what, n) = (argument.meaning(), column.len());
             let _ = writeln!(
                 text,
                 "    /// {what}\n    pub {}: [[{scalar}; 2]; {n}],",
@@ -146,14 +139,6 @@ fn narrower(known: Option<Interval>, range: Interval) -> Interval {
         Interval::new(known.low().max(range.low()), known.high().min(range.high()))
     });
     both.unwrap_or(range)
-}
-
-fn quantity(argument: Argument) -> &'static str {
-    match argument {
-        Argument::Position => "Positions, rad or m.",
-        Argument::Velocity => "Velocities, rad/s or m/s.",
-        Argument::Acceleration => "Accelerations, rad/s² or m/s².",
-    }
 }
 
 /// The outermost numbers of the scalar that are inside a range.

@@ -42,6 +42,7 @@ pub fn price(program: &Program) -> u64 {
     let model = CostModel::OPERATIONS;
     let steps = program.steps.iter().map(|step| match step.operation {
         Operation::Mul => model.mul,
+        Operation::Div => model.div,
         Operation::Add | Operation::Sub => model.add,
     });
     let angles = program.trig.iter().map(|trig| {

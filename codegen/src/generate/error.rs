@@ -50,6 +50,13 @@ pub enum GenerateError {
         /// How many numbers it returns.
         outputs: usize,
     },
+    /// D has no inverse in any state.
+    Singular {
+        /// Which function needs one.
+        function: Function,
+        /// The joint that moves no inertia, as messages name it.
+        joint: String,
+    },
     /// The program is not the formula: a defect of this library, a plan's
     /// program of something else, or parameters that cannot be proved with.
     Disproved(Function, Disproof),
@@ -117,6 +124,12 @@ impl fmt::Display for GenerateError {
                 f,
                 "`{function}` would return {outputs} numbers: ask for `inverse_dynamics`, \
                  `inertia`, `coriolis` or `gravity` instead"
+            ),
+            GenerateError::Singular { function, joint } => write!(
+                f,
+                "`{function}`: D is singular in every state, since {joint} moves no inertia while \
+                 the joints after it are free: give what it moves mass or inertia, or the joint \
+                 an `armature`, or lock it in a scene"
             ),
             GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
             GenerateError::Vanishing(function, value) => write!(

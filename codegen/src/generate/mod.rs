@@ -34,6 +34,7 @@ use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
 use crate::verify::exact::prove_in;
 use crate::verify::floating::Emitted;
+use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub use request::{Prefer, Request};
@@ -165,6 +166,12 @@ fn one(
     let outputs = function.outputs(setting.rows().len());
     if outputs > MOST_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
+    }
+    if function.inverts_inertia()
+        && let Some(joint) = without_inertia(setting)
+    {
+        let joint = setting.robot().joint_label(joint);
+        return Err(GenerateError::Singular { function, joint });
     }
     let entry = replay(setting, function, request)?;
     let (source, stages, program, refused) = match entry {

@@ -9,6 +9,7 @@ use dalembert_model::scalar::Scalar;
 use super::GenerateError;
 use crate::certify::input_box::InputBox;
 use crate::certify::ranges::{Finding, ranges};
+use crate::function::Argument;
 use crate::graph::Points;
 use crate::program::{Operand, Program, ScalarType};
 use crate::scene::Setting;
@@ -71,6 +72,11 @@ pub(super) fn warn_of_overflow(
     scalar: ScalarType,
     warnings: &mut Vec<String>,
 ) {
+    // No box says how close to zero a divisor comes, or what is wished for.
+    let is_bounded = |argument| Argument::STATE.contains(argument);
+    if program.divides() || !program.arguments.iter().all(is_bounded) {
+        return;
+    }
     let Ok(limits) = InputBox::of(robot) else {
         return;
     };

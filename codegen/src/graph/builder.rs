@@ -53,7 +53,7 @@ pub struct Builder {
     by_constant: HashMap<Exact, NodeId>,
     /// Canonical print → the edge that has it (semantic folding only).
     by_print: HashMap<Print, Edge>,
-    at_rest: HashMap<NodeId, Exact>,
+    at_rest: HashMap<NodeId, Option<Exact>>,
     /// Operations asked for, before any folding but that of constants.
     asked: Counts,
 }
@@ -154,6 +154,28 @@ impl Builder {
         self.scale(constant, other)
     }
 
+    /// a / b, where b vanishes in no state in which the program has values: a
+    /// divisor of a formula's own.
+    pub fn div(&mut self, a: &Value, b: &Value) -> Value {
+        if let Value::Constant(divisor) = b {
+            let divisor = divisor.as_rational();
+            if let Some(inverse) = divisor.and_then(|x| Exact::one().divide(x)) {
+                return self.mul(a, &Value::Constant(inverse));
+            }
+        }
+        if a.as_constant().is_some_and(Exact::is_zero) {
+            return Value::zero();
+        }
+        self.asked.div += 1;
+        let (a, b) = (self.edge(a), self.edge(b));
+        let negative = a.is_negative() != b.is_negative();
+        if a.node() == b.node() {
+            let one = Value::Constant(Exact::one());
+            return self.negate_if(&one, negative);
+        }
+        self.operation(Node::Quotient(a.node(), b.node()), negative)
+    }
+
     /// constant · edge
     fn scale(&mut self, constant: &Exact, edge: Edge) -> Value {
         if constant.is_zero() {
@@ -206,13 +228,14 @@ impl Builder {
         if let Some(id) = self.by_node.get(&node) {
             return Value::Edge(id.signed(negative));
         }
-        let (Node::Sum(a, b) | Node::Difference(a, b) | Node::Product(a, b)) = node else {
+        let Some([a, b]) = node.operands() else {
             return Value::zero(); // leaves are interned by `input` and `edge`
         };
         let (x, y) = (&self.prints[a.index()], &self.prints[b.index()]);
         let print = match node {
             Node::Sum(..) => x.add(y),
             Node::Difference(..) => x.sub(y),
+            Node::Quotient(..) => x.div(y),
             _ => x.mul(y),
         };
         if self.folding == Folding::Semantic {
@@ -258,16 +281,14 @@ impl Builder {
     fn constant_value(&mut self, node: Node, print: &Print) -> Option<Exact> {
         let [a, b] = node.operands()?;
         let (x, y) = (self.rest(a), self.rest(b));
-        let value = match node {
-            Node::Sum(..) => x.add(&y),
-            Node::Difference(..) => x.sub(&y),
-            _ => x.mul(&y),
-        };
+        let value = at_rest(node, &x?, &y?)?;
         // Confirmed: a chance hit of the print would differ here.
         (self.points.constant(&value).as_ref() == Some(print)).then_some(value)
     }
 
-    fn rest(&mut self, id: NodeId) -> Exact {
+    /// A node's value at rest; none where a divisor is no rational number
+    /// there, or zero.
+    fn rest(&mut self, id: NodeId) -> Option<Exact> {
         // Operands come first, so a pass in order needs no recursion.
         let mut pending = vec![id];
         while let Some(&top) = pending.last() {
@@ -276,18 +297,20 @@ impl Builder {
                 continue;
             }
             let value = match self.graph.node(top) {
-                Node::Constant(c) => self.graph.constants[c as usize].clone(),
-                Node::Input(Input::Cos(_)) => Exact::one(),
-                Node::Input(_) => Exact::zero(),
-                Node::Sum(a, b) | Node::Difference(a, b) | Node::Product(a, b) => {
+                Node::Constant(c) => Some(self.graph.constants[c as usize].clone()),
+                Node::Input(Input::Cos(_)) => Some(Exact::one()),
+                Node::Input(_) => Some(Exact::zero()),
+                node @ (Node::Sum(a, b)
+                | Node::Difference(a, b)
+                | Node::Product(a, b)
+                | Node::Quotient(a, b)) => {
                     let (Some(x), Some(y)) = (self.at_rest.get(&a), self.at_rest.get(&b)) else {
                         pending.extend([a, b]);
                         continue;
                     };
-                    match self.graph.node(top) {
-                        Node::Sum(..) => x.add(y),
-                        Node::Difference(..) => x.sub(y),
-                        _ => x.mul(y),
+                    match (x, y) {
+                        (Some(x), Some(y)) => at_rest(node, x, y),
+                        _ => None,
                     }
                 }
             };
@@ -339,4 +362,15 @@ impl Builder {
         self.by_print.entry(canonical).or_insert(id.signed(flipped));
         id.signed(negative)
     }
+}
+
+/// The exact value of an operation; none of a quotient by what is no rational
+/// number, or zero.
+fn at_rest(node: Node, x: &Exact, y: &Exact) -> Option<Exact> {
+    Some(match node {
+        Node::Sum(..) => x.add(y),
+        Node::Difference(..) => x.sub(y),
+        Node::Quotient(..) => return x.divide(y.as_rational()?),
+        _ => x.mul(y),
+    })
 }

@@ -14,6 +14,7 @@ impl Graph {
                 _ if !live => {}
                 Node::Sum(..) | Node::Difference(..) => counts.add += 1,
                 Node::Product(..) => counts.mul += 1,
+                Node::Quotient(..) => counts.div += 1,
                 Node::Input(_) | Node::Constant(_) => {}
             }
         }

@@ -61,7 +61,8 @@ impl Edge {
     }
 }
 
-/// One operation or leaf. Operands are ordered: the smaller node first.
+/// One operation or leaf. Operands are ordered, the smaller node first, but
+/// for those of a quotient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Node {
     /// An exact constant: an index into [`Graph::constants`]. Never negative
@@ -75,13 +76,18 @@ pub enum Node {
     Difference(NodeId, NodeId),
     /// a · b
     Product(NodeId, NodeId),
+    /// a / b
+    Quotient(NodeId, NodeId),
 }
 
 impl Node {
     /// The operands, if it is an operation.
     pub fn operands(&self) -> Option<[NodeId; 2]> {
         match *self {
-            Node::Sum(a, b) | Node::Difference(a, b) | Node::Product(a, b) => Some([a, b]),
+            Node::Sum(a, b)
+            | Node::Difference(a, b)
+            | Node::Product(a, b)
+            | Node::Quotient(a, b) => Some([a, b]),
             Node::Constant(_) | Node::Input(_) => None,
         }
     }
@@ -153,6 +159,7 @@ impl Graph {
                 Node::Sum(a, b) => builder.add(&values[a.index()], &values[b.index()]),
                 Node::Difference(a, b) => builder.sub(&values[a.index()], &values[b.index()]),
                 Node::Product(a, b) => builder.mul(&values[a.index()], &values[b.index()]),
+                Node::Quotient(a, b) => builder.div(&values[a.index()], &values[b.index()]),
             };
             values.push(value);
         }

@@ -10,8 +10,8 @@
 
 use dalembert_model::equations::Rotor;
 use dalembert_model::number::{Angle, Exact, Rational};
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
+use dalembert_model::scalar::{Divide, Scalar};
 
 use crate::program::input::Input;
 
@@ -41,6 +41,11 @@ impl Print {
     /// Of a product.
     pub fn mul(&self, other: &Print) -> Print {
         self.zip(other, Field::mul)
+    }
+    /// Of a quotient. A divisor that is zero at a point has a chance of 2⁻⁶¹
+    /// if it is not zero everywhere.
+    pub fn div(&self, other: &Print) -> Print {
+        self.zip(other, Field::div)
     }
     /// Of the negated node.
     pub fn neg(&self) -> Print {
@@ -88,9 +93,11 @@ impl Points {
         match input {
             Input::Sin(angle) => angle.pair(|joint| self.joint(joint, point)).sin,
             Input::Cos(angle) => angle.pair(|joint| self.joint(joint, point)).cos,
-            Input::Position(joint) => draw(2, joint),
-            Input::Velocity(joint) => draw(3, joint),
-            Input::Acceleration(joint) => draw(4, joint),
+            // From 2, around 5, which is that of constant angles.
+            Input::Entry(argument, joint) => match argument.index() as u64 {
+                index @ 0..=2 => draw(index + 2, joint),
+                index => draw(index + 3, joint),
+            },
         }
     }
 

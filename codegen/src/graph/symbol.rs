@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use dalembert_model::number::{Exact, Rational};
-use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::{Divide, Scalar};
 
 use super::{Builder, Value};
 use crate::program::Input;
@@ -62,6 +62,22 @@ impl Symbol {
 impl From<Exact> for Symbol {
     fn from(constant: Exact) -> Self {
         Symbol::Constant(constant)
+    }
+}
+
+impl Divide for Symbol {
+    /// Of constants: their quotient if the divisor is rational; by zero: zero,
+    /// which no formula asks for.
+    fn div(&self, other: &Self) -> Self {
+        let builder = match (self, other) {
+            (Symbol::Node(builder, _), _) | (_, Symbol::Node(builder, _)) => builder,
+            (Symbol::Constant(a), Symbol::Constant(b)) => {
+                let quotient = b.as_rational().and_then(|b| a.divide(b));
+                return Symbol::Constant(quotient.unwrap_or_else(Exact::zero));
+            }
+        };
+        let value = builder.borrow_mut().div(&self.value(), &other.value());
+        Symbol::wrap(builder, value)
     }
 }
 

@@ -6,7 +6,7 @@ use super::{Edited, Entry};
 use crate::approximate::edits::{Edit, Stage, has_edits};
 use crate::approximate::text::read_edit;
 use crate::bound::Split;
-use crate::program::text::{read_results, read_step};
+use crate::program::text::{read_results, read_step, without_quotient};
 use crate::program::{Program, has_inertia};
 
 /// A variant that is being read.
@@ -63,7 +63,7 @@ impl Variant {
                 self.is_open = false;
             }
             (_, true) => {
-                let step = read_step(words, &self.program)?;
+                let step = without_quotient(read_step(words, &self.program)?)?;
                 self.program.steps.push(step);
             }
             ("eigenvalue", false) if self.edits.is_empty() && self.bounds.is_empty() => {

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::function::Argument;
 use crate::program::machine::Machine;
 use crate::program::{Input, Literal, Lowered, Operand, Operation, Output};
 use crate::states::JointState;
@@ -12,12 +13,8 @@ use crate::states::JointState;
 /// States, coordinate by coordinate: a column a joint.
 #[derive(Clone, Debug, Default)]
 pub struct Columns<T> {
-    /// q
-    pub q: Vec<Vec<T>>,
-    /// q̇
-    pub qd: Vec<Vec<T>>,
-    /// q̈
-    pub qdd: Vec<Vec<T>>,
+    /// Of each argument, in the order of [`Argument::ALL`].
+    pub arguments: [Vec<Vec<T>>; Argument::COUNT],
     /// How many states.
     pub len: usize,
 }
@@ -25,21 +22,14 @@ pub struct Columns<T> {
 impl<T: Machine> Columns<T> {
     /// From states, each number rounded to the machine's.
     pub fn of(states: &[JointState]) -> Columns<T> {
-        fn columns<T: Machine>(
-            states: &[JointState],
-            part: fn(&JointState) -> &[f64],
-        ) -> Vec<Vec<T>> {
-            let joints = states.first().map_or(0, |state| part(state).len());
-            let column = |joint: usize| {
-                let values = states.iter().map(|state| T::literal(part(state)[joint]));
-                values.collect()
-            };
+        let columns = |argument: Argument| {
+            let part = |state: &'_ JointState, joint: usize| T::literal(state.of(argument)[joint]);
+            let joints = states.first().map_or(0, |state| state.of(argument).len());
+            let column = |joint: usize| states.iter().map(|state| part(state, joint)).collect();
             (0..joints).map(column).collect()
-        }
+        };
         Columns {
-            q: columns(states, |state| &state.q),
-            qd: columns(states, |state| &state.qd),
-            qdd: columns(states, |state| &state.qdd),
+            arguments: Argument::ALL.map(columns),
             len: states.len(),
         }
     }
@@ -64,6 +54,7 @@ impl Lowered {
                 Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
                 Operation::Sub => zip(out, left, right, |x, y| x.sub(&y)),
                 Operation::Mul => zip(out, left, right, |x, y| x.mul(&y)),
+                Operation::Div => zip(out, left, right, |x, y| x.div(&y)),
             }
         }
         let output = |output: &Output<Literal>| {
@@ -79,11 +70,12 @@ impl Lowered {
 
     fn trig_columns<T: Machine>(&self, states: &Columns<T>) -> BTreeMap<Input, Vec<T>> {
         let mut columns = BTreeMap::new();
-        let mut q = vec![T::literal(0.0); states.q.len()];
+        let positions = &states.arguments[Argument::Position.index()];
+        let mut q = vec![T::literal(0.0); positions.len()];
         for trig in &self.trig {
             let (mut sines, mut cosines) = (Vec::new(), Vec::new());
             for state in 0..states.len {
-                for (q, column) in q.iter_mut().zip(&states.q) {
+                for (q, column) in q.iter_mut().zip(positions) {
                     *q = column[state];
                 }
                 let (sin, cos) = trig.pair(&q);
@@ -100,9 +92,7 @@ impl Lowered {
 /// An input's column.
 fn at<'c, T>(states: &'c Columns<T>, trig: &'c BTreeMap<Input, Vec<T>>, input: Input) -> &'c [T] {
     match input {
-        Input::Position(joint) => &states.q[joint],
-        Input::Velocity(joint) => &states.qd[joint],
-        Input::Acceleration(joint) => &states.qdd[joint],
+        Input::Entry(argument, joint) => &states.arguments[argument.index()][joint],
         other => &trig[&other],
     }
 }
@@ -177,11 +167,7 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
         let text = Lowered::parse(TEXT, Function::InverseDynamics, ScalarType::F64).unwrap();
         let columns = text.run_columns(&Columns::<f64>::of(&states));
         for (k, state) in states.iter().enumerate() {
-            let one = text.run(State {
-                q: &state.q[..],
-                qd: &state.qd[..],
-                qdd: &state.qdd[..],
-            });
+            let one = text.run(State::of(|argument| state.of(argument)));
             for (i, x) in one.iter().enumerate() {
                 assert_eq!(x.to_bits(), columns[i][k].to_bits());
             }

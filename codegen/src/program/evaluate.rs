@@ -1,13 +1,13 @@
 //! The one way to run straight-line code in a scalar.
 
 use dalembert_model::number::Exact;
-use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::Divide;
 
 use super::{Input, Operand, Operation, Output, Program, Step};
 
 /// The outputs of steps in a scalar, from the values of inputs and constants;
 /// `None` if one of these has none, or a step reads what is not computed yet.
-pub fn evaluate<'c, C, I, S: Scalar>(
+pub fn evaluate<'c, C, I, S: Divide>(
     steps: &'c [Step<C, I>],
     outputs: impl IntoIterator<Item = &'c Output<C, I>>,
     mut input: impl FnMut(&'c I) -> Option<S>,
@@ -32,18 +32,19 @@ pub fn evaluate<'c, C, I, S: Scalar>(
 
 impl Operation {
     /// The operation in a scalar.
-    pub fn apply<S: Scalar>(self, left: &S, right: &S) -> S {
+    pub fn apply<S: Divide>(self, left: &S, right: &S) -> S {
         match self {
             Operation::Add => left.add(right),
             Operation::Sub => left.sub(right),
             Operation::Mul => left.mul(right),
+            Operation::Div => left.div(right),
         }
     }
 }
 
 impl Program {
     /// The outputs in a scalar; as [`evaluate`].
-    pub fn evaluate<S: Scalar>(
+    pub fn evaluate<S: Divide>(
         &self,
         input: impl FnMut(&Input) -> Option<S>,
         constant: impl FnMut(&Exact) -> Option<S>,

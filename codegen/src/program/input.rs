@@ -117,21 +117,16 @@ pub enum Input {
     Sin(AngleSum),
     /// The cosine of an angle.
     Cos(AngleSum),
-    /// The position of a prismatic joint.
-    Position(usize),
-    /// The velocity of a joint.
-    Velocity(usize),
-    /// The acceleration of a joint.
-    Acceleration(usize),
+    /// A joint's entry of an argument; of q that of a prismatic joint.
+    Entry(Argument, usize),
 }
 
 impl Input {
     /// The argument that it is made from.
     pub fn argument(self) -> Argument {
         match self {
-            Input::Sin(_) | Input::Cos(_) | Input::Position(_) => Argument::Position,
-            Input::Velocity(_) => Argument::Velocity,
-            Input::Acceleration(_) => Argument::Acceleration,
+            Input::Sin(_) | Input::Cos(_) => Argument::Position,
+            Input::Entry(argument, _) => argument,
         }
     }
 

@@ -105,16 +105,18 @@ impl Lowered {
 
     /// What it costs, with the polynomials of its sines.
     pub fn counts(&self) -> Counts {
-        let is_mul = |step: &&Step<Literal>| step.operation == Operation::Mul;
-        let mul = self.steps.iter().filter(is_mul).count();
+        let [mul, div] = [Operation::Mul, Operation::Div].map(|operation| {
+            let steps = self.steps.iter();
+            steps.filter(|step| step.operation == operation).count()
+        });
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
         let kernels = self.trig.iter().filter_map(|t| t.kernel.as_ref());
         let trig = kernels.map(Kernel::counts);
         let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
         Counts {
             mul,
-            add: self.steps.len() - mul + angles,
-            div: 0,
+            add: self.steps.len() - mul - div + angles,
+            div,
             sincos: self.trig.len(),
             trig_mul,
             trig_add,
@@ -125,6 +127,7 @@ impl Lowered {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::function::Argument;
     use crate::program::{Input, evaluate};
 
     fn code() -> Lowered {
@@ -138,10 +141,13 @@ mod tests {
             trig: Vec::new(),
             steps: vec![
                 step(
-                    Operand::Input(Input::Velocity(0)),
+                    Operand::Input(Input::Entry(Argument::Velocity, 0)),
                     Operand::Constant(Literal(0.0)),
                 ),
-                step(Operand::Step(0), Operand::Input(Input::Acceleration(1))),
+                step(
+                    Operand::Step(0),
+                    Operand::Input(Input::Entry(Argument::Acceleration, 1)),
+                ),
             ],
             outputs: vec![Output {
                 negative: true,
@@ -180,8 +186,8 @@ mod tests {
     #[test]
     fn what_cannot_be_read_has_no_value() {
         let input = |input: &Input| match input {
-            Input::Velocity(0) => Some(3.0),
-            Input::Acceleration(1) => Some(5.0),
+            Input::Entry(Argument::Velocity, 0) => Some(3.0),
+            Input::Entry(Argument::Acceleration, 1) => Some(5.0),
             _ => None,
         };
         let constant = |literal: &Literal| Some(literal.0);
@@ -189,7 +195,10 @@ mod tests {
         assert_eq!(run(&code()), Some(vec![2.0]));
         for (left, right) in [
             (Operand::Step(1), Operand::Step(0)),
-            (Operand::Input(Input::Velocity(7)), Operand::Step(0)),
+            (
+                Operand::Input(Input::Entry(Argument::Velocity, 7)),
+                Operand::Step(0),
+            ),
             (Operand::Step(usize::MAX), Operand::Step(0)),
         ] {
             let mut other = code();

@@ -1,9 +1,9 @@
 //! The floats that emitted code runs in.
 
-use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::Divide;
 
 /// A float that emitted code runs in.
-pub trait Machine: Scalar + Copy {
+pub trait Machine: Divide + Copy {
     /// The literal's value: exact, since it was parsed in this type.
     fn literal(value: f64) -> Self;
     /// Exact.

@@ -85,6 +85,8 @@ pub enum Operation {
     Sub,
     /// left · right
     Mul,
+    /// left / right
+    Div,
 }
 
 /// What a step reads.
@@ -109,7 +111,12 @@ pub struct Output<C = Exact, I = Input> {
 
 impl Operation {
     /// Every operation.
-    pub const ALL: [Operation; 3] = [Operation::Add, Operation::Sub, Operation::Mul];
+    pub const ALL: [Operation; 4] = [
+        Operation::Add,
+        Operation::Sub,
+        Operation::Mul,
+        Operation::Div,
+    ];
 
     /// The operation of a symbol.
     pub fn from_symbol(symbol: &str) -> Option<Operation> {
@@ -123,6 +130,7 @@ impl Operation {
             Operation::Add => '+',
             Operation::Sub => '-',
             Operation::Mul => '*',
+            Operation::Div => '/',
         }
     }
 }
@@ -152,19 +160,26 @@ impl Program {
 
     /// What it costs.
     pub fn counts(&self) -> Counts {
-        let mul = self
-            .steps
-            .iter()
-            .filter(|step| step.operation == Operation::Mul)
-            .count();
+        let [mul, div] = [Operation::Mul, Operation::Div].map(|operation| {
+            let steps = self.steps.iter();
+            steps.filter(|step| step.operation == operation).count()
+        });
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
         Counts {
             mul,
-            add: self.steps.len() - mul + angles,
-            div: 0,
+            add: self.steps.len() - mul - div + angles,
+            div,
             sincos: self.trig.len(),
             ..Counts::default()
         }
+    }
+}
+
+impl Program {
+    /// Whether it divides.
+    pub fn divides(&self) -> bool {
+        let mut steps = self.steps.iter();
+        steps.any(|step| step.operation == Operation::Div)
     }
 }
 

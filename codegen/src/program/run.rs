@@ -4,18 +4,28 @@
 
 use super::machine::Machine;
 use super::{AngleSum, Input, Literal, Lowered, LoweredTrig, ScalarType, evaluate};
+use crate::function::Argument;
 use crate::states::JointState;
 
-/// The arguments of a run: one value a joint; rates may be empty where the
-/// function does not read them.
+/// The arguments of a run: one value a joint; those that the function does not
+/// read may be empty.
 #[derive(Clone, Copy, Debug)]
 pub struct State<'a, T> {
-    /// q
-    pub q: &'a [T],
-    /// q̇
-    pub qd: &'a [T],
-    /// q̈
-    pub qdd: &'a [T],
+    arguments: [&'a [T]; Argument::COUNT],
+}
+
+impl<'a, T> State<'a, T> {
+    /// From the entries of each argument.
+    pub fn of(entries: impl FnMut(Argument) -> &'a [T]) -> State<'a, T> {
+        State {
+            arguments: Argument::ALL.map(entries),
+        }
+    }
+
+    /// The entries of an argument.
+    pub fn argument(&self, argument: Argument) -> &'a [T] {
+        self.arguments[argument.index()]
+    }
 }
 
 impl Lowered {
@@ -24,14 +34,12 @@ impl Lowered {
     pub fn run<T: Machine>(&self, state: State<'_, T>) -> Vec<T> {
         let mut trig = std::collections::BTreeMap::new();
         for t in &self.trig {
-            let (sin, cos) = t.pair(state.q);
+            let (sin, cos) = t.pair(state.argument(Argument::Position));
             trig.insert(Input::Sin(t.angle), sin);
             trig.insert(Input::Cos(t.angle), cos);
         }
         let input = |input: &Input| match *input {
-            Input::Position(joint) => state.q.get(joint).copied(),
-            Input::Velocity(joint) => state.qd.get(joint).copied(),
-            Input::Acceleration(joint) => state.qdd.get(joint).copied(),
+            Input::Entry(argument, joint) => state.argument(argument).get(joint).copied(),
             Input::Sin(_) | Input::Cos(_) => trig.get(input).copied(),
         };
         let constant = |value: &Literal| Some(T::literal(value.0));
@@ -48,13 +56,12 @@ impl Lowered {
     }
 
     fn run_rounded<T: Machine>(&self, state: &JointState) -> Vec<f64> {
-        let rounded = |x: &[f64]| x.iter().map(|&x| T::literal(x)).collect::<Vec<T>>();
-        let (q, qd, qdd) = (rounded(&state.q), rounded(&state.qd), rounded(&state.qdd));
-        let results = self.run(State {
-            q: &q,
-            qd: &qd,
-            qdd: &qdd,
-        });
+        let rounded = |argument: Argument| -> Vec<T> {
+            let entries = state.of(argument).iter();
+            entries.map(|&x| T::literal(x)).collect()
+        };
+        let arguments = Argument::ALL.map(rounded);
+        let results = self.run(State::of(|argument| &arguments[argument.index()]));
         results.into_iter().map(T::to_f64).collect()
     }
 }

@@ -7,15 +7,14 @@ use std::fmt::Write;
 use dalembert_model::number::Exact;
 
 use super::{AngleSum, Input, Operand, Operation, Output, Program, Step};
+use crate::function::Argument;
 
 /// How emitted code names an input.
 pub fn input_name(input: Input) -> String {
     match input {
         Input::Sin(angle) => format!("s{angle}"),
         Input::Cos(angle) => format!("c{angle}"),
-        Input::Position(joint) => format!("q[{joint}]"),
-        Input::Velocity(joint) => format!("qd[{joint}]"),
-        Input::Acceleration(joint) => format!("qdd[{joint}]"),
+        Input::Entry(argument, joint) => format!("{}[{joint}]", argument.name()),
     }
 }
 
@@ -75,6 +74,17 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, Strin
     })
 }
 
+/// A step of a program whose errors are bounded.
+///
+/// # Errors
+/// Nothing is certified of a program that divides.
+pub(crate) fn without_quotient(step: Step) -> Result<Step, String> {
+    match step.operation {
+        Operation::Div => Err("a quotient, of which no bound is known".into()),
+        _ => Ok(step),
+    }
+}
+
 /// An operand of a program's next step.
 pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, String> {
     if let Some(constant) = word.strip_prefix('#') {
@@ -96,16 +106,13 @@ pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, Str
 }
 
 fn input(word: &str) -> Option<Input> {
-    for (array, input) in [
-        ("qdd", Input::Acceleration as fn(usize) -> Input),
-        ("qd", Input::Velocity),
-        ("q", Input::Position),
-    ] {
+    for argument in Argument::ALL {
         let index = word
-            .strip_prefix(array)
+            .strip_prefix(argument.name())
             .and_then(|rest| rest.strip_prefix('['));
         if let Some(index) = index {
-            return Some(input(index.strip_suffix(']')?.parse().ok()?));
+            let joint = index.strip_suffix(']')?.parse().ok()?;
+            return Some(Input::Entry(argument, joint));
         }
     }
     let angle = |digits: &str| digits.parse::<AngleSum>().ok();
@@ -119,8 +126,6 @@ fn input(word: &str) -> Option<Input> {
 fn input_fits(input: Input, joints: usize) -> bool {
     match input {
         Input::Sin(angle) | Input::Cos(angle) => angle.terms().all(|(joint, _)| joint < joints),
-        Input::Position(joint) | Input::Velocity(joint) | Input::Acceleration(joint) => {
-            joint < joints
-        }
+        Input::Entry(_, joint) => joint < joints,
     }
 }

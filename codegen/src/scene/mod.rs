@@ -172,15 +172,17 @@ impl Setting {
 
     /// The arguments that a function keeps: rates that are zero need none.
     pub fn arguments(&self, function: Function) -> Vec<Argument> {
-        let zero = |argument: Argument| {
-            self.scene.as_ref().is_some_and(|scene| match argument {
-                Argument::Position => false,
-                Argument::Velocity => scene.velocity_zero,
-                Argument::Acceleration => scene.acceleration_zero,
-            })
-        };
         let all = function.arguments().into_iter();
-        all.filter(|&argument| !zero(argument)).collect()
+        all.filter(|&argument| !self.has_zero(argument)).collect()
+    }
+
+    /// Whether the scene says that an argument is zero.
+    fn has_zero(&self, argument: Argument) -> bool {
+        self.scene.as_ref().is_some_and(|scene| match argument {
+            Argument::Velocity => scene.velocity_zero,
+            Argument::Acceleration => scene.acceleration_zero,
+            _ => false,
+        })
     }
 
     /// The motion of all joints from the values of a program's inputs, with
@@ -197,14 +199,20 @@ impl Setting {
                 JointPosition::Revolute(pair) => JointPosition::Revolute(pair.map(&mut constant)),
                 JointPosition::Prismatic(q) => JointPosition::Prismatic(constant(q)),
             };
+            motion.moves[joint] = false;
             // Zero by structure: what it multiplies is gone.
-            (motion.qd[joint], motion.qdd[joint]) = (S::zero(), S::zero());
+            for argument in Argument::ALL {
+                if let Some(entries) = motion.of_mut(argument) {
+                    entries[joint] = S::zero();
+                }
+            }
         }
-        if self.scene.as_ref().is_some_and(|s| s.velocity_zero) {
-            motion.qd.fill(S::zero());
-        }
-        if self.scene.as_ref().is_some_and(|s| s.acceleration_zero) {
-            motion.qdd.fill(S::zero());
+        for argument in Argument::ALL {
+            if self.has_zero(argument)
+                && let Some(entries) = motion.of_mut(argument)
+            {
+                entries.fill(S::zero());
+            }
         }
         motion
     }

@@ -4,6 +4,7 @@ use dalembert_model::equations::{JointPosition, Rotor};
 use dalembert_model::outputs::Motion;
 use dalembert_model::robot::{JointKind, Robot};
 
+use crate::function::Argument;
 use crate::program::{AngleSum, Input};
 
 /// The motion of a robot from the values of a program's inputs.
@@ -16,12 +17,12 @@ pub fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> 
                 sin: input(Input::Sin(angle)),
                 cos: input(Input::Cos(angle)),
             }),
-            JointKind::Prismatic => JointPosition::Prismatic(input(Input::Position(i))),
+            JointKind::Prismatic => {
+                JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
+            }
         }
     });
-    Motion {
-        q: q.collect(),
-        qd: (0..n).map(|i| input(Input::Velocity(i))).collect(),
-        qdd: (0..n).map(|i| input(Input::Acceleration(i))).collect(),
-    }
+    let q = q.collect();
+    let entries = |argument| (0..n).map(|i| input(Input::Entry(argument, i))).collect();
+    Motion::new(q, entries)
 }

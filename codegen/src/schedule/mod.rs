@@ -48,6 +48,7 @@ impl Program {
                 Node::Sum(a, b) => steps.push(step(graph, &place, Operation::Add, a, b)),
                 Node::Difference(a, b) => steps.push(step(graph, &place, Operation::Sub, a, b)),
                 Node::Product(a, b) => steps.push(step(graph, &place, Operation::Mul, a, b)),
+                Node::Quotient(a, b) => steps.push(step(graph, &place, Operation::Div, a, b)),
             }
             if graph.node(id).operands().is_some() {
                 place[id.index()] = Some(steps.len() - 1);
@@ -89,8 +90,9 @@ fn step(
     b: NodeId,
 ) -> Step {
     let (left, right) = (operand(graph, place, a), operand(graph, place, b));
-    // A constant reads best on the right; a − b keeps its order.
-    let swap = operation != Operation::Sub && matches!(left, Operand::Constant(_));
+    // A constant reads best on the right; a − b and a / b keep their order.
+    let commutes = matches!(operation, Operation::Add | Operation::Mul);
+    let swap = commutes && matches!(left, Operand::Constant(_));
     let (left, right) = if swap { (right, left) } else { (left, right) };
     Step {
         operation,
@@ -157,6 +159,7 @@ fn evaluation_order(graph: &Graph) -> Vec<NodeId> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::function::Argument;
     use crate::graph::builder::Value;
     use crate::graph::{Builder, Folding};
     use crate::program::Input;
@@ -171,7 +174,7 @@ mod tests {
     }
 
     fn q(builder: &mut Builder, joint: usize) -> Value {
-        builder.input(Input::Position(joint))
+        builder.input(Input::Entry(Argument::Position, joint))
     }
 
     /// The longer operand is computed first, whichever side it stands on, so that
@@ -221,7 +224,10 @@ mod tests {
         let order = (&last.left, &last.right);
         assert_eq!(
             order,
-            (&Operand::Input(Input::Position(2)), &Operand::Step(0))
+            (
+                &Operand::Input(Input::Entry(Argument::Position, 2)),
+                &Operand::Step(0)
+            )
         );
     }
 

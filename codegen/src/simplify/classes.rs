@@ -27,13 +27,18 @@ pub enum Way {
     Difference(ClassId, ClassId),
     /// a · b
     Product(ClassId, ClassId),
+    /// a / b; these come from formulas alone, so every divisor is one of
+    /// theirs.
+    Quotient(ClassId, ClassId),
 }
 
 impl Way {
     /// The operands.
     pub fn operands(self) -> [ClassId; 2] {
         match self {
-            Way::Sum(a, b) | Way::Difference(a, b) | Way::Product(a, b) => [a, b],
+            Way::Sum(a, b) | Way::Difference(a, b) | Way::Product(a, b) | Way::Quotient(a, b) => {
+                [a, b]
+            }
         }
     }
 
@@ -181,6 +186,7 @@ impl Classes {
             Way::Sum(..) => a.add(b),
             Way::Difference(..) => a.sub(b),
             Way::Product(..) => a.mul(b),
+            Way::Quotient(..) => return a.divide(b.as_rational()?),
         })
     }
 
@@ -191,6 +197,7 @@ impl Classes {
             Way::Sum(..) => a.add(&b),
             Way::Difference(..) => a.sub(&b),
             Way::Product(..) => a.mul(&b),
+            Way::Quotient(..) => a.div(&b),
         }
     }
 
@@ -210,6 +217,7 @@ impl Classes {
                 Node::Sum(a, b) => of(a).add(of(b)),
                 Node::Difference(a, b) => of(a).sub(of(b)),
                 Node::Product(a, b) => of(a).mul(of(b)),
+                Node::Quotient(a, b) => of(a).div(of(b)),
             };
             prints.push(print);
             values.push(self.value_of(graph, node, &print, &values));
@@ -240,11 +248,15 @@ impl Classes {
                 self.set_leaf(value.class, Leaf::Constant(leaf));
             }
             Node::Input(input) => self.set_leaf(value.class, Leaf::Input(input)),
-            Node::Sum(a, b) | Node::Difference(a, b) | Node::Product(a, b) => {
+            Node::Sum(a, b)
+            | Node::Difference(a, b)
+            | Node::Product(a, b)
+            | Node::Quotient(a, b) => {
                 if let (Some(x), Some(y)) = (values[a.index()], values[b.index()]) {
                     let same = x.negative == y.negative;
                     let way = match node {
                         Node::Product(..) => Way::Product(x.class, y.class),
+                        Node::Quotient(..) => Way::Quotient(x.class, y.class),
                         Node::Sum(..) if same => Way::Sum(x.class, y.class),
                         Node::Difference(..) if !same => Way::Sum(x.class, y.class),
                         _ => Way::Difference(x.class, y.class),
@@ -287,6 +299,7 @@ impl Classes {
                             Way::Sum(..) => builder.add(x, y),
                             Way::Difference(..) => builder.sub(x, y),
                             Way::Product(..) => builder.mul(x, y),
+                            Way::Quotient(..) => builder.div(x, y),
                         }
                     }
                     (None, None) => Value::zero(),

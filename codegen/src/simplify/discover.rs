@@ -15,6 +15,7 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
 use super::classes::{ClassId, Classes, Leaf, Way};
+use crate::function::Argument;
 use crate::graph::Print;
 use crate::program::Input;
 
@@ -265,14 +266,8 @@ impl<'a> Values<'a> {
                         };
                         let print = self.classes.way_print(way);
                         match (x, y) {
-                            (Some(x), Some(y)) => {
-                                let value = match way {
-                                    Way::Sum(..) => x + y,
-                                    Way::Difference(..) => x - y,
-                                    Way::Product(..) => x * y,
-                                };
-                                Some(if print == class.print { value } else { -value })
-                            }
+                            (Some(x), Some(y)) => operate(way, x, y)
+                                .map(|value| if print == class.print { value } else { -value }),
                             _ => None,
                         }
                     }
@@ -283,6 +278,17 @@ impl<'a> Values<'a> {
         }
         self.known.get(&id).cloned().flatten()
     }
+}
+
+/// The value of a way; none of a quotient by zero.
+fn operate(way: Way, x: &Rational, y: &Rational) -> Option<Rational> {
+    Some(match way {
+        Way::Sum(..) => x + y,
+        Way::Difference(..) => x - y,
+        Way::Product(..) => x * y,
+        Way::Quotient(..) if num_traits::Zero::is_zero(y) => return None,
+        Way::Quotient(..) => x / y,
+    })
 }
 
 /// A fixed rational state in general position. Sums of angles are composed
@@ -307,8 +313,10 @@ fn sample(input: Input) -> Rational {
     match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
-        Input::Position(joint) => ratio(joint as i64 + 2, 7),
-        Input::Velocity(joint) => ratio(joint as i64 + 3, 11),
-        Input::Acceleration(joint) => ratio(joint as i64 + 4, 13),
+        Input::Entry(argument, joint) => {
+            const DENOMINATORS: [i64; Argument::COUNT] = [7, 11, 13, 17, 19, 23];
+            let place = argument.index();
+            ratio((joint + place) as i64 + 2, DENOMINATORS[place])
+        }
     }
 }

@@ -54,6 +54,7 @@ define_language! {
         "+" = Add([Id; 2]),
         "-" = Sub([Id; 2]),
         "*" = Mul([Id; 2]),
+        "/" = Div([Id; 2]),
         "neg" = Neg([Id; 1]),
         Leaf(LeafRef),
     }
@@ -74,6 +75,7 @@ impl Analysis<Term> for Prints {
             Term::Add([a, b]) => of(a).add(of(b)),
             Term::Sub([a, b]) => of(a).sub(of(b)),
             Term::Mul([a, b]) => of(a).mul(of(b)),
+            Term::Div([a, b]) => of(a).div(of(b)),
             Term::Neg([a]) => of(a).neg(),
             Term::Leaf(LeafRef(class)) => {
                 let known = egraph.analysis.leaves.get(&class);
@@ -173,6 +175,7 @@ fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option
                         Way::Sum(..) => Term::Add([x, y]),
                         Way::Difference(..) => Term::Sub([x, y]),
                         Way::Product(..) => Term::Mul([x, y]),
+                        Way::Quotient(..) => Term::Div([x, y]),
                     }
                 }
                 _ => Term::Leaf(LeafRef(class)),
@@ -237,6 +240,7 @@ fn harvest(egraph: &EGraph<Term, Prints>, classes: &mut Classes) {
             let same = x.negative == y.negative;
             let way = match term {
                 Term::Mul(_) => Way::Product(x.class, y.class),
+                Term::Div(_) => Way::Quotient(x.class, y.class),
                 Term::Add(_) if same => Way::Sum(x.class, y.class),
                 Term::Sub(_) if !same => Way::Sum(x.class, y.class),
                 _ => Way::Difference(x.class, y.class),

@@ -19,6 +19,8 @@ pub struct CostModel {
     pub mul: u64,
     /// An addition.
     pub add: u64,
+    /// A division.
+    pub div: u64,
     /// A sine/cosine pair of a joint's angle.
     pub sincos: u64,
     /// A sine/cosine pair of a sum of angles, where it is to be had at all.
@@ -27,12 +29,13 @@ pub struct CostModel {
 
 impl CostModel {
     /// Fewest operations; of equal sums the one with fewer multiplications;
-    /// an angle costs as much as twenty operations. The pair of a sum is to be
+    /// an angle costs as much as twenty operations, a division as five. The pair of a sum is to be
     /// had only if somebody asked for it, and then costs a little less than the
     /// six operations that form it from other pairs.
     pub const OPERATIONS: CostModel = CostModel {
         mul: 101,
         add: 100,
+        div: 500,
         sincos: 2000,
         sum_sincos: 300,
     };
@@ -49,6 +52,7 @@ impl CostModel {
         match way {
             Way::Product(..) => self.mul,
             Way::Sum(..) | Way::Difference(..) => self.add,
+            Way::Quotient(..) => self.div,
         }
     }
 }

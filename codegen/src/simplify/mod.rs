@@ -162,5 +162,6 @@ pub fn cost(graph: &Graph) -> u64 {
     let (counts, model) = (graph.counts(), CostModel::OPERATIONS);
     let angles = graph.angles().into_iter();
     let angles: u64 = angles.map(|angle| model.angle(angle)).sum();
-    counts.mul as u64 * model.mul + counts.add as u64 * model.add + angles
+    let divisions = counts.div as u64 * model.div;
+    counts.mul as u64 * model.mul + counts.add as u64 * model.add + divisions + angles
 }

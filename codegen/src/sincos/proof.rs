@@ -107,6 +107,7 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
             Operation::Add => left.add(&right),
             Operation::Sub => left.sub(&right),
             Operation::Mul => left.mul(&right),
+            Operation::Div => return None,
         };
         values.push(value);
     }
@@ -202,6 +203,8 @@ fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> (Vec<Interva
             Operation::Sub => (x - y, 0.0),
             Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
             Operation::Mul => (x * y, underflow(scalar)),
+            // No polynomial.
+            Operation::Div => (Interval::ALL, underflow(scalar)),
         };
         let rounding = ((u * exact.magnitude()).next_up() + eta).next_up();
         values.push(exact.widened(rounding));
@@ -236,6 +239,7 @@ fn backward(
             Operation::Add => (adjoint, adjoint),
             Operation::Sub => (adjoint, -adjoint),
             Operation::Mul => (adjoint * y, adjoint * x),
+            Operation::Div => (Interval::ALL, Interval::ALL),
         };
         for (term, part) in [(step.left, left), (step.right, right)] {
             if let Term::Step(before) = term

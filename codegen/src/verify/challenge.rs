@@ -103,15 +103,14 @@ impl Transcript {
     }
 
     fn input(&mut self, input: Input) {
-        let (kind, joint) = match input {
-            Input::Sin(angle) => return self.text(&format!("sin {angle}")),
-            Input::Cos(angle) => return self.text(&format!("cos {angle}")),
-            Input::Position(joint) => ("position", joint),
-            Input::Velocity(joint) => ("velocity", joint),
-            Input::Acceleration(joint) => ("acceleration", joint),
-        };
-        self.text(kind);
-        self.number(joint);
+        match input {
+            Input::Sin(angle) => self.text(&format!("sin {angle}")),
+            Input::Cos(angle) => self.text(&format!("cos {angle}")),
+            Input::Entry(argument, joint) => {
+                self.text(argument.noun());
+                self.number(joint);
+            }
+        }
     }
 
     /// Nothing more is added: where it is evaluated is decided.
@@ -189,9 +188,7 @@ impl Point {
         match input {
             Input::Sin(angle) => angle.pair(|joint| self.joint(joint)).sin,
             Input::Cos(angle) => angle.pair(|joint| self.joint(joint)).cos,
-            Input::Position(joint) => free("position", joint),
-            Input::Velocity(joint) => free("velocity", joint),
-            Input::Acceleration(joint) => free("acceleration", joint),
+            Input::Entry(argument, joint) => free(argument.noun(), joint),
         }
     }
 

@@ -20,7 +20,7 @@ use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
 use super::size::{Denominators, Size};
-use crate::program::{Input, Program};
+use crate::program::Input;
 
 /// Degrees of a polynomial and the size of its coefficients: upper bounds,
 /// cancellation is not seen.
@@ -93,9 +93,20 @@ impl Degree {
         degree.unwrap_or_else(Degree::one)
     }
 
-    /// The degree in the random parameters.
+    /// The degree in the random parameters; the largest there is if it was
+    /// beyond counting.
     pub fn bound(&self) -> u64 {
-        self.pairs() * 2 + u64::from(self.other)
+        match self.is_beyond_counting() {
+            true => u64::MAX,
+            false => self.pairs() * 2 + u64::from(self.other),
+        }
+    }
+
+    /// Sums of degrees stay at the largest number.
+    fn is_beyond_counting(&self) -> bool {
+        let others = [self.other, self.angles, self.constants, self.halvings];
+        let mut all = self.joints.iter().chain(&others);
+        all.any(|&degree| degree == u32::MAX)
     }
 
     /// The bits of its coefficients once they are integers.
@@ -160,15 +171,5 @@ impl Scalar for Degree {
     }
     fn is_zero(&self) -> bool {
         self.size.is_none()
-    }
-}
-
-impl Program {
-    /// The degrees of every output; the denominators of its constants are
-    /// noted.
-    pub fn degrees(&self, denominators: &mut Denominators) -> Vec<Degree> {
-        let constant = |constant: &Exact| Some(Degree::constant(constant, denominators));
-        let degrees = self.evaluate(|input| Some(Degree::input(*input)), constant);
-        degrees.unwrap_or_default()
     }
 }

@@ -13,21 +13,27 @@
 //! stated is that of one such attempt ([`miss`](super::miss)); a proof for
 //! which it is not below 1e-9 after 2⁶⁴ attempts is refused.
 //!
+//! What inverts D is not only compared with a formula that does: at every point
+//! the formula's own values are put into the equation that they solve, with D
+//! and the loads as written, and must solve it.
+//!
 //! A prime that divides a denominator, or a coefficient that is not zero, is
-//! unfit: the next is drawn instead.
+//! unfit, and so is a point where a divisor is zero: the next is drawn instead.
 
 use std::cell::{Cell, RefCell};
 use std::fmt;
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
+use dalembert_model::outputs::Motion;
 use dalembert_model::robot::Robot;
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::residue::Residue;
+use dalembert_model::scalar::{Divide, Scalar};
 
 use super::challenge::{Point, Transcript};
 use super::degree::Degree;
 use super::miss;
+use super::ratio::Ratio;
 use super::size::Denominators;
 use crate::program::Program;
 use crate::scene::Setting;
@@ -40,7 +46,7 @@ pub const WRITTEN_LIMIT: usize = 10;
 pub const PRIMES: usize = 4;
 
 /// Primes to draw before a statement is given up for want of fit ones.
-const MAX_DRAWS: usize = 64;
+pub(super) const MAX_DRAWS: usize = 64;
 
 /// What was proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,9 +73,12 @@ pub enum Disproof {
         /// Its name, one-based.
         entry: String,
     },
+    /// What should solve an equation of the arm does not: a defect of this
+    /// library.
+    Equation,
     /// The program has another number of outputs.
     Shape,
-    /// Constants vanish, or have no value, modulo prime after prime.
+    /// Constants or divisors vanish, or have no value, modulo prime after prime.
     Unfit,
     /// Degree or coefficients are so large that a miss is not unlikely.
     Large {
@@ -101,10 +110,11 @@ impl fmt::Display for Disproof {
             Disproof::Output { entry, .. } => {
                 write!(f, "{entry} differs from the formula as written")
             }
+            Disproof::Equation => f.write_str("the formula does not solve its own equation"),
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
             Disproof::Unfit => write!(
                 f,
-                "constants vanish modulo too many of {MAX_DRAWS} random primes: \
+                "constants or divisors vanish modulo too many of {MAX_DRAWS} random primes: \
                  write parameters as short decimals"
             ),
             Disproof::Large { degree, height } => write!(
@@ -138,23 +148,19 @@ pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof>
     transcript.setting(setting);
     transcript.program(program);
     let expected = |point: &Point| {
+        let input = |input| point.input(input);
         let constant = |constant: &Exact| point.constant(constant);
-        formula(
-            setting,
-            program,
-            yardstick,
-            |input| point.input(input),
-            constant,
-        )
+        let formula = Formula::new(setting, yardstick, input, constant);
+        formula.map_or(Ok(None), |formula| formula.checked(program, point))
     };
     compare(transcript, program, expected)?;
     let denominators = RefCell::default();
     let constant = |constant: &Exact| {
-        let degree = Degree::constant(constant, &mut denominators.borrow_mut());
+        let degree = Ratio::constant(constant, &mut denominators.borrow_mut());
         Some(degree)
     };
-    let formula = formula(setting, program, yardstick, Degree::input, constant);
-    let formula = formula.unwrap_or_default();
+    let formula = Formula::new(setting, yardstick, Ratio::input, constant);
+    let formula = formula.map_or_else(Vec::new, |formula| formula.results(program));
     let mut denominators = denominators.borrow().clone();
     let (degree, height) = bounded(program, &formula, &mut denominators)?;
     Ok(Proof {
@@ -174,62 +180,107 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     let mut transcript = Transcript::new("two programs");
     transcript.program(a);
     transcript.program(b);
-    compare(transcript, b, |point| run(a, point))?;
+    compare(transcript, b, |point| Ok(run(a, point)))?;
     let mut denominators = Denominators::default();
     let degrees = a.degrees(&mut denominators);
     bounded(b, &degrees, &mut denominators).map(drop)
 }
 
-/// The outputs by a formula, from the values of inputs and constants; `None`
-/// if a constant has none.
-///
-/// The formula runs on the whole arm: a locked joint is one whose pair or
-/// position is constant and whose rates are zero.
-fn formula<S: Scalar>(
-    setting: &Setting,
-    program: &Program,
+/// A formula over the whole arm at a motion: a locked joint is one whose pair
+/// or position is constant and whose rates are zero.
+struct Formula<'a, S> {
+    setting: &'a Setting,
     yardstick: Formulation,
-    input: impl FnMut(crate::program::Input) -> S,
-    constant: impl Fn(&Exact) -> Option<S>,
-) -> Option<Vec<S>> {
-    let failed = Cell::new(false);
-    let constant = |value: &Exact| {
-        constant(value).unwrap_or_else(|| {
-            failed.set(true);
-            S::zero()
+    arm: Arm<S>,
+    motion: Motion<S>,
+}
+
+impl<'a, S: Divide> Formula<'a, S> {
+    /// From the values of inputs and constants; `None` if a constant has none.
+    fn new(
+        setting: &'a Setting,
+        yardstick: Formulation,
+        input: impl FnMut(crate::program::Input) -> S,
+        constant: impl Fn(&Exact) -> Option<S>,
+    ) -> Option<Self> {
+        let failed = Cell::new(false);
+        let constant = |value: &Exact| {
+            constant(value).unwrap_or_else(|| {
+                failed.set(true);
+                S::zero()
+            })
+        };
+        let arm = Arm::from_robot(setting.robot(), &mut { constant });
+        let motion = setting.motion(input, constant);
+        (!failed.get()).then_some(Formula {
+            setting,
+            yardstick,
+            arm,
+            motion,
         })
-    };
-    let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let motion = setting.motion(input, constant);
-    if failed.get() {
-        return None;
     }
-    let outputs = program.function.evaluate(yardstick, &arm, &motion);
-    Some(setting.select(program.function, setting.joints(), outputs))
+
+    fn evaluate(&self, program: &Program) -> Vec<S> {
+        let function = program.function;
+        function.evaluate(self.yardstick, &self.arm, &self.motion)
+    }
+
+    fn select(&self, program: &Program, outputs: Vec<S>) -> Vec<S> {
+        let joints = self.setting.joints();
+        self.setting.select(program.function, joints, outputs)
+    }
+
+    /// The results over the setting's rows.
+    fn results(&self, program: &Program) -> Vec<S> {
+        self.select(program, self.evaluate(program))
+    }
+}
+
+impl Formula<'_, Residue> {
+    /// The results over the setting's rows, which solve the equations that
+    /// they are to solve: D q̈ + h + c + b∘q̇ = τ, or D D⁻¹ = 1, with D and the
+    /// loads as written. None where they have no values.
+    fn checked(&self, program: &Program, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
+        let outputs = self.evaluate(program);
+        let function = program.function;
+        let residual = function.residual(self.yardstick, &self.arm, &self.motion, &outputs);
+        for value in residual {
+            match value.value(point.prime()) {
+                None => return Ok(None),
+                Some(0) => {}
+                Some(_) => return Err(Disproof::Equation),
+            }
+        }
+        Ok(Some(self.select(program, outputs)))
+    }
 }
 
 /// Compares a program's outputs with what is expected at [`PRIMES`] primes.
 fn compare(
     transcript: Transcript,
     program: &Program,
-    expected: impl Fn(&Point) -> Option<Vec<Residue>>,
+    expected: impl Fn(&Point) -> Result<Option<Vec<Residue>>, Disproof>,
 ) -> Result<(), Disproof> {
     let challenge = transcript.seal();
     let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
     let mut good = 0;
     for point in points {
-        let values = run(program, &point).zip(expected(&point));
+        let values = run(program, &point).zip(expected(&point)?);
         let Some((actual, expected)) = values else {
             continue;
         };
         if expected.len() != actual.len() {
             return Err(Disproof::Shape);
         }
-        // What has no value equals nothing.
-        let value = |x: &Residue| x.value(point.prime());
-        let equal = |a: &Residue, b: &Residue| value(a).is_some() && value(a) == value(b);
+        // Where a divisor is zero there is no value, and nothing to compare.
+        let values = |of: &[Residue]| -> Option<Vec<u64>> {
+            of.iter().map(|x| x.value(point.prime())).collect()
+        };
+        let Some((actual, expected)) = values(&actual).zip(values(&expected)) else {
+            continue;
+        };
         let mut pairs = actual.iter().zip(&expected);
-        if let Some(index) = pairs.position(|(a, b)| !equal(a, b)) {
+        if let Some(index) = pairs.position(|(a, b)| a != b) {
             let entry = program.entry(index);
             return Err(Disproof::Output { index, entry });
         }
@@ -245,14 +296,17 @@ fn compare(
 /// others, if a miss is unlikely.
 fn bounded(
     program: &Program,
-    others: &[Degree],
+    others: &[Ratio],
     denominators: &mut Denominators,
 ) -> Result<(u64, u64), Disproof> {
     let own = program.degrees(denominators);
-    let differences = || own.iter().zip(others).map(|(a, b)| a.add(b));
-    let degree = differences().map(|d| d.bound()).max().unwrap_or(0);
-    let heights = differences().map(|d| d.height(denominators));
-    let height = heights.max().unwrap_or(0);
+    let differences: Vec<Ratio> = own.iter().zip(others).map(|(a, b)| a.add(b)).collect();
+    let most = |of: &dyn Fn(&Degree) -> u64| {
+        let bounds = differences.iter().map(|d| d.top().map_or(u64::MAX, of));
+        bounds.max().unwrap_or(0)
+    };
+    let degree = most(&Degree::bound);
+    let height = most(&|degree| degree.height(denominators));
     match miss::is_small(degree, height, PRIMES) {
         true => Ok((degree, height)),
         false => Err(Disproof::Large { degree, height }),

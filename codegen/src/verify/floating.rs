@@ -3,12 +3,17 @@
 //!
 //! The error of a quantity is normwise, max_i |error_i| / max_i |reference_i|,
 //! the worst over the states. f32 code is compared at the f32-rounded state,
-//! so that only the rounding of its own arithmetic and constants counts.
+//! so that only the rounding of its own arithmetic and constants counts. What
+//! inverts D may err as many times more as D's condition at the state is.
 
+use dalembert_model::equations::factor::among;
+use dalembert_model::equations::forward::free;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::outputs::Motion;
 use dalembert_model::robot::Robot;
 
+use super::condition::Condition;
 use crate::function::{Function, Quantity};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
@@ -45,7 +50,8 @@ pub struct Measure {
     pub scalar: ScalarType,
     /// Which of its quantities.
     pub quantity: Quantity,
-    /// The worst error; infinite if a result is not a number.
+    /// The worst error, over the condition of D where the quantity inverts it;
+    /// infinite if a result is not a number.
     pub error: f64,
 }
 
@@ -83,8 +89,15 @@ impl Runtime {
         }
     }
 
-    /// The results of a function at a state, flat.
-    pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
+    /// The condition of D over the joints that move, at a state; at least one.
+    fn condition(&self, state: &JointState) -> f64 {
+        let motion = self.motion(state);
+        let d = Formulation::NewtonEulerLink.inertia(&self.arm, &self.arm.at(&motion.q));
+        let d = among(&d, &free(&motion.moves)).concat();
+        Condition::of(&d, f64::EPSILON / 2.0).raw.max(1.0)
+    }
+
+    fn motion(&self, state: &JointState) -> Motion<f64> {
         let input = |input| {
             // A motion reads the angles of single joints only.
             let angle = |sum: crate::program::AngleSum| {
@@ -93,12 +106,15 @@ impl Runtime {
             match input {
                 Input::Sin(sum) => libm::sincos(angle(sum)).0,
                 Input::Cos(sum) => libm::sincos(angle(sum)).1,
-                Input::Position(joint) => state.q[joint],
-                Input::Velocity(joint) => state.qd[joint],
-                Input::Acceleration(joint) => state.qdd[joint],
+                Input::Entry(argument, joint) => state.entry(argument, joint),
             }
         };
-        let motion = self.setting.motion(input, f64::nearest);
+        self.setting.motion(input, f64::nearest)
+    }
+
+    /// The results of a function at a state, flat.
+    pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
+        let motion = self.motion(state);
         let mut quantities = function.quantities().iter();
         let arm = match quantities.any(|quantity| quantity.feels_base()) {
             true => &self.whole,
@@ -144,7 +160,11 @@ impl Emitted {
                     *value = 0.0;
                 }
             }
-            cases.push((own.run(&state), reference));
+            let granted = match self.function.inverts_inertia() {
+                true => runtime.condition(&state),
+                false => 1.0,
+            };
+            cases.push((own.run(&state), reference, granted));
         }
         let mut measures = Vec::new();
         let mut start = 0;
@@ -152,9 +172,11 @@ impl Emitted {
             let range = start..start + quantity.len(self.rows());
             start = range.end;
             let part = |values: &'_ [f64]| values[range.clone()].to_vec();
-            let pairs: Vec<_> = cases.iter().map(|(a, b)| (part(a), part(b))).collect();
-            let least = LEAST_PART * pairs.iter().map(|(_, b)| largest(b)).fold(0.0, f64::max);
-            measures.push(self.measure(quantity, worst(&pairs, least)));
+            let cases = cases.iter();
+            let cases = cases.map(|(a, b, granted)| (part(a), part(b), *granted));
+            let cases: Vec<Case> = cases.collect();
+            let least = LEAST_PART * cases.iter().map(|(_, b, _)| largest(b)).fold(0.0, f64::max);
+            measures.push(self.measure(quantity, worst(&cases, least)));
         }
         measures
     }
@@ -208,24 +230,25 @@ fn off<T: Machine>(trig: &LoweredTrig, kernel: &Kernel, state: &JointState) -> f
     off(trig.sin, sin, true_sin).max(off(trig.cos, cos, true_cos))
 }
 
-/// Actual and expected values.
-type Pair = (Vec<f64>, Vec<f64>);
+/// Actual and expected values, and how many times more than others they may
+/// differ.
+type Case = (Vec<f64>, Vec<f64>, f64);
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// max|a − b| / max|b| of the worst pair; absolute where b vanishes.
-fn worst(pairs: &[Pair], least: f64) -> f64 {
+/// max|a − b| / max|b| of the worst case; absolute where b vanishes.
+fn worst(cases: &[Case], least: f64) -> f64 {
     let mut worst = 0.0f64;
-    for (actual, expected) in pairs {
+    for (actual, expected, granted) in cases {
         let size = largest(expected).max(least);
         let differences = actual.iter().zip(expected).map(|(a, b)| (a - b).abs());
         for difference in differences {
             let error = if size > 0.0 {
-                difference / size
+                difference / size / granted
             } else {
-                difference
+                difference / granted
             };
             // A NaN loses every comparison: it must not go unnoticed.
             worst = if error.is_nan() {

@@ -4,18 +4,23 @@
 //! - [`rounding`]: what rounding costs a program, estimated
 //! - [`exact`]: the program equals Lagrange–Euler as written, modulo primes
 //! - [`challenge`]: which primes and points, drawn from what is to be proved
-//! - [`miss`], [`degree`], `size`: how likely that check is to miss a difference
+//! - [`singular`]: whether D has an inverse, and which joint it lacks one for
+//! - [`condition`]: how close D is to singular at a state
+//! - [`miss`], [`degree`], [`ratio`], `size`: how likely that check is to miss a difference
 //! - [`reference`](mod@reference): true values, to 60 digits
 //! - [`running`]: how far code may be off at a state, from its own numbers
 //! - [`floating`]: what rounding costs: against the runtime and given states
 
 pub mod accuracy;
 pub mod challenge;
+pub mod condition;
 pub mod degree;
 pub mod exact;
 pub mod floating;
 pub mod miss;
+pub mod ratio;
 pub mod reference;
 pub mod rounding;
 pub mod running;
+pub mod singular;
 mod size;

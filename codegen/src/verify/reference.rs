@@ -3,13 +3,13 @@
 //!
 //! It shares nothing with what is emitted but the robot and the state: no
 //! graph, no search, no proof, no printer. Its own error is bounded along with
-//! it: `Size` runs the same formula with every sum and difference replaced by
-//! the sum of magnitudes.
+//! it: `Known` carries the size of all that a value was made of, every sum
+//! and difference replaced by the sum of magnitudes.
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Angle, Exact, Rational, Rounded, Wide};
 use dalembert_model::outputs::Axis;
-use dalembert_model::scalar::{Rotor, Scalar};
+use dalembert_model::scalar::{Divide, Rotor, Scalar};
 use num_traits::Zero;
 
 use crate::function::{Function, Quantity};
@@ -25,8 +25,7 @@ const LOST: f64 = 6.3e-61;
 #[derive(Clone, Debug)]
 pub struct Reference<'s> {
     setting: &'s Setting,
-    arm: Arm<Wide>,
-    sizes: Arm<Size>,
+    arm: Arm<Known>,
 }
 
 /// A true value, and how far it may be off.
@@ -58,8 +57,7 @@ impl<'s> Reference<'s> {
         let robot = setting.robot();
         Reference {
             setting,
-            arm: Arm::from_robot(robot, &mut Wide::from_exact),
-            sizes: Arm::from_robot(robot, &mut Size::of),
+            arm: Arm::from_robot(robot, &mut Known::of),
         }
     }
 
@@ -70,39 +68,25 @@ impl<'s> Reference<'s> {
         let pairs: Vec<Rotor<Wide>> = state.q.iter().map(|&q| pair(q)).collect();
         // A motion reads the angles of single joints only.
         let joint = |angle: AngleSum| angle.terms().map(|(joint, _)| joint).sum::<usize>();
-        let values = self.evaluate(function, &self.arm, Wide::from_exact, |input| match input {
-            Input::Sin(angle) => pairs[joint(angle)].sin.clone(),
-            Input::Cos(angle) => pairs[joint(angle)].cos.clone(),
-            Input::Position(joint) => finite(state.q[joint]),
-            Input::Velocity(joint) => finite(state.qd[joint]),
-            Input::Acceleration(joint) => finite(state.qdd[joint]),
-        });
-        let sizes = self.evaluate(function, &self.sizes, Size::of, |input| match input {
-            Input::Sin(_) | Input::Cos(_) => Size(1.0),
-            Input::Position(joint) => Size(state.q[joint].abs()),
-            Input::Velocity(joint) => Size(state.qd[joint].abs()),
-            Input::Acceleration(joint) => Size(state.qdd[joint].abs()),
-        });
-        let pairs = values.into_iter().zip(sizes);
-        pairs
-            .map(|(value, size)| TrueValue {
-                value,
-                lost: size.0 * LOST,
-            })
-            .collect()
-    }
-
-    fn evaluate<S: Scalar>(
-        &self,
-        function: Function,
-        arm: &Arm<S>,
-        constant: impl FnMut(&Exact) -> S,
-        input: impl FnMut(Input) -> S,
-    ) -> Vec<S> {
-        let motion = self.setting.motion(input, constant);
-        let results = function.evaluate(Formulation::NewtonEulerLink, arm, &motion);
-        let joints = self.setting.joints();
-        self.setting.select(function, joints, results)
+        let sine = |value: &Wide| Known::sized(value.clone(), 1.0);
+        let input = |input| match input {
+            Input::Sin(angle) => sine(&pairs[joint(angle)].sin),
+            Input::Cos(angle) => sine(&pairs[joint(angle)].cos),
+            Input::Entry(argument, joint) => {
+                let x = state.entry(argument, joint);
+                Known::sized(finite(x), x.abs())
+            }
+        };
+        let motion = self.setting.motion(input, Known::of);
+        let results = function.evaluate(Formulation::NewtonEulerLink, &self.arm, &motion);
+        let results = self
+            .setting
+            .select(function, self.setting.joints(), results);
+        let known = |Known { value, size }: Known| TrueValue {
+            value,
+            lost: size * LOST,
+        };
+        results.into_iter().map(known).collect()
     }
 }
 
@@ -125,48 +109,71 @@ fn pair(q: f64) -> Rotor<Wide> {
     Wide::rotor(&Angle::Radians(angle))
 }
 
-/// The largest magnitude that a value and all that it was made of can have.
-#[derive(Clone, Copy, Debug)]
-struct Size(f64);
+/// A value, and the largest magnitude that it and all that it was made of can
+/// have: what it lost is a small part of that.
+#[derive(Clone, Debug)]
+struct Known {
+    value: Wide,
+    size: f64,
+}
 
-impl Size {
-    fn of(constant: &Exact) -> Size {
+impl Known {
+    fn sized(value: Wide, size: f64) -> Known {
+        Known { value, size }
+    }
+
+    fn of(constant: &Exact) -> Known {
         // A polynomial's terms may cancel, but its generators are at most one.
-        let value = constant.map(
-            &mut |x| Some(Size(f64::nearest_rational(x).abs())),
-            &mut |_| Rotor {
-                sin: Size(1.0),
-                cos: Size(1.0),
-            },
-        );
-        value.unwrap_or(Size(f64::INFINITY))
+        let rational = &mut |x: &Rational| {
+            let size = f64::nearest_rational(x).abs();
+            Some(Known::sized(Wide::from_rational(x), size))
+        };
+        let value = constant.map(rational, &mut |angle| {
+            Wide::rotor(angle).map(|x| Known::sized(x.clone(), 1.0))
+        });
+        value.unwrap_or_else(|| Known::sized(Wide::from_exact(constant), f64::INFINITY))
     }
 }
 
-impl Scalar for Size {
+impl Scalar for Known {
     fn zero() -> Self {
-        Size(0.0)
+        Known::sized(Wide::zero(), 0.0)
     }
     fn one() -> Self {
-        Size(1.0)
+        Known::sized(Wide::one(), 1.0)
     }
     fn add(&self, other: &Self) -> Self {
-        Size(self.0 + other.0)
+        Known::sized(self.value.add(&other.value), self.size + other.size)
     }
     fn sub(&self, other: &Self) -> Self {
-        Size(self.0 + other.0)
+        Known::sized(self.value.sub(&other.value), self.size + other.size)
     }
     fn mul(&self, other: &Self) -> Self {
         // 0·∞: a zero is one, whatever it is multiplied by.
-        Size(match self.0 == 0.0 || other.0 == 0.0 {
+        let size = match self.size == 0.0 || other.size == 0.0 {
             true => 0.0,
-            false => self.0 * other.0,
-        })
+            false => self.size * other.size,
+        };
+        Known::sized(self.value.mul(&other.value), size)
     }
     fn neg(&self) -> Self {
-        *self
+        Known::sized(self.value.neg(), self.size)
     }
     fn half(&self) -> Self {
-        Size(0.5 * self.0)
+        Known::sized(self.value.half(), 0.5 * self.size)
+    }
+}
+
+impl Divide for Known {
+    /// What x and y are off moves x/y by (Δx − (x/y) Δy)/y; twice that, since
+    /// y is off itself.
+    fn div(&self, other: &Self) -> Self {
+        let value = self.value.div(&other.value);
+        let moved = self.size + value.magnitude() * other.size;
+        let size = match other.value.magnitude() {
+            0.0 => f64::INFINITY,
+            divisor => 2.0 * moved / divisor.next_down(),
+        };
+        Known::sized(value, size)
     }
 }

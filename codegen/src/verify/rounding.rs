@@ -152,9 +152,7 @@ impl<'a> Network<'a> {
             found.unwrap_or(usize::MAX)
         };
         let input = |input: Input| match input {
-            Input::Position(joint) => state.q[joint],
-            Input::Velocity(joint) => state.qd[joint],
-            Input::Acceleration(joint) => state.qdd[joint],
+            Input::Entry(argument, joint) => state.entry(argument, joint),
             Input::Sin(angle) => pairs.get(place(angle)).map_or(0.0, |pair| pair.0),
             Input::Cos(angle) => pairs.get(place(angle)).map_or(1.0, |pair| pair.1),
         };
@@ -172,6 +170,7 @@ impl<'a> Network<'a> {
                 Operation::Add => x + y,
                 Operation::Sub => x - y,
                 Operation::Mul => x * y,
+                Operation::Div => x / y,
             });
         }
         let mut slopes = Slopes {
@@ -201,6 +200,7 @@ impl<'a> Network<'a> {
                     Operation::Add => (slope, slope),
                     Operation::Sub => (slope, -slope),
                     Operation::Mul => (slope * y, slope * x),
+                    Operation::Div => (slope / y, -slope * values[index] / y),
                 };
                 add(&mut slopes, left, to_left);
                 add(&mut slopes, right, to_right);

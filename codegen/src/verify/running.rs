@@ -6,6 +6,7 @@
 //!
 //! - of x ± y: e_x + e_y + u·|x ± y|
 //! - of x·y: |x|·e_y + |y|·e_x + e_x·e_y + u·|x·y| + η
+//! - of x/y: (e_x + |x/y|·e_y)/(|y| − e_y) + u·|x/y| + η, nothing if e_y ≥ |y|
 //! - of a constant: u·|c| + η, once; of libm's sine 2u·|s|, and what its angle
 //!   is off where that is a sum
 //! - of a polynomial's sine: the error that was proved
@@ -131,9 +132,9 @@ impl<'s, T: Machine> Run<'s, T> {
                     ..exact(value)
                 }
             }
-            Operand::Input(Input::Position(joint)) => exact(self.state.q[*joint]),
-            Operand::Input(Input::Velocity(joint)) => exact(self.state.qd[*joint]),
-            Operand::Input(Input::Acceleration(joint)) => exact(self.state.qdd[*joint]),
+            Operand::Input(Input::Entry(argument, joint)) => {
+                exact(self.state.entry(*argument, *joint))
+            }
             Operand::Input(input) => self.trig.get(input).copied().unwrap_or(Bounded {
                 error: f64::INFINITY,
                 ..exact(0.0)
@@ -147,6 +148,14 @@ impl<'s, T: Machine> Run<'s, T> {
         let carried = match operation {
             Operation::Add | Operation::Sub => x.error + y.error,
             Operation::Mul => a * y.error + b * x.error + x.error * y.error + self.least(),
+            // |x/y − X/Y| = |(x/y)(Y − y) + (x − X)|/|Y|, and |Y| ≥ |y| − e_y.
+            Operation::Div => {
+                let divisor = b - y.error;
+                match divisor > 0.0 {
+                    true => (x.error + a / b * y.error) / (divisor * (1.0 - 1e-15)) + self.least(),
+                    false => f64::INFINITY,
+                }
+            }
         };
         let own = self.scalar.unit_roundoff() * value.to_f64().abs();
         Bounded {

@@ -66,6 +66,39 @@ impl Formulation {
         contracted(&self.christoffel(arm, at), qd)
     }
 
+    /// D a + C v + c + b∘v, length n. A recursion gives C v, which is bilinear
+    /// in q̇ and v, as h of half their sum less h of half their difference.
+    pub fn passivity<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        [v, a]: [&[S]; 2],
+    ) -> Vec<S> {
+        let load = match self {
+            Self::LagrangeEuler | Self::Dalembert => {
+                let (d, c) = (self.inertia(arm, at), self.coriolis_matrix(arm, at, qd));
+                let power = |row: &[S], rates: &[S]| {
+                    total(row.iter().zip(rates).map(|(x, rate)| times(x, rate)))
+                };
+                let rows = d.iter().zip(&c).zip(self.gravity(arm, at));
+                let rows =
+                    rows.map(|((d, c), load)| plus(&plus(&power(d, a), &power(c, v)), &load));
+                rows.collect::<Vec<S>>()
+            }
+            _ => from_torques::passivity(
+                |arm, at, qd, qdd| self.inverse_dynamics(arm, at, qd, qdd),
+                arm,
+                at,
+                qd,
+                [v, a],
+            ),
+        };
+        let links = load.iter().zip(&arm.links).zip(v);
+        let damped = links.map(|((load, link), v)| plus(load, &times(&link.viscous, v)));
+        damped.collect()
+    }
+
     /// D^rot or D^tran, n×n, the armature in neither.
     pub fn inertia_part<S: Scalar>(
         self,

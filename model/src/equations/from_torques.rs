@@ -6,7 +6,7 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{halved, minus, symmetric, zero_vector, zeros};
+use super::matrix::{halved, minus, plus, symmetric, zero_vector, zeros};
 use super::{Arm, DhVariables};
 use crate::scalar::Scalar;
 
@@ -33,6 +33,25 @@ pub fn velocity_terms<S: Scalar>(
     qd: &[S],
 ) -> Vec<S> {
     torques(&undamped(&weightless(arm)), at, qd, &zeros(qd.len()))
+}
+
+/// D a + C v + c without damping: C v is bilinear in q̇ and v, so h of half
+/// their sum less h of half their difference, and τ has D a and c besides.
+pub fn passivity<S: Scalar>(
+    torques: impl Fn(&Arm<S>, &[DhVariables<S>], &[S], &[S]) -> Vec<S>,
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    [v, a]: [&[S]; 2],
+) -> Vec<S> {
+    let of = |combine: fn(&S, &S) -> S| -> Vec<S> {
+        let rates = qd.iter().zip(v);
+        rates.map(|(qd, v)| halved(&combine(qd, v))).collect()
+    };
+    let with = torques(&undamped(arm), at, &of(plus), a);
+    let without = velocity_terms(torques, arm, at, &of(minus));
+    let pairs = with.iter().zip(&without);
+    pairs.map(|(with, without)| minus(with, without)).collect()
 }
 
 /// c: τ at rest.
@@ -93,7 +112,7 @@ pub(super) fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
 }
 
 /// The arm without viscous damping.
-fn undamped<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
+pub(super) fn undamped<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     let mut arm = arm.clone();
     for link in &mut arm.links {
         link.viscous = S::zero();

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use super::Rotor;
 use crate::robot::{Inertia, JointKind};
 use crate::scalar::Scalar;
-pub use crate::scalar::structural::{halved, minus, negative, plus, times, twice};
+pub use crate::scalar::structural::{halved, minus, negative, over, plus, times, twice};
 
 /// A vector of three components.
 pub type Vector<S> = [S; 3];

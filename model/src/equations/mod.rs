@@ -7,6 +7,10 @@
 //! | [`newton_euler`] | the recursions, Table 1 (base axes) and Table 2 (link axes) |
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
+//! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
+//! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
+//! | [`factor`] | D = U diag(d) Uᵀ, solved and inverted |
+//! | [`articulated`] | q̈ by articulated bodies |
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
@@ -23,11 +27,15 @@
 //! [`Scalar`]: crate::scalar::Scalar
 
 mod arm;
+pub mod articulated;
 mod base;
 pub mod chain;
 pub mod dalembert;
+pub mod derivatives;
 pub mod energy;
+pub mod factor;
 mod formulation;
+pub mod forward;
 mod from_robot;
 pub mod from_torques;
 pub mod kinematics;

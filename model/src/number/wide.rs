@@ -10,7 +10,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::trig::sin_cos;
 use super::{Angle, Exact, Rational};
-use crate::scalar::{Rotor, Scalar};
+use crate::scalar::{Divide, Rotor, Scalar};
 
 /// The bits of a significand.
 const BITS: u64 = 256;
@@ -154,6 +154,23 @@ impl Scalar for Wide {
     }
 }
 
+impl Divide for Wide {
+    /// By zero: zero, for want of an infinity.
+    fn div(&self, other: &Self) -> Self {
+        if other.is_zero() {
+            return Self::zero();
+        }
+        // The quotient has the bits of a significand and one more.
+        let missing = BITS + 1 + other.significand.bits();
+        let shift = missing.saturating_sub(self.significand.bits());
+        let exponent = self.exponent.saturating_sub(other.exponent);
+        Wide::cut(
+            (&self.significand << shift) / &other.significand,
+            exponent.saturating_sub(shift as i64),
+        )
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -177,6 +194,15 @@ mod tests {
                 .magnitude()
                 < 3e-16
         );
+    }
+
+    #[test]
+    fn quotients_are_as_exact() {
+        let (seven, third) = (ratio(7, 1), ratio(1, 3));
+        let off = seven.div(&third).sub(&ratio(21, 1)).magnitude();
+        assert!(off < 1e-74, "{off:e}");
+        assert_eq!(ratio(-6, 1).div(&ratio(4, 1)), ratio(-3, 2));
+        assert_eq!(seven.div(&Wide::zero()), Wide::zero());
     }
 
     #[test]

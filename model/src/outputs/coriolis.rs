@@ -8,7 +8,7 @@ use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{zero_vector, zeros};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "coriolis",
@@ -43,11 +43,11 @@ impl Formula for Coriolis {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         at.formulation.velocity_terms(at.arm, at.at, &at.motion.qd)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let (chain, form) = (at.chain, at.form);
         let rest = zeros(chain.links.len());
         if form.composite_h {

@@ -8,7 +8,7 @@ use super::quantity::{Choices, Facts, turns};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "coriolis_matrix",
@@ -47,12 +47,12 @@ impl Formula for CoriolisMatrix {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let c = at.formulation.coriolis_matrix(at.arm, at.at, &at.motion.qd);
         c.into_iter().flatten().collect()
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let c = contracted(&at.composite.christoffel(), &at.motion.qd);
         Some(c.into_iter().flatten().collect())
     }

@@ -8,7 +8,7 @@ use super::quantity::{Facts, kilograms, load, turns};
 use super::{Argument, ErrorScale, Quantity, Shape, Written};
 use crate::equations::dalembert::Part;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "dalembert_terms",
@@ -46,7 +46,7 @@ impl Formula for RotationInertia {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let d = at.formulation.inertia_part(Part::Rotation, at.arm, at.at);
         d.into_iter().flatten().collect()
     }
@@ -83,7 +83,7 @@ impl Formula for TranslationInertia {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let d = at
             .formulation
             .inertia_part(Part::Translation, at.arm, at.at);
@@ -122,7 +122,7 @@ impl Formula for RotationCoriolis {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let qd = &at.motion.qd;
         at.formulation
             .velocity_part(Part::Rotation, at.arm, at.at, qd)
@@ -159,7 +159,7 @@ impl Formula for TranslationCoriolis {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let qd = &at.motion.qd;
         at.formulation
             .velocity_part(Part::Translation, at.arm, at.at, qd)

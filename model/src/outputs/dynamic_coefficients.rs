@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "dynamic_coefficients",
@@ -43,12 +43,12 @@ impl Formula for Christoffel {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let h = at.formulation.christoffel(at.arm, at.at);
         h.into_iter().flatten().flatten().collect()
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let h = at.composite.christoffel();
         Some(h.into_iter().flatten().flatten().collect())
     }

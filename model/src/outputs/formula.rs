@@ -2,12 +2,13 @@
 
 use alloc::vec::Vec;
 
+use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 /// A quantity: what it is, and its formulas, each over any scalar.
 pub(super) trait Formula {
@@ -15,12 +16,22 @@ pub(super) trait Formula {
     const FACTS: Facts;
 
     /// By a textbook formulation: what everything else is proved against.
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S>;
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S>;
 
     /// By the chain formulas with regrouped parameters; `None` if these do not
     /// give it: then [`Formula::written`] is where a search starts.
-    fn regrouped<S: Scalar>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
         None
+    }
+
+    /// Whether it exists only where D has an inverse.
+    const INVERTS_INERTIA: bool = false;
+
+    /// What vanishes if these entries over all joints are the quantity's, by an
+    /// equation that it solves; nothing where [`Formula::written`] says what it
+    /// is.
+    fn residual<S: Divide>(_: &Written<'_, S>, _: &[S]) -> Vec<S> {
+        Vec::new()
     }
 
     /// By the generic runtime.
@@ -30,7 +41,7 @@ pub(super) trait Formula {
     ) -> Result<Vec<T>, WrongLength>;
 }
 
-/// q, q̇ and q̈ in the scalar of a computation.
+/// The arguments in the scalar of a computation.
 #[derive(Clone, Debug)]
 pub struct Motion<S> {
     /// Positions.
@@ -39,6 +50,41 @@ pub struct Motion<S> {
     pub qd: Vec<S>,
     /// Accelerations.
     pub qdd: Vec<S>,
+    /// Torques.
+    pub tau: Vec<S>,
+    /// Velocities wished for.
+    pub v: Vec<S>,
+    /// Accelerations wished for.
+    pub a: Vec<S>,
+    /// Whether each joint moves; one that does not is held where it is.
+    pub moves: Vec<bool>,
+}
+
+impl<S> Motion<S> {
+    /// At these positions, with the entries of all other arguments.
+    pub fn new(q: Vec<JointPosition<S>>, mut entries: impl FnMut(Argument) -> Vec<S>) -> Self {
+        Motion {
+            moves: alloc::vec![true; q.len()],
+            q,
+            qd: entries(Argument::Velocity),
+            qdd: entries(Argument::Acceleration),
+            tau: entries(Argument::Torque),
+            v: entries(Argument::ReferenceVelocity),
+            a: entries(Argument::ReferenceAcceleration),
+        }
+    }
+
+    /// The entries of an argument; of the positions none.
+    pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
+        match argument {
+            Argument::Position => None,
+            Argument::Velocity => Some(&mut self.qd),
+            Argument::Acceleration => Some(&mut self.qdd),
+            Argument::Torque => Some(&mut self.tau),
+            Argument::ReferenceVelocity => Some(&mut self.v),
+            Argument::ReferenceAcceleration => Some(&mut self.a),
+        }
+    }
 }
 
 impl<S: Clone> Motion<S> {
@@ -50,6 +96,10 @@ impl<S: Clone> Motion<S> {
             q: joints.iter().map(|&joint| self.q[joint].clone()).collect(),
             qd: pick(&self.qd),
             qdd: pick(&self.qdd),
+            tau: pick(&self.tau),
+            v: pick(&self.v),
+            a: pick(&self.a),
+            moves: joints.iter().map(|&joint| self.moves[joint]).collect(),
         }
     }
 }

@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "forward_kinematics",
@@ -42,7 +42,7 @@ impl Formula for Pose {
         feels_base: true,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         at.formulation.hand(at.arm, at.at).rows()
     }
 

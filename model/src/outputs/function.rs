@@ -6,7 +6,7 @@ use core::fmt;
 use super::{Argument, Function, Motion, Quantity, Written};
 use crate::equations::chain::Form;
 use crate::equations::{Arm, Formulation};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 /// What an output's file says of its function.
 pub(super) struct Definition {
@@ -70,7 +70,7 @@ impl Function {
 
     /// Its results by one formulation, flat, in the order of its quantities;
     /// each array row by row.
-    pub fn evaluate<S: Scalar>(
+    pub fn evaluate<S: Divide>(
         self,
         formulation: Formulation,
         arm: &Arm<S>,
@@ -86,6 +86,36 @@ impl Function {
         results
             .flat_map(|quantity| quantity.written(&written))
             .collect()
+    }
+
+    /// What vanishes if these results over all joints solve the equations that
+    /// they are to solve.
+    pub fn residual<S: Divide>(
+        self,
+        formulation: Formulation,
+        arm: &Arm<S>,
+        motion: &Motion<S>,
+        results: &[S],
+    ) -> Vec<S> {
+        let written = Written {
+            formulation,
+            arm,
+            at: &arm.at(&motion.q),
+            motion,
+        };
+        let mut rest = results;
+        let mut residual = Vec::new();
+        for quantity in self.quantities() {
+            let (own, others) = rest.split_at(quantity.len(arm.links.len()).min(rest.len()));
+            residual.extend(quantity.residual(&written, own));
+            rest = others;
+        }
+        residual
+    }
+
+    /// Whether it exists only where D has an inverse.
+    pub fn inverts_inertia(self) -> bool {
+        self.quantities().iter().any(|q| q.inverts_inertia())
     }
 
     /// The associations of the chain formulas that differ for it, the usually

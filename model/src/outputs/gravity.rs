@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "gravity",
@@ -42,11 +42,11 @@ impl Formula for Gravity {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         at.formulation.gravity(at.arm, at.at)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(at.composite.gravity(at.form.travel))
     }
 

@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "inertia",
@@ -42,12 +42,12 @@ impl Formula for Inertia {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let d = at.formulation.inertia(at.arm, at.at);
         d.into_iter().flatten().collect()
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let d = at.composite.inertia(at.form.travel);
         Some(d.into_iter().flatten().collect())
     }

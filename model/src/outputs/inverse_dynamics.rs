@@ -8,7 +8,7 @@ use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{plus, times};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::{Divide, Scalar};
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "inverse_dynamics",
@@ -20,6 +20,24 @@ pub(super) const FUNCTION: Definition = Definition {
 
 /// τ_i
 pub(super) struct Torque;
+
+/// τ of a chain at its velocities and these accelerations.
+pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
+    let (chain, qd, form) = (at.chain, &at.motion.qd, at.form);
+    if !form.composite_h {
+        return chain.inverse_dynamics(at.at, qd, qdd, form.spin, form.couple);
+    }
+    let torques = at.composite.torques(&chain.gravity, qd, qdd, form.spin);
+    let links = chain.links.iter().zip(torques).enumerate();
+    let torques = links.map(|(i, (link, torque))| {
+        let drive = plus(
+            &times(&link.armature, &qdd[i]),
+            &times(&link.viscous, &qd[i]),
+        );
+        plus(&torque, &drive)
+    });
+    torques.collect()
+}
 
 impl Formula for Torque {
     const FACTS: Facts = Facts {
@@ -47,32 +65,14 @@ impl Formula for Torque {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
         at.formulation
             .inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let (chain, motion, form) = (at.chain, at.motion, at.form);
-        if !form.composite_h {
-            let (spin, couple) = (form.spin, form.couple);
-            return Some(chain.inverse_dynamics(at.at, &motion.qd, &motion.qdd, spin, couple));
-        }
-        let torques = at
-            .composite
-            .torques(&chain.gravity, &motion.qd, &motion.qdd, form.spin);
-        let links = chain.links.iter().zip(torques).enumerate();
-        let torques = links
-            .map(|(i, (link, torque))| {
-                let drive = plus(
-                    &times(&link.armature, &motion.qdd[i]),
-                    &times(&link.viscous, &motion.qd[i]),
-                );
-                plus(&torque, &drive)
-            })
-            .collect();
-        Some(torques)
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(torques(at, &at.motion.qdd))
     }
 
     fn runtime<T: Float>(

@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "jacobian",
@@ -43,7 +43,7 @@ impl Formula for Jacobian {
         feels_base: true,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let j = at.formulation.jacobian(at.arm, at.at);
         j.into_iter().flatten().collect()
     }

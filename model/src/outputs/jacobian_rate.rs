@@ -7,7 +7,7 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "jacobian_rate",
@@ -42,7 +42,7 @@ impl Formula for JacobianRate {
         feels_base: true,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let rate = at.formulation.jacobian_rate(at.arm, at.at, &at.motion.qd);
         rate.into_iter().flatten().collect()
     }

@@ -10,7 +10,7 @@ use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::composite::Travel;
 use crate::equations::matrix::{halved, times, total};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "kinetic_energy",
@@ -45,12 +45,12 @@ impl Formula for KineticEnergy {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let energy = at.formulation.kinetic_energy(at.arm, at.at, &at.motion.qd);
         vec![energy]
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         // Link by link, or from the momenta.
         let (chain, qd) = (at.chain, &at.motion.qd);
         Some(vec![match at.form.travel {

@@ -9,7 +9,7 @@ use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
 use crate::equations::kinematics::poses;
 use crate::equations::matrix::Columns;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "link_poses",
@@ -44,7 +44,7 @@ impl Formula for LinkPoses {
         feels_base: true,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let poses = poses(at.arm, at.at);
         poses.iter().flat_map(Columns::rows).collect()
     }

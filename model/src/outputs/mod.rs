@@ -24,16 +24,21 @@ mod coriolis;
 mod coriolis_matrix;
 mod dalembert_terms;
 mod dynamic_coefficients;
+mod forward_dynamics;
+mod forward_dynamics_derivatives;
 mod forward_kinematics;
 mod gravity;
 mod inertia;
+mod inertia_inverse;
 mod inverse_dynamics;
+mod inverse_dynamics_derivatives;
 mod jacobian;
 mod jacobian_rate;
 mod kinetic_energy;
 mod link_poses;
 mod manipulator_equation;
 mod momentum;
+mod passivity;
 mod potential_energy;
 mod reaction_wrenches;
 
@@ -77,4 +82,18 @@ registry! {
     jacobian_rate: JacobianRate { JacobianRate }
     /// Force and moment at every joint.
     reaction_wrenches: ReactionWrenches { Wrench }
+    /// ∂τ/∂q, ∂τ/∂q̇ and D.
+    inverse_dynamics_derivatives: InverseDynamicsDerivatives {
+        TorqueByPosition, TorqueByVelocity
+    }
+    /// D a + C v + c + b∘v.
+    passivity: Passivity { Passivity }
+    /// q̈(q, q̇, τ): forward dynamics.
+    forward_dynamics: ForwardDynamics { Acceleration }
+    /// D⁻¹(q): the inverse of the inertia matrix.
+    inertia_inverse: InertiaInverse { InertiaInverse }
+    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
+    forward_dynamics_derivatives: ForwardDynamicsDerivatives {
+        AccelerationByPosition, AccelerationByVelocity, AccelerationByTorque
+    }
 }

@@ -8,7 +8,7 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, load, turns};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "momentum",
@@ -46,11 +46,11 @@ impl Formula for Momentum {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         at.formulation.momentum(at.arm, at.at, &at.motion.qd)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let [p, _] = at.chain.momentum(at.at, &at.motion.qd);
         Some(p)
     }
@@ -88,11 +88,11 @@ impl Formula for MomentumSlope {
         feels_base: false,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         at.formulation.momentum_slope(at.arm, at.at, &at.motion.qd)
     }
 
-    fn regrouped<S: Scalar>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let [_, slope] = at.chain.momentum(at.at, &at.motion.qd);
         Some(slope)
     }

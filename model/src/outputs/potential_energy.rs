@@ -8,7 +8,7 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, ErrorScale, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "potential_energy",
@@ -40,7 +40,7 @@ impl Formula for PotentialEnergy {
         feels_base: true,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         vec![at.formulation.potential_energy(at.arm, at.at)]
     }
 

@@ -8,7 +8,7 @@ use super::quantity::Facts;
 use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
 use crate::equations::newton_euler::Wrench as ForceAndMoment;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Scalar;
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "reaction_wrenches",
@@ -47,7 +47,7 @@ impl Formula for Wrench {
         feels_base: true,
     };
 
-    fn written<S: Scalar>(at: &Written<'_, S>) -> Vec<S> {
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
         let wrenches = at
             .formulation

@@ -42,7 +42,7 @@ macro_rules! registry {
             }
 
             /// Its entries by a textbook formulation, flat, row by row.
-            pub fn written<S: $crate::scalar::Scalar>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
+            pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)*)*
                 }
@@ -50,12 +50,31 @@ macro_rules! registry {
 
             /// Its entries by the chain formulas, over the chain's joints; `None`
             /// if these do not give it.
-            pub fn regrouped<S: $crate::scalar::Scalar>(
+            pub fn regrouped<S: $crate::scalar::Divide>(
                 self,
                 at: &Regrouped<'_, S>,
             ) -> ::core::option::Option<::alloc::vec::Vec<S>> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::regrouped(at),)*)*
+                }
+            }
+
+            /// Whether it exists only where D has an inverse.
+            pub fn inverts_inertia(self) -> bool {
+                match self {
+                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)*)*
+                }
+            }
+
+            /// What vanishes if these entries over all joints are its own, by an
+            /// equation that it solves; nothing if it solves none.
+            pub fn residual<S: $crate::scalar::Divide>(
+                self,
+                at: &Written<'_, S>,
+                values: &[S],
+            ) -> ::alloc::vec::Vec<S> {
+                match self {
+                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)*)*
                 }
             }
 

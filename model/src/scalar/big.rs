@@ -11,7 +11,7 @@ use dashu_int::IBig;
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 
-use super::Scalar;
+use super::{Divide, Scalar};
 
 type Float = FBig<HalfEven, 2>;
 
@@ -166,6 +166,14 @@ impl Scalar for Big {
     }
     fn half(&self) -> Self {
         Big(self.0.clone() >> 1)
+    }
+}
+
+impl Divide for Big {
+    /// By zero: zero, for want of an infinity. Who divides by what may vanish
+    /// asks first ([`Big::div`]).
+    fn div(&self, other: &Self) -> Self {
+        Big::div(self, other).unwrap_or_else(Self::zero)
     }
 }
 

@@ -2,13 +2,14 @@
 
 use core::cell::Cell;
 
-use super::Scalar;
+use super::{Divide, Scalar};
 
 /// Where the operations of one evaluation are counted.
 #[derive(Debug, Default)]
 pub struct Counter {
     multiplications: Cell<u64>,
     additions: Cell<u64>,
+    divisions: Cell<u64>,
 }
 
 impl Counter {
@@ -25,6 +26,12 @@ impl Counter {
     /// Multiplications so far, halving included.
     pub fn multiplications(&self) -> u64 {
         self.multiplications.get()
+    }
+
+    /// Divisions so far; by a number that is known beforehand it is a
+    /// multiplication.
+    pub fn divisions(&self) -> u64 {
+        self.divisions.get()
     }
 
     /// Additions so far; subtraction and doubling are additions.
@@ -50,6 +57,19 @@ pub enum Count<'a> {
 }
 
 use Count::{MinusOne, Number, One, Value, Zero};
+
+impl Divide for Count<'_> {
+    fn div(&self, other: &Self) -> Self {
+        match (self, other) {
+            (_, One | MinusOne | Number) | (Zero, _) => self.mul(other),
+            (_, Value(counter)) => {
+                counter.divisions.set(counter.divisions.get() + 1);
+                Value(counter)
+            }
+            (_, Zero) => Number,
+        }
+    }
+}
 
 impl Scalar for Count<'_> {
     fn zero() -> Self {

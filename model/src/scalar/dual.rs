@@ -1,7 +1,7 @@
 //! A value with its rate of change: the derivative of a formula from the same
 //! text as the formula.
 
-use super::Scalar;
+use super::{Divide, Scalar};
 use crate::scalar::Rotor;
 
 /// x and ẋ.
@@ -86,6 +86,18 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 }
 
+impl<S: Divide> Divide for Dual<S> {
+    /// (x/y)˙ = (ẋ − (x/y) ẏ)/y
+    fn div(&self, other: &Self) -> Self {
+        let value = self.value.div(&other.value);
+        let moved = self.rate.sub(&value.mul(&other.rate));
+        Dual {
+            rate: moved.div(&other.value),
+            value,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,5 +134,7 @@ mod tests {
             }
         );
         assert_eq!(x.sub(&x), Dual::zero());
+        // (x·y)/y is x, with its rate.
+        assert_eq!(x.mul(&y).div(&y), x);
     }
 }

@@ -7,7 +7,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use super::Scalar;
+use super::{Divide, Scalar};
 
 /// A residue modulo 2⁶¹ − 1, kept below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -110,6 +110,13 @@ impl Scalar for Field {
             self.0 + Self::P
         };
         Field(even >> 1)
+    }
+}
+
+impl Divide for Field {
+    /// By zero: zero. What tells values apart here is never a proof.
+    fn div(&self, other: &Self) -> Self {
+        other.inverse().map_or(Self::ZERO, |x| self.mul(&x))
     }
 }
 

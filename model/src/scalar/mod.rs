@@ -62,6 +62,17 @@ pub trait Scalar: Clone {
     }
 }
 
+/// A scalar with quotients: what programs run in.
+///
+/// A formula may divide only by what cannot vanish wherever it is meant to
+/// hold, and says why. Where a divisor is zero all the same there is no
+/// quotient, and no scalar panics: each says in its own way that there is
+/// none, floats by an infinity or NaN, residues by what equals nothing.
+pub trait Divide: Scalar {
+    /// `self / other`
+    fn div(&self, other: &Self) -> Self;
+}
+
 macro_rules! float_scalar {
     ($t:ty) => {
         impl Scalar for $t {
@@ -85,6 +96,12 @@ macro_rules! float_scalar {
             }
             fn half(&self) -> Self {
                 0.5 * self
+            }
+        }
+
+        impl Divide for $t {
+            fn div(&self, other: &Self) -> Self {
+                self / other
             }
         }
     };

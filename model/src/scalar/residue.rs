@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::prime::Prime;
-use super::{Rotor, Scalar};
+use super::{Divide, Rotor, Scalar};
 
 /// A residue, or a number that has met no prime yet.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +21,8 @@ enum Form {
     Free { units: i64, halvings: u32 },
     /// x·2⁶⁴ mod p
     Of(Prime, u64),
-    /// Of two primes, or a free number beyond its range: equal to nothing.
+    /// Of two primes, a free number beyond its range, or a quotient by zero:
+    /// equal to nothing.
     Lost,
 }
 
@@ -191,6 +192,30 @@ impl Scalar for Residue {
                 halvings: 0
             }
         )
+    }
+}
+
+impl Divide for Residue {
+    /// By zero, or of two numbers that have met no prime: lost.
+    fn div(&self, other: &Self) -> Self {
+        let inverse = match other.0 {
+            _ if other.is_one() => return *self,
+            Form::Of(prime, value) if value != 0 => {
+                Form::Of(prime, prime.pow(value, prime.modulus() - 2))
+            }
+            Form::Free { .. } => match self.0 {
+                Form::Of(prime, _) => match other.value(prime) {
+                    Some(value) if value != 0 => {
+                        let value = prime.enter(value);
+                        Form::Of(prime, prime.pow(value, prime.modulus() - 2))
+                    }
+                    _ => Form::Lost,
+                },
+                _ => Form::Lost,
+            },
+            _ => Form::Lost,
+        };
+        self.mul(&Residue(inverse))
     }
 }
 

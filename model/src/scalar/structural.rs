@@ -1,7 +1,7 @@
 //! Arithmetic that a structural zero or one saves: what the formulas do not
 //! need is never computed, in any scalar.
 
-use super::Scalar;
+use super::{Divide, Scalar};
 
 /// `a · b`, not made when a factor is zero or one by structure.
 pub fn times<S: Scalar>(a: &S, b: &S) -> S {
@@ -13,6 +13,17 @@ pub fn times<S: Scalar>(a: &S, b: &S) -> S {
         a.clone()
     } else {
         a.mul(b)
+    }
+}
+
+/// `a / b`, not made when the dividend is zero or the divisor one by structure.
+pub fn over<S: Divide>(a: &S, b: &S) -> S {
+    if a.is_zero() {
+        S::zero()
+    } else if b.is_one() {
+        a.clone()
+    } else {
+        a.div(b)
     }
 }
 

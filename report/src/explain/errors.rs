@@ -132,9 +132,7 @@ fn formula(
     let input = |input| match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
-        Input::Position(joint) => state.q[joint],
-        Input::Velocity(joint) => state.qd[joint],
-        Input::Acceleration(joint) => state.qdd[joint],
+        Input::Entry(argument, joint) => state.entry(argument, joint),
     };
     let motion = setting.motion(input, f64::nearest);
     let results = function.evaluate(formulation, arm, &motion);

@@ -54,6 +54,7 @@ fn prints(graph: &Graph) -> Option<Vec<Print>> {
             Node::Sum(a, b) => prints[a.index()].add(&prints[b.index()]),
             Node::Difference(a, b) => prints[a.index()].sub(&prints[b.index()]),
             Node::Product(a, b) => prints[a.index()].mul(&prints[b.index()]),
+            Node::Quotient(a, b) => prints[a.index()].div(&prints[b.index()]),
         };
         prints.push(print);
     }

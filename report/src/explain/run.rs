@@ -44,9 +44,7 @@ impl<T: Machine> Runner<T> {
         };
         let at = |values: &[f64], joint: usize| values.get(joint).map(|&x| T::literal(x));
         let input = |input: &Input| match *input {
-            Input::Position(joint) => at(&state.q, joint),
-            Input::Velocity(joint) => at(&state.qd, joint),
-            Input::Acceleration(joint) => at(&state.qdd, joint),
+            Input::Entry(argument, joint) => at(state.of(argument), joint),
             Input::Sin(angle) => pair(angle).map(|(sin, _)| sin),
             Input::Cos(angle) => pair(angle).map(|(_, cos)| cos),
         };

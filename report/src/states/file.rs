@@ -18,7 +18,7 @@ fn given() -> impl Iterator<Item = (&'static str, Quantity)> {
 
 /// Every key of a state.
 fn keys() -> Vec<&'static str> {
-    let joints = Argument::ALL.into_iter().map(Argument::name);
+    let joints = Argument::ALL.into_iter().filter_map(Argument::given);
     joints.chain(given().map(|(key, _)| key)).collect()
 }
 
@@ -28,9 +28,11 @@ fn results() -> String {
     keys.join(", ")
 }
 
+/// The torques that drive an arm, unlike those that a motion takes.
+const TORQUE: &str = "torque";
+
 /// What other libraries call the same thing.
-const OTHER_WORDS: [(&str, &str); 34] = [
-    ("torque", "tau"),
+const OTHER_WORDS: [(&str, &str); 33] = [
     ("torques", "tau"),
     ("effort", "tau"),
     ("efforts", "tau"),
@@ -144,6 +146,8 @@ fn state(value: &Value, n: usize) -> Result<GivenState, String> {
             q,
             qd: vector(keys, "qd", n)?.unwrap_or_else(|| vec![0.0; n]),
             qdd: vector(keys, "qdd", n)?.unwrap_or_else(|| vec![0.0; n]),
+            tau: vector(keys, TORQUE, n)?.unwrap_or_default(),
+            ..JointState::default()
         },
         known: Default::default(),
     };
@@ -151,11 +155,19 @@ fn state(value: &Value, n: usize) -> Result<GivenState, String> {
         let Some(values) = vector(keys, key, quantity.len(n))? else {
             continue;
         };
-        let mut needs = quantity.arguments().iter().map(|argument| argument.name());
+        let arguments = quantity.arguments().iter();
+        let mut needs = arguments.filter_map(|argument| argument.given());
         if let Some(missing) = needs.find(|need| !keys.contains_key(*need)) {
             return Err(format!("`{missing}` is missing, which `{key}` depends on"));
         }
         given.known.insert(quantity, values);
+    }
+    let mut read = given.known.keys().flat_map(|quantity| quantity.arguments());
+    if keys.contains_key(TORQUE) && !read.any(|argument| *argument == Argument::Torque) {
+        return Err(format!(
+            "`{TORQUE}` is what `forward_dynamics` reads, and the state does not give that\n  \
+             = help: torques that q, qd and qdd give are `tau`"
+        ));
     }
     Ok(given)
 }

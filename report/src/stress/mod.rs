@@ -6,7 +6,6 @@
 //! - [`rounding`]: a robot with its parameters rounded to a scalar
 //! - [`scale`]: states of given magnitudes, and the torques to be met there
 //! - [`deviation`]: errors in u, normwise and for each joint
-//! - [`condition`]: how close an inertia matrix is to singular
 //! - [`robots`], [`states`]: extremes made out of a robot
 //! - [`category`]: the matrix of them, and what each is held to
 //! - [`report`]: the matrix run on one robot
@@ -16,7 +15,6 @@
 //! The measured table of worst errors is in `README.md` of this folder.
 
 pub mod category;
-pub mod condition;
 pub mod deviation;
 pub mod growth;
 pub mod report;

@@ -3,7 +3,6 @@
 use dalembert_model::robot::Robot;
 
 use super::category::{Category, Criterion};
-use super::condition::Condition;
 use super::deviation::{Deviation, Measure};
 use super::scale;
 use super::subject::{Code, Subject};
@@ -12,6 +11,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::JointState;
+use dalembert_codegen::verify::condition::Condition;
 
 /// How thorough a run is.
 #[derive(Clone, Debug)]

@@ -26,17 +26,10 @@ pub fn magnitudes(robot: &Robot, state: &JointState) -> JointState {
                 .filter(|(j, _)| j.kind == kind);
             same.fold(0.0f64, |most, (_, x)| most.max(x.abs()))
         };
-        robot
-            .joints
-            .iter()
-            .map(|joint| largest(joint.kind))
-            .collect()
+        let joints = robot.joints.iter().take(values.len());
+        joints.map(|joint| largest(joint.kind)).collect()
     };
-    JointState {
-        q: of(&state.q),
-        qd: of(&state.qd),
-        qdd: of(&state.qdd),
-    }
+    JointState::new(|argument| of(state.of(argument)))
 }
 
 /// States drawn evenly within bounds; the same on every machine.
@@ -49,11 +42,7 @@ pub fn draw(bounds: &JointState, count: usize, seed: u64) -> Vec<JointState> {
             .collect()
     };
     (0..count)
-        .map(|_| JointState {
-            q: within(&bounds.q),
-            qd: within(&bounds.qd),
-            qdd: within(&bounds.qdd),
-        })
+        .map(|_| JointState::new(|argument| within(bounds.of(argument))))
         .collect()
 }
 
@@ -78,6 +67,7 @@ pub fn torques(robot: &Robot, states: &[JointState]) -> Vec<f64> {
                 q: state.q.clone(),
                 qd: rates(),
                 qdd: rates(),
+                ..JointState::default()
             }
         })
         .collect();

@@ -90,11 +90,7 @@ fn run<T: Float>(
 ) -> Result<Vec<f64>, WrongLength> {
     let vector =
         |values: &[f64]| DVector::from_iterator(values.len(), values.iter().map(|x| narrow(*x)));
-    let at = JointVectors {
-        q: vector(&state.q),
-        qd: vector(&state.qd),
-        qdd: vector(&state.qdd),
-    };
+    let at = JointVectors::new(|argument| vector(state.of(argument)));
     let mut results = Vec::new();
     for quantity in function.quantities() {
         results.extend(quantity.runtime(runtime, &at)?);

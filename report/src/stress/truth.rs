@@ -7,7 +7,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
 
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::program::{AngleSum, Input};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::JointState;
@@ -37,8 +37,10 @@ impl Truth {
     /// The results of a function over the setting's rows, flat; `None` at a
     /// state that is not finite.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
-        let values = state.q.iter().chain(&state.qd).chain(&state.qdd);
-        if values.into_iter().any(|x| !x.is_finite()) {
+        let mut values = Argument::ALL
+            .iter()
+            .flat_map(|&argument| state.of(argument));
+        if values.any(|x| !x.is_finite()) {
             return None;
         }
         let finite = |x: f64| Big::from_f64(x).unwrap_or_else(Big::zero);
@@ -57,9 +59,7 @@ impl Truth {
         let input = |input| match input {
             Input::Sin(sum) => pair(sum).0,
             Input::Cos(sum) => pair(sum).1,
-            Input::Position(joint) => finite(state.q[joint]),
-            Input::Velocity(joint) => finite(state.qd[joint]),
-            Input::Acceleration(joint) => finite(state.qdd[joint]),
+            Input::Entry(argument, joint) => finite(state.entry(argument, joint)),
         };
         let setting = &self.setting;
         let motion = setting.motion(input, number);

@@ -39,6 +39,7 @@ fn extreme(json: &Value) -> Extreme {
             q: numbers(&json["q"]),
             qd: numbers(&json["qd"]),
             qdd: numbers(&json["qdd"]),
+            ..JointState::default()
         },
         tau: json["tau"].as_array().unwrap().iter().map(text).collect(),
     }

@@ -4,6 +4,8 @@
 //! takes them in the same way; so the statements in the order of the text are
 //! the program, and only the names of the wrapping are to be checked.
 
+use crate::function::Argument;
+
 /// What is open at a line.
 #[derive(Default)]
 pub(super) enum Wrap {
@@ -96,7 +98,7 @@ fn call(head: &str) -> Result<String, String> {
     let mut arguments = String::new();
     for array in arrays.split(", ").filter(|array| !array.is_empty()) {
         let (name, _) = array.split_once(": ").ok_or_else(no_head)?;
-        if !["q", "qd", "qdd"].contains(&name) {
+        if Argument::from_name(name).is_none() {
             return Err(no_head());
         }
         arguments += &format!("{name}, ");

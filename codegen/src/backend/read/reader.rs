@@ -2,6 +2,7 @@
 
 use crate::backend::read::part::Wrap;
 use crate::backend::read::sines::Block;
+use crate::function::Argument;
 use crate::program::text::input_name;
 use crate::program::{
     AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, Operation, Output, ScalarType, Step,
@@ -136,13 +137,9 @@ impl Reader {
     }
 
     fn operand(&self, word: &str) -> Result<Operand<Literal>, String> {
-        for (array, input) in [
-            ("qdd", Input::Acceleration as fn(usize) -> Input),
-            ("qd", Input::Velocity),
-            ("q", Input::Position),
-        ] {
-            if let Some(joint) = index_of(word, array) {
-                return Ok(Operand::Input(input(joint)));
+        for argument in Argument::ALL {
+            if let Some(joint) = index_of(word, argument.name()) {
+                return Ok(Operand::Input(Input::Entry(argument, joint)));
             }
         }
         if let Some(step) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {

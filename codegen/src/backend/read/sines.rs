@@ -80,8 +80,10 @@ impl Block {
         let [left, symbol, right] = words.as_slice() else {
             return Err(format!("`{value}` is not one operation"));
         };
-        let operation =
-            Operation::from_symbol(symbol).ok_or_else(|| format!("`{symbol}` is no operation"))?;
+        // A polynomial does not divide.
+        let operation = Operation::from_symbol(symbol)
+            .filter(|operation| *operation != Operation::Div)
+            .ok_or_else(|| format!("`{symbol}` is no operation of a polynomial"))?;
         let (left, right) = (self.term(left, scalar)?, self.term(right, scalar)?);
         self.kernel.push(operation, left, right);
         Ok(())

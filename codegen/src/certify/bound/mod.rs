@@ -123,6 +123,7 @@ pub fn relative(x: f64, scale: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::bound::interval::Interval;
+    use crate::function::Argument;
     use crate::graph::builder::Value;
     use crate::graph::{Builder, Folding};
     use crate::program::{AngleSum, Input};
@@ -132,7 +133,7 @@ mod tests {
     #[test]
     fn what_never_moves_is_bounded_by_nothing() {
         let mut builder = Builder::new(Folding::Syntactic);
-        let rate = builder.input(Input::Velocity(0));
+        let rate = builder.input(Input::Entry(Argument::Velocity, 0));
         let cosine = builder.input(Input::Cos(AngleSum::joint(0)));
         let load = builder.mul(&rate, &cosine);
         let graph = builder.finish(&[load]);
@@ -159,7 +160,7 @@ mod tests {
     #[test]
     fn an_error_without_angles_is_bounded() {
         let mut builder = Builder::new(Folding::Syntactic);
-        let rate = builder.input(Input::Acceleration(0));
+        let rate = builder.input(Input::Entry(Argument::Acceleration, 0));
         let small = Rational::new(4.into(), 100_000.into());
         let error = builder.mul(&rate, &Value::Constant(Exact::from(small)));
         let graph = builder.finish(&[error]);

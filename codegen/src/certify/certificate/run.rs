@@ -142,6 +142,7 @@ fn corner(limits: &InputBox, index: usize, random: &mut Random) -> JointState {
         q: limits.position.iter().map(&mut end).collect(),
         qd: limits.velocity.iter().map(&mut end).collect(),
         qdd: limits.acceleration.iter().map(&mut end).collect(),
+        ..JointState::default()
     }
 }
 
@@ -173,6 +174,7 @@ fn held(
         q: hold(&state.q, &limits.position)?,
         qd: hold(&state.qd, &limits.velocity)?,
         qdd: hold(&state.qdd, &limits.acceleration)?,
+        ..JointState::default()
     };
     let mut all = state.q.iter().chain(&state.qd).chain(&state.qdd);
     all.all(|x| x.is_finite()).then_some(state)

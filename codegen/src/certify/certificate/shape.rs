@@ -133,9 +133,11 @@ impl Checker<'_> {
                 let wrong = terms.find_map(|(joint, _)| of(joint, Some(JointKind::Revolute)));
                 (Argument::Position, wrong)
             }
-            Input::Position(joint) => (Argument::Position, of(joint, Some(JointKind::Prismatic))),
-            Input::Velocity(joint) => (Argument::Velocity, of(joint, None)),
-            Input::Acceleration(joint) => (Argument::Acceleration, of(joint, None)),
+            Input::Entry(argument, joint) => {
+                let slides = argument == Argument::Position;
+                let kind = slides.then_some(JointKind::Prismatic);
+                (argument, of(joint, kind))
+            }
         };
         let missing = !self.emitted.arguments.contains(&argument);
         wrong.or(missing.then_some(WrongInput::NoArgument))

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Forms, Monomial, Work};
 use crate::bound::interval::Interval;
+use crate::function::Argument;
 use crate::graph::{Graph, Node};
 use crate::program::{AngleSum, Input};
 
@@ -54,6 +55,8 @@ impl Forms {
                         forms.work.push(work(out, x));
                     }
                 }
+                // No polynomial.
+                Node::Quotient(..) => return None,
                 Node::Product(a, b) => {
                     products += slots[a.index()].len() * slots[b.index()].len();
                     if rates && products > MOST_PRODUCTS {
@@ -88,8 +91,8 @@ impl Forms {
     fn leaf(&self, input: Input) -> Monomial {
         let n = self.joints;
         match input {
-            Input::Velocity(joint) if self.rates => [0, joint as u8 + 1],
-            Input::Acceleration(joint) if self.rates => [0, (n + joint) as u8 + 1],
+            Input::Entry(Argument::Velocity, joint) if self.rates => [0, joint as u8 + 1],
+            Input::Entry(Argument::Acceleration, joint) if self.rates => [0, (n + joint) as u8 + 1],
             _ => [0; 2],
         }
     }
@@ -98,7 +101,7 @@ impl Forms {
 fn position_joints(input: Input) -> impl Iterator<Item = usize> {
     let (angle, slide) = match input {
         Input::Sin(angle) | Input::Cos(angle) => (Some(angle), None),
-        Input::Position(joint) => (None, Some(joint)),
+        Input::Entry(Argument::Position, joint) => (None, Some(joint)),
         _ => (None, None),
     };
     let turned = angle.into_iter().flat_map(AngleSum::terms);

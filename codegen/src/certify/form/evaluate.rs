@@ -3,6 +3,7 @@
 use super::{Forms, Scratch, Work};
 use crate::bound::interval::Interval;
 use crate::certify::input_box::InputBox;
+use crate::function::Argument;
 use crate::program::Input;
 
 impl Forms {
@@ -42,7 +43,7 @@ impl Forms {
 
     fn evaluate_leaf(&self, out: usize, input: Input, sub: &InputBox, values: &mut [Interval]) {
         match input {
-            Input::Velocity(_) | Input::Acceleration(_) => {
+            Input::Entry(Argument::Velocity | Argument::Acceleration, _) => {
                 // As a variable its coefficient is one.
                 values[out] = if self.rates {
                     Interval::ONE

@@ -41,6 +41,7 @@ use std::f64::consts::PI;
 use super::expand::{Key, Polynomial, rates};
 use super::input_box::InputBox;
 use crate::bound::interval::Interval;
+use crate::function::Argument;
 use crate::graph::{Graph, Node};
 use crate::program::Input;
 use crate::random::Random;
@@ -99,7 +100,7 @@ impl Closeness {
 pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
     let mut sliding = vec![false; joints];
     for node in &graph.nodes {
-        if let Node::Input(Input::Position(joint)) = node {
+        if let Node::Input(Input::Entry(Argument::Position, joint)) = node {
             sliding[*joint] = true;
         }
     }

@@ -238,6 +238,7 @@ fn operate(op: Op, before: &[f64], m: usize, out: &mut [f64]) {
         Operation::Add => x + y,
         Operation::Sub => x - y,
         Operation::Mul => x * y,
+        Operation::Div => x / y,
     };
     match (op.left, op.right) {
         (Value::Node(a, _), Value::Node(b, _)) => {
@@ -246,6 +247,7 @@ fn operate(op: Op, before: &[f64], m: usize, out: &mut [f64]) {
                 Operation::Add => zip(out, a, b, |x, y| x + y),
                 Operation::Sub => zip(out, a, b, |x, y| x - y),
                 Operation::Mul => zip(out, a, b, |x, y| x * y),
+                Operation::Div => zip(out, a, b, |x, y| x / y),
             }
         }
         (Value::Node(a, _), Value::Known(c)) => {
@@ -282,8 +284,6 @@ fn at(input: Input, state: &JointState) -> f64 {
     match input {
         Input::Sin(sum) => libm::sin(angle(sum)),
         Input::Cos(sum) => libm::cos(angle(sum)),
-        Input::Position(joint) => state.q[joint],
-        Input::Velocity(joint) => state.qd[joint],
-        Input::Acceleration(joint) => state.qdd[joint],
+        Input::Entry(argument, joint) => state.entry(argument, joint),
     }
 }

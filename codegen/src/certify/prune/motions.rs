@@ -53,6 +53,7 @@ impl Motions {
                 q: q.clone(),
                 qd: vec![0.0; self.joints],
                 qdd: vec![0.0; self.joints],
+                ..JointState::default()
             };
             let mut push = |set: &dyn Fn(&mut JointState)| {
                 let mut state = rest.clone();

@@ -136,7 +136,7 @@ fn expression(program: &Program, operand: &Operand, depth: usize) -> (String, St
         }
     };
     let (least, strength) = match step.operation {
-        Operation::Mul => ([Strength::Product; 2], Strength::Product),
+        Operation::Mul | Operation::Div => ([Strength::Product; 2], Strength::Product),
         Operation::Add => ([Strength::Sum; 2], Strength::Sum),
         Operation::Sub => ([Strength::Sum, Strength::Product], Strength::Sum),
     };

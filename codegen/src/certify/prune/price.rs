@@ -156,7 +156,7 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
-    use crate::function::Function;
+    use crate::function::{Argument, Function};
     use crate::graph::rules::folding::BY_SHAPE;
     use crate::graph::rules::pattern::{Algebra, Pattern, is_constant};
     use crate::graph::{Builder, Folding, Value as Symbol};
@@ -170,7 +170,7 @@ mod tests {
 
     impl Unfolded {
         fn constant(&mut self, value: f64) -> Symbol {
-            let input = Input::Acceleration(self.known.len());
+            let input = Input::Entry(Argument::Acceleration, self.known.len());
             self.known.push((input, value));
             self.builder.input(input)
         }
@@ -204,7 +204,9 @@ mod tests {
         for (joint, name) in pattern.variables().into_iter().enumerate() {
             let value = match is_constant(name) {
                 true => unfolded.constant(3.5 + joint as f64),
-                false => unfolded.builder.input(Input::Velocity(joint)),
+                false => unfolded
+                    .builder
+                    .input(Input::Entry(Argument::Velocity, joint)),
             };
             values.insert(name, value);
         }

@@ -99,6 +99,14 @@ fn adjoints(
                 let y = read(builder, values, &step.right);
                 [builder.mul(&adjoint, &y), builder.mul(&adjoint, &x)]
             }
+            Operation::Div => {
+                let x = read(builder, values, &step.left);
+                let y = read(builder, values, &step.right);
+                let by_left = builder.div(&adjoint, &y);
+                let quotient = builder.div(&x, &y);
+                let by_right = builder.mul(&by_left, &quotient);
+                [by_left, builder.negate_if(&by_right, true)]
+            }
         };
         for (operand, part) in [&step.left, &step.right].into_iter().zip(parts) {
             pass(operand, part, &mut steps, &mut sines, builder);

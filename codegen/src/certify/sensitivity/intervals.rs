@@ -92,7 +92,7 @@ pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) ->
     match step.operation {
         Operation::Mul => constants.iter().any(power),
         Operation::Add => step.left == step.right,
-        Operation::Sub => false,
+        Operation::Sub | Operation::Div => false,
     }
 }
 
@@ -137,6 +137,8 @@ pub(in crate::certify) fn forward(
             Operation::Sub => (x - y, 0.0),
             Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
             Operation::Mul => (x * y, underflow(scalar)),
+            // No certificate is about a quotient: nothing is known of it.
+            Operation::Div => (Interval::ALL, underflow(scalar)),
         };
         let rounding = match is_exact(step, known) {
             true => eta,
@@ -230,6 +232,7 @@ fn over(
                 Operation::Add => (adjoint, adjoint),
                 Operation::Sub => (adjoint, -adjoint),
                 Operation::Mul => (adjoint * y, adjoint * x),
+                Operation::Div => (Interval::ALL, Interval::ALL),
             };
             for (operand, error, part) in
                 [(&step.left, x_error, left), (&step.right, y_error, right)]

@@ -72,6 +72,7 @@ pub(super) fn rounding(
                 let moved = x.value * y.error + y.value * x.error + x.error * y.error;
                 (moved, underflow(scalar))
             }
+            Operation::Div => (f64::INFINITY, underflow(scalar)),
         };
         let rounding = match is_exact(step, &constants.steps()[index]) {
             true => eta,
@@ -118,6 +119,7 @@ pub(super) fn rounding(
                     [mixed * y.value, mixed * (x.value + x.error)],
                     [off_here * y.value, off_here * x.value + mixed * x.error],
                 ),
+                Operation::Div => ([f64::INFINITY; 2], [f64::INFINITY; 2]),
             };
             for ((operand, of), (part, off_there)) in [(&step.left, x), (&step.right, y)]
                 .into_iter()

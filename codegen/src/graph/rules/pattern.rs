@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use dalembert_model::number::{Exact, Rational};
 
+use crate::function::Argument;
 use crate::graph::{Builder, Folding, Graph, Value};
 use crate::program::Input;
 
@@ -27,7 +28,7 @@ pub(crate) trait Algebra {
     fn number(&mut self, number: u64) -> Self::Value;
     /// −a
     fn neg(&mut self, a: &Self::Value) -> Self::Value;
-    /// a + b, a − b or a · b.
+    /// a + b, a − b, a · b or a / b.
     fn operate(&mut self, symbol: &str, a: &Self::Value, b: &Self::Value) -> Self::Value;
 }
 
@@ -53,7 +54,7 @@ impl Pattern {
             };
         }
         let name = words.next().expect("an operation");
-        let known = ["+", "-", "*", "neg"]
+        let known = ["+", "-", "*", "/", "neg"]
             .into_iter()
             .find(|known| *known == name);
         let name = known.unwrap_or_else(|| panic!("`{name}` is no operation"));
@@ -139,7 +140,7 @@ pub(crate) fn graph(outputs: &[&str]) -> Graph {
         let mut variables = HashMap::new();
         for name in pattern.variables() {
             let joint = name as usize - 'a' as usize;
-            variables.insert(name, builder.input(Input::Velocity(joint)));
+            variables.insert(name, builder.input(Input::Entry(Argument::Velocity, joint)));
         }
         values.push(pattern.evaluate(&mut InBuilder(&mut builder), &variables));
     }

@@ -85,6 +85,66 @@ pub const SATURATION: &[(Phase, Rule)] = &[
             "signs leave products",
         ),
     ),
+    // (−a)/b = −(a/b)
+    (
+        Phase::Sign,
+        Rule::new(
+            "neg-in-dividend",
+            "(/ (neg ?a) ?b)",
+            "(neg (/ ?a ?b))",
+            "signs leave quotients; the divisor stays",
+        ),
+    ),
+    // a/(−b) = −(a/b)
+    (
+        Phase::Sign,
+        Rule::new(
+            "neg-in-divisor",
+            "(/ ?a (neg ?b))",
+            "(neg (/ ?a ?b))",
+            "signs leave quotients; the divisor stays but for its sign",
+        ),
+    ),
+    // a/c + b/c = (a + b)/c
+    (
+        Phase::Factor,
+        Rule::new(
+            "add-quotients",
+            "(+ (/ ?a ?c) (/ ?b ?c))",
+            "(/ (+ ?a ?b) ?c)",
+            "distributive law; the divisor stays",
+        ),
+    ),
+    // a/c − b/c = (a − b)/c
+    (
+        Phase::Factor,
+        Rule::new(
+            "sub-quotients",
+            "(- (/ ?a ?c) (/ ?b ?c))",
+            "(/ (- ?a ?b) ?c)",
+            "distributive law; the divisor stays",
+        ),
+    ),
+    // (a·b)/c = a·(b/c)
+    (
+        Phase::Regroup,
+        Rule::new(
+            "div-associates",
+            "(/ (* ?a ?b) ?c)",
+            "(* ?a (/ ?b ?c))",
+            "multiplication by 1/c associates; the divisor stays",
+        ),
+    ),
+    // a·(b/c) = (a·b)/c
+    (
+        Phase::Regroup,
+        Rule::new(
+            "mul-quotient",
+            "(* ?a (/ ?b ?c))",
+            "(/ (* ?a ?b) ?c)",
+            "multiplication by 1/c associates; the divisor stays",
+        ),
+    ),
     // a·b + a·c = a·(b + c)
     (
         Phase::Factor,

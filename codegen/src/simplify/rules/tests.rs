@@ -4,10 +4,11 @@
 use std::collections::HashMap;
 
 use dalembert_model::number::{Exact, Rational};
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points as FieldPoints};
+use dalembert_model::scalar::{Divide, Scalar};
 
 use super::{DISCOVERY, SATURATION};
+use crate::function::Argument;
 use crate::graph::rules::Rule;
 use crate::graph::rules::folding::{BY_FINGERPRINT, BY_SHAPE, NORMAL_FORM};
 use crate::graph::rules::pattern::{Algebra, InBuilder, Pattern, is_constant};
@@ -31,6 +32,7 @@ impl Algebra for InField {
         match symbol {
             "+" => a.add(b),
             "-" => a.sub(b),
+            "/" => a.div(b),
             _ => a.mul(b),
         }
     }
@@ -52,7 +54,7 @@ fn in_builder(
     for (joint, &name) in names.iter().enumerate() {
         let value = match is_constant(name) {
             true => Value::Constant(constant(points)),
-            false => builder.input(Input::Velocity(joint)),
+            false => builder.input(Input::Entry(Argument::Velocity, joint)),
         };
         values.insert(name, value);
     }

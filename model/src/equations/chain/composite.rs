@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::recursion::{Couple, Motion, Spin};
+use super::twist::Twist;
 use super::{Body, Chain, Displacement};
 use crate::equations::matrix::{
     Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, zero_vector,
@@ -26,21 +27,12 @@ pub enum Travel {
     Inward,
 }
 
-/// The unit twist of a joint seen from a later frame.
-#[derive(Clone, Debug)]
-struct Twist<S> {
-    /// Angular part.
-    turn: Vector<S>,
-    /// Velocity of the frame's origin.
-    shift: Vector<S>,
-}
-
 /// Composite bodies and joint twists at one position.
 #[derive(Clone, Debug)]
 pub struct Composite<'a, S> {
-    chain: &'a Chain<S>,
-    at: &'a [Displacement<S>],
-    bodies: Vec<Body<S>>,
+    pub(super) chain: &'a Chain<S>,
+    pub(super) at: &'a [Displacement<S>],
+    pub(super) bodies: Vec<Body<S>>,
     /// `twists[m][i]`, i < m: joint i seen from frame m.
     twists: Vec<Vec<Twist<S>>>,
 }
@@ -66,11 +58,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         bodies.reverse();
         let mut twists: Vec<Vec<Twist<S>>> = Vec::with_capacity(chain.links.len());
         for (m, link) in chain.links.iter().enumerate() {
-            let lever = link.lever(&at[m]);
-            let seen = |twist: &Twist<S>| Twist {
-                turn: link.inward(&at[m], &twist.turn),
-                shift: link.inward(&at[m], &sum(&twist.shift, &cross(&twist.turn, &lever))),
-            };
+            let seen = |twist: &Twist<S>| twist.outward(link, &at[m]);
             let mut row: Vec<Twist<S>> = Vec::with_capacity(m);
             if m > 0 {
                 row.extend(twists[m - 1].iter().map(seen));
@@ -87,7 +75,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// Force and moment of a unit acceleration of joint k on its composite.
-    fn momentum(&self, k: usize) -> (Vector<S>, Vector<S>) {
+    pub(super) fn momentum(&self, k: usize) -> (Vector<S>, Vector<S>) {
         let (link, body) = (&self.chain.links[k], &self.bodies[k]);
         match link.kind {
             JointKind::Revolute => {
@@ -215,14 +203,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             // The motion of frame i with its own joint at rest.
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
-            let force = sum(
-                &scaled(&body.mass, &still.acceleration),
-                &still.u_times(&body.first),
-            );
-            let moment = sum(
-                &still.couple(body, Couple::SecondMoments),
-                &cross(&body.first, &still.acceleration),
-            );
+            let (force, moment) = still.wrench(body, Couple::SecondMoments);
             own.push(chain.load(i, &force, &moment));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
             let mut turn = still.omega.clone().map(|x| twice(&x));
@@ -277,7 +258,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// The unit twist of joint i seen from frame m ≥ i.
-    fn twist(&self, i: usize, m: usize) -> Twist<S> {
+    pub(super) fn twist(&self, i: usize, m: usize) -> Twist<S> {
         if i == m {
             own_twist(self.chain, m)
         } else {
@@ -287,13 +268,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
 
     /// What joint i feels of a wrench about the origin of frame m.
     fn project(&self, i: usize, m: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
-        let twist = self.twist(i, m);
-        let power = plus(&dot(&twist.turn, moment), &dot(&twist.shift, force));
-        self.in_metres(i, power)
+        self.in_metres(i, self.twist(i, m).power(force, moment))
     }
 
     /// A load or rate of a slide, back from the chain's unit of length.
-    fn in_metres(&self, joint: usize, value: S) -> S {
+    pub(super) fn in_metres(&self, joint: usize, value: S) -> S {
         match self.chain.links[joint].kind {
             JointKind::Revolute => value,
             JointKind::Prismatic => times(&value, &self.chain.per_unit),

@@ -6,21 +6,26 @@
 //! - [`gauge`]: the freedom that leaves the dynamics alone: where an origin
 //!   lies on its axis, which parameters a link keeps, the unit of length
 //! - [`pose`]: the chain at a position; the axes in which each link is seen
-//! - `momentum`: energies and momenta
+//! - `momentum`: energies and momenta; `twist`: twists and wrenches
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
+//! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
+//! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
 //! `README.md` beside this file derives each from the textbook form.
 
 pub mod body;
 pub mod composite;
+pub mod derivatives;
 mod form;
 pub mod gauge;
 mod momentum;
+mod passivity;
 pub mod pose;
 pub mod recursion;
 pub mod skeleton;
+mod twist;
 
 use alloc::vec::Vec;
 

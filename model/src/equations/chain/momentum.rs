@@ -13,11 +13,11 @@ use crate::scalar::Scalar;
 
 /// The velocity of one link, in its own axes.
 #[derive(Clone, Debug)]
-struct Velocity<S> {
+pub(super) struct Velocity<S> {
     /// ω
-    omega: Vector<S>,
+    pub(super) omega: Vector<S>,
     /// v of the origin.
-    origin: Vector<S>,
+    pub(super) origin: Vector<S>,
 }
 
 impl<S: Scalar> Velocity<S> {
@@ -47,7 +47,7 @@ impl<S: Scalar> Velocity<S> {
 }
 
 /// I = tr(Σ)·1 − Σ
-fn tensor<S: Scalar>(body: &Body<S>) -> Inertia<S> {
+pub(super) fn tensor<S: Scalar>(body: &Body<S>) -> Inertia<S> {
     let sigma = &body.second;
     Inertia {
         xx: plus(&sigma.yy, &sigma.zz),
@@ -60,7 +60,7 @@ fn tensor<S: Scalar>(body: &Body<S>) -> Inertia<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Velocity<S>> {
+    pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Velocity<S>> {
         let rates = self.rates(qd);
         let mut before = Velocity::rest();
         let mut velocities = Vec::with_capacity(self.links.len());

@@ -87,7 +87,7 @@ impl<S: Scalar> Motion<S> {
                 let (omega_dot, u) = match spin {
                     Spin::Column => {
                         let column = link.inward(at, &self.u_times(&axis));
-                        from_column(&omega, &along, column)
+                        from_column(|i, j| times(&omega[i], &omega[j]), &along, column)
                     }
                     Spin::Rates => {
                         let turned_dot = link.inward(at, &self.omega_dot);
@@ -110,8 +110,21 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
+    /// Force and moment of a body in this motion.
+    pub(super) fn wrench(&self, body: &Body<S>, couple: Couple) -> (Vector<S>, Vector<S>) {
+        let force = sum(
+            &scaled(&body.mass, &self.acceleration),
+            &self.u_times(&body.first),
+        );
+        let moment = sum(
+            &self.couple(body, couple),
+            &cross(&body.first, &self.acceleration),
+        );
+        (force, moment)
+    }
+
     /// ∫ r × (U r) dm
-    pub(super) fn couple(&self, body: &Body<S>, form: Couple) -> Vector<S> {
+    fn couple(&self, body: &Body<S>, form: Couple) -> Vector<S> {
         match form {
             Couple::SecondMoments => {
                 let sigma = &body.second;
@@ -160,14 +173,16 @@ impl<S: Scalar> Motion<S> {
 }
 
 /// ω̇ and U from ω, ω̇_z and the third column of U.
-fn from_column<S: Scalar>(
-    omega: &Vector<S>,
+///
+/// Nothing of ω is needed but its products, so those of two velocities do as
+/// well where U is to be bilinear in them.
+pub(super) fn from_column<S: Scalar>(
+    product: impl Fn(usize, usize) -> S,
     along: &S,
     column: Vector<S>,
 ) -> (Vector<S>, [Vector<S>; 3]) {
-    let [x, y, z] = omega;
-    let (xz, yz, xy) = (times(x, z), times(y, z), times(x, y));
-    let (xx, zz) = (times(x, x), times(z, z));
+    let (xz, yz, xy) = (product(0, 2), product(1, 2), product(0, 1));
+    let (xx, zz) = (product(0, 0), product(2, 2));
     // U_13 = ω_x ω_z + ω̇_y and U_23 = ω_y ω_z − ω̇_x.
     let omega_dot = [
         minus(&yz, &column[1]),
@@ -215,6 +230,48 @@ impl<S: Scalar> Chain<S> {
         spin: Spin,
         couple: Couple,
     ) -> Vec<S> {
+        let motions = self.motions(at, qd, qdd, spin);
+        let drive = |i: usize| {
+            let link = &self.links[i];
+            plus(
+                &times(&link.armature, &qdd[i]),
+                &times(&link.viscous, &qd[i]),
+            )
+        };
+        self.torques(at, &motions, couple, drive)
+    }
+
+    /// τ of links in motion, with what the drive of each joint adds.
+    pub(super) fn torques(
+        &self,
+        at: &[Displacement<S>],
+        motions: &[Motion<S>],
+        couple: Couple,
+        drive: impl Fn(usize) -> S,
+    ) -> Vec<S> {
+        let mut torques = Vec::with_capacity(self.links.len());
+        let (mut force, mut moment) = (zero_vector(), zero_vector());
+        for (i, link) in self.links.iter().enumerate().rev() {
+            let (body, motion) = (&link.body, &motions[i]);
+            let (own, own_moment) = motion.wrench(body, couple);
+            force = sum(&force, &own);
+            moment = sum(&moment, &own_moment);
+            let load = self.load(i, &force, &moment);
+            torques.push(plus(&load, &drive(i)));
+            (force, moment) = self.to_previous(i, &at[i], &force, &moment);
+        }
+        torques.reverse();
+        torques
+    }
+
+    /// The motion of every link.
+    pub(super) fn motions(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        spin: Spin,
+    ) -> Vec<Motion<S>> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
         let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
         let base = Motion::base(&self.gravity);
@@ -222,30 +279,7 @@ impl<S: Scalar> Chain<S> {
             let before = motions.last().unwrap_or(&base);
             motions.push(before.next(link, &at[i], &rates[i], &accelerations[i], spin));
         }
-        let mut torques = Vec::with_capacity(self.links.len());
-        let (mut force, mut moment) = (zero_vector(), zero_vector());
-        for (i, link) in self.links.iter().enumerate().rev() {
-            let (body, motion) = (&link.body, &motions[i]);
-            let own = sum(
-                &scaled(&body.mass, &motion.acceleration),
-                &motion.u_times(&body.first),
-            );
-            let own_moment = sum(
-                &motion.couple(body, couple),
-                &cross(&body.first, &motion.acceleration),
-            );
-            force = sum(&force, &own);
-            moment = sum(&moment, &own_moment);
-            let load = self.load(i, &force, &moment);
-            let drive = plus(
-                &times(&link.armature, &qdd[i]),
-                &times(&link.viscous, &qd[i]),
-            );
-            torques.push(plus(&load, &drive));
-            (force, moment) = self.to_previous(i, &at[i], &force, &moment);
-        }
-        torques.reverse();
-        torques
+        motions
     }
 
     /// The part of a wrench on link i that the joint feels.

@@ -190,9 +190,8 @@ impl Document {
         let rows: Option<Vec<usize>> = self.rows.iter().map(row).collect();
         let rows = rows.filter(|rows| rows.len() <= joints);
         let argument = |word: &String| {
-            let mut all = Argument::ALL.into_iter();
-            all.find(|argument| argument.name() == word)
-                .ok_or_else(|| format!("`arguments`: `{word}` is none of q, qd and qdd"))
+            let named = Argument::from_name(word).filter(|a| Argument::STATE.contains(a));
+            named.ok_or_else(|| format!("`arguments`: `{word}` is none of q, qd and qdd"))
         };
         Ok(Program {
             function,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::approximate::edits::Stage;
 use crate::approximate::text;
 use crate::certify::certificate::work;
-use crate::program::text::{read_results, read_step, write_operand};
+use crate::program::text::{read_results, read_step, without_quotient, write_operand};
 use crate::program::{Output, Program, Step};
 
 /// A program: an operation a line, and what is returned.
@@ -51,6 +51,7 @@ impl Listing {
         for (index, line) in self.steps.iter().enumerate() {
             let words: Vec<&str> = line.split(' ').collect();
             let read = read_step(&words, &program);
+            let read = read.and_then(without_quotient);
             let read = read.map_err(|why| format!("`{what}`, t{}: {why}", index + 1))?;
             program.steps.push(read);
         }

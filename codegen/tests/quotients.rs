@@ -1,0 +1,166 @@
+//! Programs that divide: what they divide by, that a wrong divisor is seen, and
+//! what is refused by name.
+
+mod support;
+
+use dalembert_codegen::certify::certificate::format;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Request, generate};
+use dalembert_codegen::program::{Operand, Operation, Program};
+use dalembert_codegen::verify::exact::prove;
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{Position, Robot};
+use dalembert_model::scene::{Scale, Scene, Tolerance};
+
+const INVERTING: [Function; 3] = [
+    Function::ForwardDynamics,
+    Function::InertiaInverse,
+    Function::ForwardDynamicsDerivatives,
+];
+
+fn program(robot: &Robot, function: Function) -> Program {
+    support::one(robot, function).functions.remove(0).program
+}
+
+fn quotients(program: &Program) -> Vec<usize> {
+    let steps = program.steps.iter().enumerate();
+    let quotients = steps.filter(|(_, step)| step.operation == Operation::Div);
+    quotients.map(|(index, _)| index).collect()
+}
+
+#[test]
+fn there_is_a_division_a_joint_at_most() {
+    for name in ["planar2r", "planar3r", "stanford", "puma560"] {
+        let robot = support::robot(name);
+        for function in &INVERTING[..2] {
+            let program = program(&robot, *function);
+            let divisions = quotients(&program).len();
+            assert!(
+                (1..=robot.joints.len()).contains(&divisions),
+                "{name} {divisions}"
+            );
+            assert_eq!(program.counts().div, divisions);
+        }
+    }
+}
+
+/// Another divisor, a quotient upside down, a product in its place.
+#[test]
+fn a_wrong_quotient_is_no_proof() {
+    let robot = support::robot("planar3r");
+    for function in INVERTING {
+        let right = program(&robot, function);
+        assert!(prove(&robot, &right).is_ok());
+        for index in quotients(&right) {
+            let mut upside_down = right.clone();
+            let step = &mut upside_down.steps[index];
+            std::mem::swap(&mut step.left, &mut step.right);
+            let mut product = right.clone();
+            product.steps[index].operation = Operation::Mul;
+            let mut other = right.clone();
+            other.steps[index].right = Operand::Step(0);
+            for wrong in [upside_down, product, other] {
+                assert!(prove(&robot, &wrong).is_err(), "{function} t{}", index + 1);
+            }
+        }
+    }
+}
+
+/// x/x·y is y but where x vanishes; 0/0 is nothing.
+#[test]
+fn a_divisor_that_is_zero_everywhere_proves_nothing() {
+    let robot = support::robot("planar2r");
+    let mut wrong = program(&robot, Function::ForwardDynamics);
+    let Some(index) = quotients(&wrong).pop() else {
+        panic!("forward dynamics divides");
+    };
+    let step = &mut wrong.steps[index];
+    step.right = Operand::Constant("0".parse().unwrap());
+    assert!(prove(&robot, &wrong).is_err());
+}
+
+#[test]
+fn an_arm_that_moves_no_inertia_is_refused_by_its_joint() {
+    let mut robot = support::robot("planar3r");
+    let last = robot.joints.len() - 1;
+    let zero = Rational::from_integer(0.into());
+    robot.joints[last].mass = zero.clone();
+    robot.joints[last].inertia = robot.joints[last].inertia.map(|_| zero.clone());
+    for function in INVERTING {
+        let request = Request {
+            functions: vec![function],
+            ..Request::default()
+        };
+        let Err(error @ GenerateError::Singular { .. }) = generate(&robot, &request) else {
+            panic!("{function} of a singular D");
+        };
+        let text = error.to_string();
+        assert!(text.contains(&robot.joint_label(last)), "{text}");
+        assert!(text.contains("moves no inertia"), "{text}");
+        // Held, it needs none.
+        let scene = Scene {
+            name: "held".into(),
+            lock: vec![(last, Position::Angle(Angle::PiTimes(zero.clone())))],
+            ..Scene::default()
+        };
+        let held = Request {
+            scene: Some(scene),
+            ..request
+        };
+        generate(&robot, &held).unwrap_or_else(|error| panic!("{function}: {error}"));
+    }
+    // Torques that it takes are another matter.
+    support::one(&robot, Function::InverseDynamics);
+}
+
+#[test]
+fn a_tolerance_is_refused_with_what_can_be_certified() {
+    let robot = support::robot("planar2r");
+    for function in [
+        Function::ForwardDynamics,
+        Function::InertiaInverse,
+        Function::Passivity,
+    ] {
+        let scene = Scene {
+            name: "near".into(),
+            tolerance: Some(Tolerance {
+                value: vec![Rational::new(1.into(), 100.into())],
+                relative_to: Scale::Range,
+            }),
+            ..Scene::default()
+        };
+        let request = Request {
+            functions: vec![function],
+            scene: Some(scene),
+            ..Request::default()
+        };
+        let Err(error) = generate(&robot, &request) else {
+            panic!("{function} within a tolerance");
+        };
+        let text = error.to_string();
+        assert!(text.contains(function.name()), "{text}");
+        assert!(
+            text.contains("give the tolerance to `inverse_dynamics`"),
+            "{text}"
+        );
+    }
+}
+
+/// Bounds are found of polynomials alone: a certificate whose program divides
+/// is no certificate, whatever else it says.
+#[test]
+fn a_certificate_with_a_quotient_is_not_read() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/certificates");
+    let file = folder.join("puma560-range-1e-2.json");
+    let text = std::fs::read_to_string(file).unwrap();
+    assert!(format::read(&text).is_ok());
+    let (step, divided) = ("\"t3 * qd[0]\"", "\"t3 / qd[0]\"");
+    assert!(text.contains(step));
+    let error = format::read(&text.replacen(step, divided, 1)).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("a quotient, of which no bound is known"),
+        "{error}"
+    );
+}

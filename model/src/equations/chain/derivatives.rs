@@ -1,0 +1,318 @@
+//! ∂τ/∂q and ∂τ/∂q̇ from composite bodies.
+//!
+//! What turning joint j does to all that follows it is, seen from the base,
+//! its twist Δ_j carried along: Δ_j itself changes at the rate V × Δ_j, and
+//! that at the rate of V again. With the composite body and the composite
+//! momentum of link i, both read at frame i, each entry of the two matrices is
+//! the power of a wrench on a twist. `README.md` derives it.
+
+use alloc::vec::Vec;
+
+use super::composite::{Composite, Travel};
+use super::momentum::{Velocity, tensor};
+use super::recursion::{Couple, Motion, Spin};
+use super::twist::Twist;
+use super::{Body, ChainLink, Displacement, Rotation};
+use crate::equations::matrix::{
+    Vector, cross, dot, minus, negative, plus, scaled, sum, tensor_times, times, twice, zero_vector,
+};
+use crate::equations::newton_euler::Wrench;
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// The slopes of the torques: row i has those of τ_i.
+#[derive(Clone, Debug)]
+pub struct Slopes<S> {
+    /// ∂τ/∂q
+    pub position: Vec<Vec<S>>,
+    /// ∂τ/∂q̇
+    pub velocity: Vec<Vec<S>>,
+}
+
+/// ∫ V dm and ∫ V rᵀ dm, row by row, of bodies in motion, V the velocity of
+/// the point r.
+#[derive(Clone, Debug)]
+struct Flow<S> {
+    momentum: Vector<S>,
+    moment: Rotation<S>,
+}
+
+/// What one joint and its composite body contribute.
+struct Joint<S> {
+    /// How the joint's twist changes, and how that changes.
+    drift: [Twist<S>; 2],
+    /// The wrench of a unit acceleration.
+    push: Wrench<S>,
+    /// What the rate of the composite gives along the joint for each turn of
+    /// all that it is part of.
+    swing: Vector<S>,
+    /// ∂τ_i/∂q_i, and the wrench that the joints before feel.
+    position: (S, Wrench<S>),
+    /// The same for q̇_i.
+    velocity: (S, Wrench<S>),
+}
+
+impl<S: Scalar> Composite<'_, S> {
+    /// ∂τ/∂q and ∂τ/∂q̇, each n×n.
+    pub fn slopes(&self, qd: &[S], qdd: &[S], travel: Travel) -> Slopes<S> {
+        let joints = self.own_slopes(qd, qdd);
+        let n = joints.len();
+        let blank = || alloc::vec![alloc::vec![S::zero(); n]; n];
+        let mut slopes = Slopes {
+            position: blank(),
+            velocity: blank(),
+        };
+        for (i, joint) in joints.iter().enumerate() {
+            slopes.position[i][i] = joint.position.0.clone();
+            slopes.velocity[i][i] = joint.velocity.0.clone();
+            match travel {
+                Travel::Inward => self.inward_slopes(i, &joints, &mut slopes),
+                Travel::Outward => self.outward_slopes(i, &joints, &mut slopes),
+            }
+        }
+        let chain = self.chain;
+        for matrix in [&mut slopes.position, &mut slopes.velocity] {
+            for (i, row) in matrix.iter_mut().enumerate() {
+                for (j, entry) in row.iter_mut().enumerate() {
+                    let entry_in_metres = self.in_metres(i, self.in_metres(j, entry.clone()));
+                    *entry = entry_in_metres;
+                }
+            }
+        }
+        for (i, link) in chain.links.iter().enumerate() {
+            slopes.velocity[i][i] = plus(&slopes.velocity[i][i], &link.viscous);
+        }
+        slopes
+    }
+
+    /// Wrenches of joint i come in to the joints before it.
+    fn inward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
+        let chain = self.chain;
+        let own = &joints[i];
+        let mut wrenches = [&own.position.1, &own.velocity.1, &own.push].map(Wrench::clone);
+        let mut swing = own.swing.clone();
+        for j in (0..i).rev() {
+            let (link, at) = (&chain.links[j + 1], &self.at[j + 1]);
+            wrenches = wrenches.map(|wrench| {
+                let (force, moment) = chain.to_previous(j + 1, at, &wrench.force, &wrench.moment);
+                Wrench { force, moment }
+            });
+            swing = link.outward(at, &swing);
+            let [position, velocity, push] = &wrenches;
+            let [first, second] = &joints[j].drift;
+            let twist = self.twist(j, j);
+            slopes.position[j][i] = position.along(&twist);
+            slopes.velocity[j][i] = velocity.along(&twist);
+            slopes.position[i][j] = plus(&dot(&swing, &first.turn), &push.along(second));
+            slopes.velocity[i][j] = plus(&dot(&swing, &twist.turn), &twice(&push.along(first)));
+        }
+    }
+
+    /// Twists of the joints before i, and how they change, go out to frame i.
+    fn outward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
+        let own = &joints[i];
+        for j in 0..i {
+            let twist = self.twist(j, i);
+            let [first, second] = joints[j].drift.each_ref().map(|drift| {
+                let chain = self.chain;
+                let out = |seen: Twist<S>, m: usize| seen.outward(&chain.links[m], &self.at[m]);
+                (j + 1..=i).fold(drift.clone(), out)
+            });
+            slopes.position[j][i] = own.position.1.along(&twist);
+            slopes.velocity[j][i] = own.velocity.1.along(&twist);
+            slopes.position[i][j] = plus(&dot(&own.swing, &first.turn), &own.push.along(&second));
+            slopes.velocity[i][j] = plus(
+                &dot(&own.swing, &twist.turn),
+                &twice(&own.push.along(&first)),
+            );
+        }
+    }
+
+    /// What each joint contributes by itself, from the hand inward.
+    fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
+        let chain = self.chain;
+        let velocities = chain.velocities(self.at, qd);
+        let motions = chain.motions(self.at, qd, qdd, Spin::Column);
+        let mut flow = Flow {
+            momentum: zero_vector(),
+            moment: [zero_vector(), zero_vector(), zero_vector()],
+        };
+        let mut load = Wrench {
+            force: zero_vector(),
+            moment: zero_vector(),
+        };
+        let mut joints = Vec::with_capacity(chain.links.len());
+        for (i, link) in chain.links.iter().enumerate().rev() {
+            flow = flow.with(&Flow::of(&link.body, &velocities[i]));
+            let (force, moment) = motions[i].wrench(&link.body, Couple::SecondMoments);
+            load = load.with(&Wrench { force, moment });
+            joints.push(self.own(i, &velocities[i], &motions[i], &flow, &load));
+            flow = flow.carried(link, &self.at[i]);
+            let (force, moment) = chain.to_previous(i, &self.at[i], &load.force, &load.moment);
+            load = Wrench { force, moment };
+        }
+        joints.reverse();
+        joints
+    }
+
+    fn own(
+        &self,
+        i: usize,
+        velocity: &Velocity<S>,
+        motion: &Motion<S>,
+        flow: &Flow<S>,
+        load: &Wrench<S>,
+    ) -> Joint<S> {
+        let (link, body) = (&self.chain.links[i], &self.bodies[i]);
+        let twist = self.twist(i, i);
+        let drift = drift(link, velocity, motion);
+        let (force, moment) = self.momentum(i);
+        let [first, second] = &drift;
+        let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
+        let turned = Wrench {
+            force: cross(&twist.turn, &load.force),
+            moment: sum(
+                &cross(&twist.turn, &load.moment),
+                &cross(&twist.shift, &load.force),
+            ),
+        };
+        let velocity = flow
+            .of_turn(&twist.turn)
+            .with(&inertial(body, &first.doubled()));
+        Joint {
+            push: Wrench { force, moment },
+            swing: flow.swing(link),
+            position: (changing.along(&twist), changing.with(&turned)),
+            velocity: (velocity.along(&twist), velocity),
+            drift,
+        }
+    }
+}
+
+/// V × Δ and what it becomes at the rate of V: for a joint that turns the
+/// third column of U, with what the origin's motion adds.
+fn drift<S: Scalar>(
+    link: &ChainLink<S>,
+    velocity: &Velocity<S>,
+    motion: &Motion<S>,
+) -> [Twist<S>; 2] {
+    let across = |v: &Vector<S>| [v[1].clone(), negative(&v[0]), S::zero()];
+    match link.kind {
+        JointKind::Revolute => {
+            let turn = across(&velocity.omega);
+            let shift = cross(&velocity.origin, &turn);
+            let second = Twist {
+                turn: motion.u[2].clone(),
+                shift: sum(&across(&motion.acceleration), &shift.each_ref().map(twice)),
+            };
+            let shift = across(&velocity.origin);
+            [Twist { turn, shift }, second]
+        }
+        JointKind::Prismatic => {
+            let slides = |shift: Vector<S>| Twist {
+                turn: zero_vector(),
+                shift,
+            };
+            [
+                slides(cross(&velocity.omega, &link.axis)),
+                slides(motion.u_times(&link.axis)),
+            ]
+        }
+    }
+}
+
+/// The wrench of an acceleration t + α × r of a body: m t + α × s, and
+/// s × t + I α with I = tr(Σ)·1 − Σ.
+fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
+    let Twist { turn, shift } = twist;
+    Wrench {
+        force: sum(&scaled(&body.mass, shift), &cross(turn, &body.first)),
+        moment: sum(
+            &tensor_times(&tensor(body), turn),
+            &cross(&body.first, shift),
+        ),
+    }
+}
+
+impl<S: Scalar> Flow<S> {
+    /// V = v + ω × r over one body: ∫ V dm = m v + ω × s and
+    /// ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
+    fn of(body: &Body<S>, velocity: &Velocity<S>) -> Self {
+        let Velocity { omega, origin } = velocity;
+        let sigma = &body.second;
+        let columns = [
+            [&sigma.xx, &sigma.xy, &sigma.xz],
+            [&sigma.xy, &sigma.yy, &sigma.yz],
+            [&sigma.xz, &sigma.yz, &sigma.zz],
+        ]
+        .map(|column| cross(omega, &column.map(S::clone)));
+        Flow {
+            momentum: sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
+            moment: core::array::from_fn(|row| {
+                core::array::from_fn(|column| {
+                    plus(
+                        &times(&origin[row], &body.first[column]),
+                        &columns[column][row],
+                    )
+                })
+            }),
+        }
+    }
+
+    fn with(&self, other: &Flow<S>) -> Self {
+        Flow {
+            momentum: sum(&self.momentum, &other.momentum),
+            moment: core::array::from_fn(|row| sum(&self.moment[row], &other.moment[row])),
+        }
+    }
+
+    /// In the axes of the frame before, r from its origin:
+    /// R (∫ V rᵀ dm) Rᵀ + (R ∫ V dm) pᵀ.
+    fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
+        let momentum = link.outward(at, &self.momentum);
+        // Rows turn as r, then columns as V.
+        let rows = self.moment.each_ref().map(|row| link.outward(at, row));
+        let column = |c: usize| link.outward(at, &rows.each_ref().map(|row| row[c].clone()));
+        let columns = [column(0), column(1), column(2)];
+        let lever = link.lever(at);
+        Flow {
+            moment: core::array::from_fn(|row| {
+                core::array::from_fn(|c| plus(&columns[c][row], &times(&momentum[row], &lever[c])))
+            }),
+            momentum,
+        }
+    }
+
+    /// Twice ∫ (α × V) dm, and its moment: 2 α × ∫ V dm, and with M = ∫ V rᵀ dm
+    /// 2 (tr(M) α − M α).
+    fn of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
+        let doubled = turn.each_ref().map(twice);
+        let m = &self.moment;
+        let component = |i: usize| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let main = times(&plus(&m[j][j], &m[k][k]), &doubled[i]);
+            let other = plus(&times(&m[i][j], &doubled[j]), &times(&m[i][k], &doubled[k]));
+            minus(&main, &other)
+        };
+        Wrench {
+            force: cross(&doubled, &self.momentum),
+            moment: [component(0), component(1), component(2)],
+        }
+    }
+
+    /// What [`Flow::of_turn`] gives along the joint, as a form in the turn.
+    fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
+        let half = match link.kind {
+            JointKind::Revolute => {
+                let m = &self.moment;
+                [
+                    negative(&m[2][0]),
+                    negative(&m[2][1]),
+                    plus(&m[0][0], &m[1][1]),
+                ]
+            }
+            JointKind::Prismatic => cross(&self.momentum, &link.axis),
+        };
+        half.each_ref().map(twice)
+    }
+}

@@ -1,0 +1,106 @@
+//! D a + C v + c + b∘v, the torques of a passivity-based controller, in one
+//! recursion.
+//!
+//! Accelerations are quadratic in the velocities, and the Christoffel symbols
+//! are symmetric: C(q, q̇) v is h as the bilinear form that it is the square
+//! of. So the recursion runs with both velocities at once, and every product
+//! of two components of ω becomes half the sum of their products with those of
+//! ν, the angular velocity that v gives.
+
+use alloc::vec::Vec;
+
+use super::recursion::{Couple, Motion, from_column};
+use super::{Chain, ChainLink, Displacement};
+use crate::equations::matrix::{
+    Vector, cross, dot, halved, plus, scaled, sum, times, twice, zero_vector,
+};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// A link that moves with two velocities at once.
+#[derive(Clone, Debug)]
+struct Mixed<S> {
+    /// ω of q̇.
+    omega: Vector<S>,
+    /// Half of that of v: the halves are taken once, at the joints.
+    half_nu: Vector<S>,
+    /// U and v̇, bilinear in the velocities; without a velocity of its own.
+    motion: Motion<S>,
+}
+
+impl<S: Scalar> Mixed<S> {
+    fn base(gravity: &Vector<S>) -> Self {
+        Mixed {
+            omega: zero_vector(),
+            half_nu: zero_vector(),
+            motion: Motion::base(gravity),
+        }
+    }
+
+    /// The motion of the next link; `half` is half its rate of v.
+    fn next(
+        &self,
+        link: &ChainLink<S>,
+        at: &Displacement<S>,
+        [rate, half, acceleration]: [&S; 3],
+    ) -> Self {
+        let motion = &self.motion;
+        let carried = sum(&motion.acceleration, &motion.u_times(&link.lever(at)));
+        if link.kind == JointKind::Prismatic {
+            let axis = &link.axis;
+            // ½ (2 q̇ ν × e + 2 v ω × e), of halves.
+            let mixed = sum(&scaled(rate, &self.half_nu), &scaled(half, &self.omega));
+            let coriolis = cross(&mixed.each_ref().map(twice), axis);
+            let own = sum(&coriolis, &scaled(acceleration, axis));
+            let mut next = self.clone();
+            next.motion.acceleration = sum(&carried, &own);
+            return next;
+        }
+        let turned = |velocity: &Vector<S>, own: &S| {
+            let [x, y, z] = link.inward(at, velocity);
+            [x, y, plus(&z, own)]
+        };
+        let omega = turned(&self.omega, rate);
+        let half_nu = turned(&self.half_nu, half);
+        let axis = link.axis_before();
+        let along = plus(&dot(&axis, &motion.omega_dot), acceleration);
+        let column = link.inward(at, &motion.u_times(&axis));
+        let product = |i: usize, j: usize| match i == j {
+            true => twice(&times(&omega[i], &half_nu[i])),
+            false => plus(
+                &times(&omega[i], &half_nu[j]),
+                &times(&omega[j], &half_nu[i]),
+            ),
+        };
+        let (omega_dot, u) = from_column(product, &along, column);
+        Mixed {
+            motion: Motion {
+                omega: zero_vector(),
+                omega_dot,
+                u,
+                acceleration: link.inward(at, &carried),
+            },
+            omega,
+            half_nu,
+        }
+    }
+}
+
+impl<S: Scalar> Chain<S> {
+    /// D a + C v + c + b∘v, length n.
+    pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
+        let halves: Vec<S> = v.iter().map(halved).collect();
+        let [rates, halves, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
+        let mut before = Mixed::base(&self.gravity);
+        let mut motions = Vec::with_capacity(self.links.len());
+        for (i, link) in self.links.iter().enumerate() {
+            before = before.next(link, &at[i], [&rates[i], &halves[i], &accelerations[i]]);
+            motions.push(before.motion.clone());
+        }
+        let drive = |i: usize| {
+            let link = &self.links[i];
+            plus(&times(&link.armature, &a[i]), &times(&link.viscous, &v[i]))
+        };
+        self.torques(at, &motions, Couple::SecondMoments, drive)
+    }
+}

@@ -1,0 +1,141 @@
+//! Forward dynamics and what belongs to it, of every formulation: closed forms
+//! factorise D, the recursions run outward and inward over articulated bodies.
+
+use alloc::vec::Vec;
+
+use super::articulated;
+use super::derivatives::columns;
+use super::energy::moving;
+use super::factor::{Factor, among, spread};
+use super::from_torques::{undamped, weightless};
+use super::matrix::{minus, negative, times, total, zeros};
+use super::{Arm, DhVariables, Formulation};
+use crate::scalar::dual::Dual;
+use crate::scalar::{Divide, Scalar};
+
+/// The joints that move, zero-based.
+pub fn free(moves: &[bool]) -> Vec<usize> {
+    let joints = moves.iter().enumerate();
+    joints.filter_map(|(i, moves)| moves.then_some(i)).collect()
+}
+
+/// D q̈ = τ − (h + c + b∘q̇) over the joints that move, solved for q̈.
+pub fn solved<S: Divide>(d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) -> Vec<S> {
+    let free = free(moves);
+    let load = free.iter().map(|&i| minus(&tau[i], &bias[i]));
+    let load: Vec<S> = load.collect();
+    let accelerations = Factor::new(&among(d, &free)).solve(&load);
+    spread(&accelerations, &free, moves.len())
+}
+
+/// D⁻¹ over the joints that move; zero in the rows and columns of the others.
+pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
+    let (free, n) = (free(moves), moves.len());
+    let inverse = Factor::new(&among(d, &free)).inverse();
+    let rows = inverse.iter().map(|row| spread(row, &free, n));
+    let mut all: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
+    for (row, &joint) in rows.zip(&free) {
+        all[joint] = row;
+    }
+    all
+}
+
+/// −D⁻¹ times the slopes of the torques: those of q̈.
+pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
+    let entry = |row: &[S], k: usize| {
+        let products = row.iter().zip(slopes);
+        negative(&total(products.map(|(x, slopes)| times(x, &slopes[k]))))
+    };
+    let row = |row: &Vec<S>| (0..slopes.len()).map(|k| entry(row, k)).collect();
+    inverse.iter().map(row).collect()
+}
+
+impl Formulation {
+    fn has_closed_form(self) -> bool {
+        matches!(self, Self::LagrangeEuler | Self::Dalembert)
+    }
+
+    /// q̈ of the joints that move under τ, zero of the others, which are held
+    /// where they are.
+    pub fn forward_dynamics<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        tau: &[S],
+        moves: &[bool],
+    ) -> Vec<S> {
+        if !self.has_closed_form() {
+            return articulated::forward_dynamics(arm, at, qd, tau, moves);
+        }
+        let d = self.inertia(arm, at);
+        let bias = self.inverse_dynamics(arm, at, qd, &zeros(qd.len()));
+        solved(&d, &bias, tau, moves)
+    }
+
+    /// D⁻¹ over the joints that move; zero in the rows and columns of the
+    /// others. A recursion gives its columns as the accelerations under unit
+    /// torques, at rest and without weight.
+    pub fn inertia_inverse<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        moves: &[bool],
+    ) -> Vec<Vec<S>> {
+        if self.has_closed_form() {
+            return inverted(&self.inertia(arm, at), moves);
+        }
+        let n = at.len();
+        let arm = undamped(&weightless(arm));
+        let row = |k: usize| {
+            let mut tau = zeros(n);
+            if moves[k] {
+                tau[k] = S::one();
+            }
+            articulated::forward_dynamics(&arm, at, &zeros(n), &tau, moves)
+        };
+        // Symmetric: its columns are its rows.
+        (0..n).map(row).collect()
+    }
+
+    /// ∂q̈/∂q and ∂q̈/∂q̇, n×n each: closed forms from the slopes of τ at the
+    /// motion that τ brings about, recursions by duals.
+    pub fn acceleration_slopes<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        tau: &[S],
+        moves: &[bool],
+    ) -> [Vec<Vec<S>>; 2] {
+        if self.has_closed_form() {
+            let inverse = self.inertia_inverse(arm, at, moves);
+            let qdd = self.forward_dynamics(arm, at, qd, tau, moves);
+            let by_position = self.torque_by_position(arm, at, qd, &qdd);
+            let by_velocity = self.torque_by_velocity(arm, at, qd);
+            return [&by_position, &by_velocity].map(|slopes| against(&inverse, slopes));
+        }
+        let n = at.len();
+        let still =
+            |values: &[S]| -> Vec<Dual<S>> { values.iter().cloned().map(Dual::constant).collect() };
+        let run = |rates: &[S], growth: &[S]| {
+            let (arm, at) = moving(arm, at, rates);
+            let grown = qd.iter().zip(growth).map(|(value, rate)| Dual {
+                value: value.clone(),
+                rate: rate.clone(),
+            });
+            let grown: Vec<Dual<S>> = grown.collect();
+            articulated::forward_dynamics(&arm, &at, &grown, &still(tau), moves)
+        };
+        let unit = |k: usize| {
+            let mut unit = zeros(n);
+            unit[k] = S::one();
+            unit
+        };
+        let rest: Vec<S> = zeros(n);
+        [
+            columns(n, |k| run(&unit(k), &rest)),
+            columns(n, |k| run(&rest, &unit(k))),
+        ]
+    }
+}

@@ -1,0 +1,84 @@
+//! q̈ = D⁻¹ (τ − h − c − b∘q̇): how the arm moves under given torques.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::inverse_dynamics::torques;
+use super::quantity::{Choices, Facts, turns};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::forward::solved;
+use crate::equations::matrix::zeros;
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "forward_dynamics",
+    summary: "Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).",
+    results: &[Quantity::Acceleration],
+    structure: None,
+    by_default: false,
+};
+
+/// q̈_i
+pub(super) struct Acceleration;
+
+impl Formula for Acceleration {
+    const FACTS: Facts = Facts {
+        field: "qdd",
+        letter: "q̈",
+        symbol: "q̈",
+        summary: "Accelerations q̈.",
+        arguments: &[Argument::Position, Argument::Velocity, Argument::Torque],
+        shape: Shape::VECTOR,
+        unit: |at| match turns(at) {
+            0 => "m/s²",
+            _ => "rad/s²",
+        },
+        scale: ErrorScale::None,
+        given: Some("forward_dynamics"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: true,
+            travel: true,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        at.formulation
+            .forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves)
+    }
+
+    /// Inverse dynamics of the motion less τ, of the joints that move.
+    fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
+        let motion = at.motion;
+        let taken = at
+            .formulation
+            .inverse_dynamics(at.arm, at.at, &motion.qd, qdd);
+        let torques = taken.iter().zip(&motion.tau).zip(&motion.moves);
+        let moving = torques.filter(|(_, moves)| **moves);
+        moving.map(|((taken, tau), _)| taken.sub(tau)).collect()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let motion = at.motion;
+        let d = at.composite.inertia(at.form.travel);
+        let bias = torques(at, &zeros(motion.qd.len()));
+        Some(solved(&d, &bias, &motion.tau, &motion.moves))
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let accelerations = runtime.forward_dynamics(&at.q, &at.qd, &at.tau)?;
+        Ok(accelerations.iter().copied().collect())
+    }
+}

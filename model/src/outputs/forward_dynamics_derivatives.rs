@@ -1,0 +1,181 @@
+//! ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹: what q̈(q, q̇, τ) is linearised by.
+//!
+//! With q̈ in the place of the free argument, D q̈ + h + c + b∘q̇ = τ holds for
+//! all q and q̇, so that D ∂q̈/∂q = −∂τ/∂q at that q̈, and likewise for q̇.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::inertia_inverse::InertiaInverse;
+use super::inverse_dynamics::torques;
+use super::quantity::{Choices, Facts, Index};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::forward::{against, inverted, solved};
+use crate::equations::matrix::zeros;
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "forward_dynamics_derivatives",
+    summary: "Derivatives of the forward dynamics: ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹.",
+    results: &[
+        Quantity::AccelerationByPosition,
+        Quantity::AccelerationByVelocity,
+        Quantity::AccelerationByTorque,
+    ],
+    structure: Some("ForwardDynamicsDerivatives"),
+    by_default: false,
+};
+
+const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::Torque];
+
+const CHOICES: Option<Choices> = Some(Choices {
+    recursion: false,
+    travel: true,
+});
+
+/// ∂q̈_i/∂q_k
+pub(super) struct AccelerationByPosition;
+
+/// ∂q̈_i/∂q̇_k
+pub(super) struct AccelerationByVelocity;
+
+/// ∂q̈_i/∂τ_k
+pub(super) struct AccelerationByTorque;
+
+/// By position and by velocity, of the joints that move.
+fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
+    let (motion, form) = (at.motion, at.form);
+    let d = at.composite.inertia(form.travel);
+    let bias = torques(at, &zeros(motion.qd.len()));
+    let qdd = solved(&d, &bias, &motion.tau, &motion.moves);
+    let inverse = inverted(&d, &motion.moves);
+    let slopes = at.composite.slopes(&motion.qd, &qdd, form.travel);
+    [&slopes.position, &slopes.velocity].map(|slopes| flat(against(&inverse, slopes)))
+}
+
+fn flat<S>(rows: Vec<Vec<S>>) -> Vec<S> {
+    rows.into_iter().flatten().collect()
+}
+
+fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
+    let motion = at.motion;
+    let slopes =
+        at.formulation
+            .acceleration_slopes(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
+    slopes.map(flat)
+}
+
+impl Formula for AccelerationByPosition {
+    const FACTS: Facts = Facts {
+        field: "dqdd_dq",
+        letter: "q̈q",
+        symbol: "∂q̈/∂q",
+        summary: "∂q̈/∂q: row i has the slopes of q̈_i.",
+        arguments: STATE,
+        shape: Shape::MATRIX,
+        unit: |at| match at {
+            [Index::Turning, Index::Sliding] => "1/(m·s²)",
+            [Index::Sliding, Index::Turning] => "m/s²",
+            _ => "1/s²",
+        },
+        scale: ErrorScale::None,
+        given: Some("dqdd_dq"),
+        given_as: None,
+        choices: CHOICES,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let [position, _] = written(at);
+        position
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let [position, _] = slopes(at);
+        Some(position)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let [position, _] = runtime.acceleration_slopes(&at.q, &at.qd, &at.tau)?;
+        // The entries of a matrix come column by column.
+        Ok(position.transpose().iter().copied().collect())
+    }
+}
+
+impl Formula for AccelerationByVelocity {
+    const FACTS: Facts = Facts {
+        field: "dqdd_dqd",
+        letter: "q̈v",
+        symbol: "∂q̈/∂q̇",
+        summary: "∂q̈/∂q̇: row i has the slopes of q̈_i.",
+        unit: |at| match at {
+            [Index::Turning, Index::Sliding] => "1/(m·s)",
+            [Index::Sliding, Index::Turning] => "m/s",
+            _ => "1/s",
+        },
+        given: Some("dqdd_dqd"),
+        ..AccelerationByPosition::FACTS
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let [_, velocity] = written(at);
+        velocity
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let [_, velocity] = slopes(at);
+        Some(velocity)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let [_, velocity] = runtime.acceleration_slopes(&at.q, &at.qd, &at.tau)?;
+        Ok(velocity.transpose().iter().copied().collect())
+    }
+}
+
+impl Formula for AccelerationByTorque {
+    const FACTS: Facts = Facts {
+        field: "dqdd_dtau",
+        letter: "q̈τ",
+        symbol: "∂q̈/∂τ",
+        summary: "∂q̈/∂τ = D⁻¹.",
+        given: None,
+        ..InertiaInverse::FACTS
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        InertiaInverse::written(at)
+    }
+
+    fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        InertiaInverse::residual(at, values)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        InertiaInverse::regrouped(at)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        InertiaInverse::runtime(runtime, at)
+    }
+}

@@ -1,0 +1,87 @@
+//! D⁻¹, the inverse of the inertia matrix.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, turns};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::forward::{free, inverted};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "inertia_inverse",
+    summary: "Inverse D⁻¹(q) of the inertia matrix, symmetric.",
+    results: &[Quantity::InertiaInverse],
+    structure: None,
+    by_default: false,
+};
+
+/// (D⁻¹)_ik
+pub(super) struct InertiaInverse;
+
+impl Formula for InertiaInverse {
+    const FACTS: Facts = Facts {
+        field: "d_inv",
+        letter: "D⁻¹",
+        symbol: "D⁻¹",
+        summary: "Inverse D⁻¹ of the inertia matrix.",
+        arguments: &[Argument::Position],
+        shape: Shape::MATRIX,
+        unit: |at| match turns(at) {
+            0 => "1/kg",
+            1 => "1/(kg·m)",
+            _ => "1/(kg·m²)",
+        },
+        scale: ErrorScale::None,
+        given: Some("inertia_inverse"),
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: true,
+        }),
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let inverse = at
+            .formulation
+            .inertia_inverse(at.arm, at.at, &at.motion.moves);
+        inverse.into_iter().flatten().collect()
+    }
+
+    /// D D⁻¹ − 1 over the joints that move.
+    fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
+        let d = at.formulation.inertia(at.arm, at.at);
+        let (free, n) = (free(&at.motion.moves), d.len());
+        let entry = |i: usize, k: usize| {
+            let one = if i == k { S::one() } else { S::zero() };
+            let products = free.iter().map(|&j| d[i][j].mul(&inverse[j * n + k]));
+            products.fold(one.neg(), |sum, product| sum.add(&product))
+        };
+        let rows = free.iter();
+        rows.flat_map(|&i| free.iter().map(move |&k| (i, k)))
+            .map(|(i, k)| entry(i, k))
+            .collect()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let d = at.composite.inertia(at.form.travel);
+        let inverse = inverted(&d, &at.motion.moves);
+        Some(inverse.into_iter().flatten().collect())
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        // Symmetric: its columns are its rows.
+        Ok(runtime.inertia_inverse(&at.q)?.iter().copied().collect())
+    }
+}

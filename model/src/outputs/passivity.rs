@@ -1,0 +1,70 @@
+//! D a + C v + c + b∘v: what passivity-based controllers (Slotine and Li) ask
+//! of a model, with v and a the velocity and the acceleration wished for.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Choices, Facts, load};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::reference::{Float, JointVectors, Reference, WrongLength};
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "passivity",
+    summary: "Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.",
+    results: &[Quantity::Passivity],
+    structure: None,
+    by_default: false,
+};
+
+/// (D a + C v + c + b∘v)_i
+pub(super) struct Passivity;
+
+impl Formula for Passivity {
+    const FACTS: Facts = Facts {
+        field: "tau",
+        letter: "τ",
+        symbol: "D a + C v + c + b∘v",
+        summary: "Torques D a + C v + c + b∘v.",
+        arguments: &[
+            Argument::Position,
+            Argument::Velocity,
+            Argument::ReferenceVelocity,
+            Argument::ReferenceAcceleration,
+        ],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        given: None,
+        given_as: None,
+        choices: Some(Choices {
+            recursion: false,
+            travel: false,
+        }),
+        starts_from_recursion: false,
+        by_differences: true,
+        definite: false,
+        feels_base: false,
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let wished = [&motion.v[..], &motion.a[..]];
+        at.formulation.passivity(at.arm, at.at, &motion.qd, wished)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let motion = at.motion;
+        let torques = at.chain.passivity(at.at, &motion.qd, &motion.v, &motion.a);
+        Some(torques)
+    }
+
+    fn runtime<T: Float>(
+        runtime: &Reference<T>,
+        at: &JointVectors<T>,
+    ) -> Result<Vec<T>, WrongLength> {
+        let torques = runtime.passivity(&at.q, &at.qd, &at.v, &at.a)?;
+        Ok(torques.iter().copied().collect())
+    }
+}
