@@ -99,6 +99,8 @@ pub struct JointVectors<T> {
 /// let arm = Arm {
 ///     convention: Convention::Standard,
 ///     gravity: [0.0, -9.81, 0.0],
+///     base: None,
+///     tool: None,
 ///     links: vec![Link {
 ///         kind: JointKind::Revolute,
 ///         alpha: straight.clone(),

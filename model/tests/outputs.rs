@@ -9,7 +9,7 @@ use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{Case, case, kinds};
+use equations_support::random::{Case, case, kinds, pose};
 
 /// Every function with its arguments, and its results' axes for six joints.
 const GOLDEN: [&str; 16] = [
@@ -54,7 +54,8 @@ fn golden_list() {
     assert_eq!(Function::by_default(), Function::ALL[..6]);
 }
 
-/// Every kind pattern up to three joints, then one of six.
+/// Every kind pattern up to three joints, then one of six; all of them again
+/// with a base and a tool.
 fn cases() -> Vec<Case> {
     let mut points = Points::new(0x6f75);
     let mut cases = Vec::new();
@@ -65,6 +66,12 @@ fn cases() -> Vec<Case> {
             }
         }
         cases.push(case(convention, &kinds(6, 0b001010), &mut points));
+    }
+    for at in 0..cases.len() {
+        let mut placed = cases[at].clone();
+        placed.arm.base = Some(pose(&mut points));
+        placed.arm.tool = Some(pose(&mut points));
+        cases.push(placed);
     }
     cases
 }
@@ -160,6 +167,8 @@ fn energy_and_wrenches_belong_to_the_torques() {
         let tau = form.inverse_dynamics(arm, at, qd, qdd);
         let wrenches = form.wrenches(arm, at, qd, qdd);
         let jacobian_axes = dalembert_model::equations::kinematics::poses(arm, at);
+        let base = arm.base.as_ref().map(|base| base.axes[2]);
+        let first = base.unwrap_or([Field::zero(), Field::zero(), Field::one()]);
         let (arm_moving, at_moving) = moving(&case);
         let power = form.potential_energy(&arm_moving, &at_moving).rate;
         let of_c = c
@@ -169,7 +178,7 @@ fn energy_and_wrenches_belong_to_the_torques() {
         assert_eq!(power, of_c);
         for (i, link) in arm.links.iter().enumerate() {
             let axis = match (arm.convention, i) {
-                (Convention::Standard, 0) => [Field::zero(), Field::zero(), Field::one()],
+                (Convention::Standard, 0) => first,
                 (Convention::Standard, _) => jacobian_axes[i - 1].axes[2],
                 (Convention::Modified, _) => jacobian_axes[i].axes[2],
             };

@@ -39,6 +39,8 @@ pub fn robot(n: usize) -> Robot {
         name: "generic".to_owned(),
         convention: Convention::Standard,
         gravity,
+        base: None,
+        tool: None,
         joints,
     }
 }

@@ -40,6 +40,8 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
     let arm = Arm {
         convention: Convention::Standard,
         gravity: [value(), value(), value()],
+        base: None,
+        tool: None,
         links: (0..n).map(|_| link()).collect(),
     };
     count(formulation, &arm, &counter)

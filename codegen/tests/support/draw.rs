@@ -95,6 +95,8 @@ impl Draw {
                 self.milli(-3000, 3000),
                 self.milli(-9800, -9000),
             ],
+            base: None,
+            tool: None,
             joints: (0..n).map(|_| self.joint()).collect(),
         }
     }

@@ -11,8 +11,12 @@ use crate::scalar::{Rotor, Scalar};
 pub struct Arm<S> {
     /// DH convention of every row.
     pub convention: Convention,
-    /// Acceleration of gravity in base axes.
+    /// Acceleration of gravity in the axes of frame 0.
     pub gravity: [S; 3],
+    /// The pose of frame 0 in base axes; `None` where these are the same.
+    pub base: Option<Columns<S>>,
+    /// The pose of the hand in frame n; `None` where the hand is that frame.
+    pub tool: Option<Columns<S>>,
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
 }
@@ -93,6 +97,8 @@ impl<S> Arm<S> {
         Arm {
             convention: self.convention,
             gravity: self.gravity.each_ref().map(&mut f),
+            base: self.base.as_ref().map(|pose| pose.map(&mut f)),
+            tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
             links: self.links.iter().map(|link| link.map(&mut f)).collect(),
         }
     }

@@ -13,8 +13,19 @@ use super::table::Keys;
 use super::value::{Context, first_line};
 use super::{Options, guard, joint, scene, syntax};
 use crate::number::Rational;
-use crate::robot::{Convention, Joint, Place, Robot};
+use crate::robot::{Convention, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
+
+/// The keys of a robot.
+const KEYS: [&str; 7] = [
+    "name",
+    "convention",
+    "gravity",
+    "base",
+    "tool",
+    "joint",
+    "scene",
+];
 
 /// Reads a robot, reporting to the sink; `None` only after an error.
 pub(super) fn read<'s>(
@@ -62,10 +73,7 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
         span: 0..0,
         what: "the robot".to_string(),
     };
-    keys.reject_unknown(
-        &["name", "convention", "gravity", "joint", "scene"],
-        cx.sink,
-    );
+    keys.reject_unknown(&KEYS, cx.sink);
     let at = |value: Option<&Value>| value.map_or(0..0, Context::span);
 
     let name = keys.require(
@@ -92,6 +100,9 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
         [(); 3].map(|()| Rational::zero())
     });
 
+    let base = placement(cx, places, &keys, "base", Place::Base);
+    let tool = placement(cx, places, &keys, "tool", Place::Tool);
+
     let list = keys.require(
         "joint",
         "each joint is a [[joint]] table, from the base to the hand",
@@ -104,8 +115,26 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
         name,
         convention,
         gravity,
+        base,
+        tool,
         joints,
     })
+}
+
+/// A placement that a key may give.
+fn placement(
+    cx: &mut Context,
+    places: &mut Places,
+    keys: &Keys,
+    key: &str,
+    place: Place,
+) -> Option<Placement> {
+    let value = keys.get(key)?;
+    let read = cx.placement(value, key);
+    let span = first_line(cx.source, Context::span(value));
+    places
+        .keep(place, span, read, Placement::default)
+        .unless_identity()
 }
 
 fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Joint>> {

@@ -10,6 +10,10 @@ pub enum Place {
     Name,
     /// The gravity vector.
     Gravity,
+    /// The placement of frame 0.
+    Base,
+    /// The placement of the hand.
+    Tool,
     /// The list of joints as a whole.
     Joints,
     /// A field of the joint with this zero-based index.
@@ -85,6 +89,8 @@ impl fmt::Display for Place {
         match self {
             Place::Name => f.write_str("name"),
             Place::Gravity => f.write_str("gravity"),
+            Place::Base => f.write_str("base"),
+            Place::Tool => f.write_str("tool"),
             Place::Joints => f.write_str("joints"),
             // People count joints from one, as the equations do.
             Place::Joint(index, field) => write!(f, "joint {}: {}", index + 1, field.key()),

@@ -14,7 +14,7 @@ use num_traits::Signed;
 
 use super::body::Defect;
 use super::findings::{Finding, Findings, Severity};
-use super::{Field, Joint, JointKind, Place, Position, Robot, units};
+use super::{Field, Joint, JointKind, Place, Placement, Position, Robot, units};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational};
 
@@ -28,6 +28,12 @@ impl Robot {
             findings.size(Place::Gravity, value);
         }
         findings.doubtful_gravity(&self.gravity);
+        for (place, placement) in [(Place::Base, &self.base), (Place::Tool, &self.tool)] {
+            if let Some(placement) = placement {
+                findings.placement(place, placement);
+                findings.doubtful_placement(place, placement);
+            }
+        }
         if self.joints.is_empty() || self.joints.len() > Robot::MAX_JOINTS {
             findings.error(
                 Place::Joints,
@@ -99,6 +105,15 @@ impl Findings {
                 "a joint's name has no character that turns the direction of text".to_owned(),
                 &units::without_turns(name),
             );
+        }
+    }
+
+    fn placement(&mut self, place: Place, placement: &Placement) {
+        for value in &placement.xyz {
+            self.size(place, value);
+        }
+        for value in &placement.rpy {
+            self.angle(place, value);
         }
     }
 

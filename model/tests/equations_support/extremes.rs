@@ -98,6 +98,8 @@ impl Extreme {
         Arm {
             convention: Convention::Standard,
             gravity: triple(&robot["g"]).map(&number),
+            base: None,
+            tool: None,
             links: types.chars().enumerate().map(link).collect(),
         }
     }

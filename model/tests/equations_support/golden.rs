@@ -59,6 +59,8 @@ fn arm(json: &Value) -> Arm<f64> {
             Convention::Standard
         },
         gravity: triple(&json["gravity"]),
+        base: None,
+        tool: None,
         links: json["links"].as_array().unwrap().iter().map(link).collect(),
     }
 }

@@ -86,6 +86,8 @@ fn robot(json: &Value) -> Robot {
         name: "extreme".into(),
         convention: Convention::Standard,
         gravity: [0, 1, 2].map(|axis| exact(gravity[axis])),
+        base: None,
+        tool: None,
         joints: kinds.enumerate().map(joint).collect(),
     }
 }
