@@ -3,6 +3,9 @@
 
 mod support;
 
+use std::path::Path;
+
+use dalembert_codegen::clauses::expand;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::states::{SEED, seeded};
@@ -93,4 +96,75 @@ fn torques_do_not_feel_them() {
     };
     let placed = text("base = { xyz = [0, 0, 2] }\ntool = { xyz = [0.1, 0, 0] }");
     assert_eq!(placed, text(""));
+}
+
+/// Nearly parallel axes, and a base and tool that follow from placements: proved
+/// and accurate like any other.
+#[test]
+fn joints_that_are_placed() {
+    let robot = read_robot(PLACED);
+    assert!(!robot.joints[0].beta.is_zero() && robot.base.is_some());
+    let functions = [
+        Function::InverseDynamics,
+        Function::Coriolis,
+        Function::ForwardKinematics,
+        Function::JacobianRate,
+    ];
+    let generated = generated(&robot, &functions);
+    let (runtime, states) = (Runtime::new(&robot), seeded(&robot, 50, SEED));
+    for emitted in &generated.emitted {
+        for measure in emitted.against_runtime(&runtime, &states) {
+            let (quantity, error) = (measure.quantity.symbol(), measure.in_units());
+            assert!(error <= BOUND, "{quantity}: {error} u");
+        }
+    }
+    let line = "After its twist each of these turns about y: joint 1 by 0.00";
+    assert!(generated.text.contains(line));
+}
+
+const PLACED: &str = "\
+name = \"arm\"
+gravity = [0, 0, -9.81]
+[[joint]]
+kind = \"revolute\"
+placement = { xyz = [0.1, 0, 0.3], rpy = [0.3, 0, 0] }
+axis = [0, 0, 1]
+mass = 2
+com = [0.2, -0.1, 0.03]
+inertia = [0.02, 0.03, 0.04, 0, 0, 0.001]
+[[joint]]
+kind = \"revolute\"
+placement = { xyz = [0.4, 0, 0.1], rpy = [0.002, 0.003, 0] }
+axis = [0, 0, 1]
+mass = 1.5
+com = [0.2, 0.1, 0.03]
+inertia = [0.01, 0.02, 0.02, 0, 0.001, 0]
+[[joint]]
+kind = \"prismatic\"
+placement = { xyz = [0.3, 0, 0.1], rpy = [0, \"pi/2\", 0] }
+axis = [0, 1, 0]
+mass = 1
+com = [-0.1, 0.02, 0.05]
+inertia = [0.02, 0.03, 0.04, 0, 0, 0]
+";
+
+/// The macro's block says the same as the file.
+#[test]
+fn in_the_macro_too() {
+    let block = "pub mod arm {
+        gravity: [0, 0, -9.81];
+        base: { xyz: [0, 0, 0.5], rpy: [pi/2, 0, 0] };
+        tool: { xyz: [0, 0, 0.1] };
+        joint { kind: revolute, placement: { xyz: [0, 0, 0.3], rpy: [0, 90deg, 0] },
+                axis: [0, 0, 1], mass: 2, com: [0.1, 0, 0.02], inertia: [0.02, 0.03, 0.04, 0, 0, 0] }
+    } outputs: forward_kinematics; scalar: f64;";
+    let file = "name = \"arm\"\ngravity = [0, 0, -9.81]\n\
+        base = { xyz = [0, 0, 0.5], rpy = [\"pi/2\", 0, 0] }\ntool = { xyz = [0, 0, 0.1] }\n\
+        [[joint]]\nkind = \"revolute\"\naxis = [0, 0, 1]\nmass = 2\n\
+        placement = { xyz = [0, 0, 0.3], rpy = [0, \"90deg\", 0] }\n\
+        com = [0.1, 0, 0.02]\ninertia = [0.02, 0.03, 0.04, 0, 0, 0]\n";
+    let tokens = expand(block.parse().unwrap(), Path::new(".")).to_string();
+    assert!(!tokens.contains("compile_error"), "{tokens}");
+    let hash = read_robot(file).short_hash();
+    assert!(tokens.contains(&hash), "{hash} is not in {tokens}");
 }

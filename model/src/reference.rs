@@ -104,6 +104,7 @@ pub struct JointVectors<T> {
 ///     links: vec![Link {
 ///         kind: JointKind::Revolute,
 ///         alpha: straight.clone(),
+///         beta: None,
 ///         theta: straight,
 ///         a: 0.5,
 ///         d: 0.0,

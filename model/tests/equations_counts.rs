@@ -18,6 +18,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
             sin: value(),
             cos: value(),
         },
+        beta: None,
         theta: Rotor {
             sin: Count::Zero,
             cos: Count::One,

@@ -9,7 +9,7 @@ use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{Case, case, kinds, pose};
+use equations_support::random::{Case, case, kinds, pair, pose};
 
 /// Every function with its arguments, and its results' axes for six joints.
 const GOLDEN: [&str; 16] = [
@@ -54,8 +54,8 @@ fn golden_list() {
     assert_eq!(Function::by_default(), Function::ALL[..6]);
 }
 
-/// Every kind pattern up to three joints, then one of six; all of them again
-/// with a base and a tool.
+/// Every kind pattern up to three joints, then one of six, then links with a
+/// turn about y; all of them again with a base and a tool.
 fn cases() -> Vec<Case> {
     let mut points = Points::new(0x6f75);
     let mut cases = Vec::new();
@@ -66,6 +66,14 @@ fn cases() -> Vec<Case> {
             }
         }
         cases.push(case(convention, &kinds(6, 0b001010), &mut points));
+    }
+    // Nearly parallel axes: the turn about y that only standard DH has.
+    for bits in [0b00, 0b01, 0b10] {
+        let mut tilted = case(Convention::Standard, &kinds(3, bits), &mut points);
+        for link in &mut tilted.arm.links {
+            link.beta = Some(pair(&mut points));
+        }
+        cases.push(tilted);
     }
     for at in 0..cases.len() {
         let mut placed = cases[at].clone();

@@ -18,6 +18,7 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
             sin: value(),
             cos: value(),
         },
+        beta: None,
         theta: Rotor {
             sin: Count::Zero,
             cos: Count::One,

@@ -211,6 +211,18 @@ fn header(
             decimal(&joint.mass)
         ));
     }
+    let tilted = robot.joints.iter().enumerate();
+    let tilted: Vec<String> = tilted
+        .filter(|(_, joint)| !joint.beta.is_zero())
+        .map(|(index, joint)| format!("{} by {}", index + 1, joint.beta))
+        .collect();
+    if !tilted.is_empty() {
+        lines.push(String::new());
+        lines.push(format!(
+            "After its twist each of these turns about y: joint {}.",
+            tilted.join(", joint ")
+        ));
+    }
     if let Some(scene) = setting.scene() {
         lines.push(String::new());
         lines.extend(describe(scene, robot));

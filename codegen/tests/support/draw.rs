@@ -49,6 +49,7 @@ impl Draw {
                 JointKind::Revolute
             },
             alpha: self.angle(),
+            beta: Angle::default(),
             a: self.length(),
             d: self.length(),
             theta: if self.chance(2) {

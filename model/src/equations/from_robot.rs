@@ -2,15 +2,21 @@
 
 use super::matrix::Columns;
 use super::{Arm, Link, Rotor};
-use crate::number::{Exact, Rational};
+use crate::number::{Angle, Exact, Rational};
 use crate::robot::{Placement, Robot};
+use crate::scalar::Scalar;
 
 impl<S> Arm<S> {
     /// The arm of a robot, each exact parameter sent through `scalar`:
     /// rounding for floats, a constant for symbols, a residue for fields.
     pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
-        let base = robot.base.as_ref().map(exact_pose);
-        let tool = robot.tool.as_ref().map(exact_pose);
+        let exact = |placement| {
+            pose_of(placement, Exact::rotor, |x: &Rational| {
+                Exact::from(x.clone())
+            })
+        };
+        let base = robot.base.as_ref().map(exact);
+        let tool = robot.tool.as_ref().map(exact);
         // The robot has gravity in base axes, the equations in those of frame 0.
         let gravity = robot.gravity.each_ref().map(|g| Exact::from(g.clone()));
         let gravity = match &base {
@@ -28,10 +34,12 @@ impl<S> Arm<S> {
                 }
             };
             let (alpha, theta) = (pair(&joint.alpha), pair(&joint.theta));
+            let beta = (!joint.beta.is_zero()).then(|| pair(&joint.beta));
             let mut number = |value: &Rational| scalar(&Exact::from(value.clone()));
             Link {
                 kind: joint.kind,
                 alpha,
+                beta,
                 theta,
                 a: number(&joint.a),
                 d: number(&joint.d),
@@ -52,15 +60,20 @@ impl<S> Arm<S> {
     }
 }
 
-/// [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll).
-fn exact_pose(placement: &Placement) -> Columns<Exact> {
-    let [roll, pitch, yaw] = placement.rpy.each_ref().map(Exact::rotor);
+/// [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll), from what its angles
+/// and lengths are in a scalar.
+pub fn pose_of<S: Scalar>(
+    placement: &Placement,
+    pair: impl Fn(&Angle) -> Rotor<S>,
+    length: impl Fn(&Rational) -> S,
+) -> Columns<S> {
+    let [roll, pitch, yaw] = placement.rpy.each_ref().map(pair);
     let turned = Columns::identity()
         .turn_z(&yaw)
         .turn_y(&pitch)
         .turn_x(&roll);
     Columns {
-        origin: placement.xyz.each_ref().map(|x| Exact::from(x.clone())),
+        origin: placement.xyz.each_ref().map(length),
         ..turned
     }
 }

@@ -29,6 +29,7 @@ pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
 pub use placement::Placement;
 
+pub use validate::suggested_name;
 pub use write::write;
 
 /// Which of the two DH conventions the table is written in.
@@ -112,6 +113,12 @@ pub struct Joint {
     pub kind: JointKind,
     /// Twist α_i.
     pub alpha: Angle,
+    /// A turn β_i about y after the twist, A_i Ry(β_i); of standard DH only.
+    ///
+    /// Where the next axis is *nearly* parallel, the common normal is far away
+    /// or nowhere; with this angle (Hayati's) the frame stays near. Zero for
+    /// every other joint.
+    pub beta: Angle,
     /// Length a_i, m.
     pub a: Rational,
     /// Constant part of d_i, m: all of it for a revolute joint, the offset

@@ -32,6 +32,10 @@ pub enum Field {
     Kind,
     /// Twist.
     Alpha,
+    /// Turn about y after the twist.
+    Beta,
+    /// Where its link is at q = 0, and its axis.
+    Placement,
     /// Length of the common normal.
     A,
     /// Constant d of a revolute joint.
@@ -67,6 +71,8 @@ impl Field {
             Field::Name => "name",
             Field::Kind => "kind",
             Field::Alpha => "alpha",
+            Field::Beta => "beta",
+            Field::Placement => "placement",
             Field::A => "a",
             Field::D => "d",
             Field::Theta => "theta",

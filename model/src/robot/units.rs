@@ -87,6 +87,7 @@ impl Findings {
             JointKind::Prismatic => (Field::Offset, Field::Theta),
         };
         self.doubtful_angle(at(Field::Alpha), Field::Alpha.key(), &joint.alpha);
+        self.doubtful_angle(at(Field::Beta), Field::Beta.key(), &joint.beta);
         self.doubtful_angle(at(theta), theta.key(), &joint.theta);
         self.doubtful_length(at(Field::A), Field::A.key(), &joint.a);
         self.doubtful_length(at(d), d.key(), &joint.d);

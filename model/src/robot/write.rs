@@ -74,6 +74,7 @@ fn write_joint(text: &mut String, joint: &Joint) {
     line(text, "kind", kind);
     for (key, value) in [
         ("alpha", angle(&joint.alpha)),
+        ("beta", angle(&joint.beta)),
         ("a", number(&joint.a)),
         ("d", number(d)),
         ("theta", angle(theta)),

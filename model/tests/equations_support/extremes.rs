@@ -78,6 +78,7 @@ impl Extreme {
                     },
                     None => pair(alpha[i]),
                 },
+                beta: None,
                 theta: pair(offset[i]),
                 a: number(a[i]),
                 d: number(d[i]),

@@ -79,6 +79,7 @@ fn link(json: &Value) -> Link<f64> {
     Link {
         kind,
         alpha: snapped(number("alpha")),
+        beta: None,
         theta: snapped(theta),
         a: number("a"),
         d,

@@ -62,6 +62,7 @@ fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
     Link {
         kind,
         alpha: pair(points),
+        beta: None,
         theta: pair(points),
         a: points.field(),
         d: points.field(),

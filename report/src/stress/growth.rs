@@ -86,6 +86,7 @@ pub fn chain(n: usize, seed: u64) -> Robot {
                 2 => Angle::right_angles(-1),
                 _ => Angle::Radians(decimal(-1000, 1000)).canonical(),
             },
+            beta: Angle::default(),
             a: decimal(10, 300),
             d: decimal(10, 300),
             theta: Angle::default(),

@@ -33,6 +33,7 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
         } = &joint.inertia;
         Some(Joint {
             alpha: angle(&joint.alpha)?,
+            beta: angle(&joint.beta)?,
             a: number(&joint.a)?,
             d: number(&joint.d)?,
             theta: angle(&joint.theta)?,

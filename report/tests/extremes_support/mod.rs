@@ -63,6 +63,7 @@ fn robot(json: &Value) -> Robot {
                 Some(pair) => right_angle(pair),
                 None => radians(alpha[i]),
             },
+            beta: Angle::default(),
             a: exact(a[i]),
             d: exact(d[i]),
             theta: radians(offset[i]),
