@@ -12,13 +12,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use source::Crate;
 
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "model",
     "codegen",
     "macros",
     "build",
     "generated",
     "report",
+    "import",
     "cli",
     ".",
 ];

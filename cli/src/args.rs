@@ -29,6 +29,8 @@ pub struct Args {
 pub enum Command {
     /// Generate Rust source for a robot, proved before it is printed
     Generate(GenerateArgs),
+    /// Make a robot file of a chain of a URDF
+    Import(ImportArgs),
     /// Count the operations of the generated functions
     Count(CountArgs),
     /// Prove the functions and measure what rounding costs
@@ -107,6 +109,38 @@ impl Choice {
         };
         request
     }
+}
+
+/// Arguments of `import`.
+///
+/// Links that are fixed to each other become one, and what hangs on a link moves
+/// with it. Numbers that were meant to be others, as 1.57079632679 for pi/2, are
+/// taken for these, listed with their lines, and what that changes in the torques
+/// is bounded.
+#[derive(Debug, clap::Args)]
+pub struct ImportArgs {
+    /// The URDF; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
+    pub urdf: PathBuf,
+    /// The link that stands still [default: the root]
+    #[arg(long, value_name = "LINK")]
+    pub base: Option<String>,
+    /// The link whose frame is the hand [default: the only end of the longest
+    /// chain]
+    #[arg(long, value_name = "LINK")]
+    pub tip: Option<String>,
+    /// Write the robot file here [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// A joint that stays where it is, with its position: a number of rad or m,
+    /// pi/2 or 90deg; may be given again
+    #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
+    pub lock: Vec<(String, String)>,
+    /// A link to leave away, with everything that hangs on it; may be given again
+    #[arg(long, value_name = "LINK")]
+    pub without: Vec<String>,
+    /// Take every digit as it stands
+    #[arg(long)]
+    pub exact: bool,
 }
 
 /// Arguments of `generate`.
@@ -333,6 +367,15 @@ pub struct Table3Args {
 // Clap lists the names and suggests the nearest for a slip. Numbers may begin
 // with a hyphen, or clap would take a negative one for an option that it does
 // not know: what a number should be is ours to say.
+
+fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
+    clap::builder::StringValueParser::new().try_map(|text| match text.rsplit_once('=') {
+        Some((joint, value)) if !joint.is_empty() && !value.is_empty() => {
+            Ok((joint.to_owned(), value.to_owned()))
+        }
+        _ => Err("a joint and its position, such as elbow=0 or elbow=pi/2"),
+    })
+}
 
 fn function_parser() -> impl TypedValueParser<Value = Function> {
     let names = PossibleValuesParser::new(Function::ALL.map(Function::name));

@@ -2,6 +2,7 @@
 //!
 //! - [`args`]: the command line
 //! - [`generate`]: Rust source, written, printed or compared
+//! - [`import`]: a robot file of a URDF
 //! - [`count`]: operation counts
 //! - [`verify`]: the exact proof and what rounding costs
 //! - [`couplings`]: which coefficients vanish or repeat, and why
@@ -25,6 +26,7 @@ mod couplings;
 mod explain;
 mod files;
 mod generate;
+mod import;
 mod input;
 mod outcome;
 mod output;
@@ -46,6 +48,7 @@ use outcome::Failure;
 fn main() -> ExitCode {
     let outcome = match Args::parse().command {
         Command::Generate(args) => generate::run(&args),
+        Command::Import(args) => import::run(&args),
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Couplings(args) => couplings::run(&args),

@@ -2,6 +2,7 @@
 //!
 //! - [`number`]: exact rationals, angles and the constants made of them
 //! - [`robot`]: the description: DH rows, masses, centres of mass, inertias, limits
+//! - [`placed`]: joints that are placed by frames, and the DH rows that they have
 //! - [`scene`]: what a robot is used for: locked joints, payload, box, tolerance
 //! - [`read`]: robot files and what is wrong with them (feature `std`)
 //! - [`scalar`]: the arithmetic that every formula is generic over
@@ -18,6 +19,7 @@ extern crate std;
 pub mod equations;
 pub mod number;
 pub mod outputs;
+pub mod placed;
 #[cfg(feature = "std")]
 pub mod read;
 pub mod reference;

@@ -126,9 +126,12 @@ impl<T> JointVectors<T> {
 /// let arm = Arm {
 ///     convention: Convention::Standard,
 ///     gravity: [0.0, -9.81, 0.0],
+///     base: None,
+///     tool: None,
 ///     links: vec![Link {
 ///         kind: JointKind::Revolute,
 ///         alpha: straight.clone(),
+///         beta: None,
 ///         theta: straight,
 ///         a: 0.5,
 ///         d: 0.0,

@@ -155,3 +155,23 @@ fn axes_change_nothing() {
     // Enough of them differ from the frames that turn with their links.
     assert!(seen > 300, "{seen}");
 }
+
+/// A turn about y after a twist makes axes askew that the twist alone leaves
+/// parallel: the chain takes it as part of the constant step.
+#[test]
+fn a_turn_about_y_is_part_of_the_step() {
+    let mut points = Points::new(0xbe7a);
+    for slides in [0b0000, 0b0010, 0b0100] {
+        for twists in [
+            [Twist::Along, Twist::Along, Twist::Along, Twist::Across],
+            [Twist::Against, Twist::Across, Twist::Along, Twist::Along],
+        ] {
+            let mut arm = arm(Convention::Standard, &twists, slides, &mut points);
+            for tilted in [0, 1, 3] {
+                let beta = random::pair(&mut points);
+                arm.links[tilted].beta = Some(beta.map(|x| Known(*x)));
+            }
+            compare(&arm, &mut points);
+        }
+    }
+}

@@ -18,6 +18,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
             sin: value(),
             cos: value(),
         },
+        beta: None,
         theta: Rotor {
             sin: Count::Zero,
             cos: Count::One,
@@ -40,6 +41,8 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
     let arm = Arm {
         convention: Convention::Standard,
         gravity: [value(), value(), value()],
+        base: None,
+        tool: None,
         links: (0..n).map(|_| link()).collect(),
     };
     torques(formulation, &arm, &counter)

@@ -9,7 +9,7 @@ use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{Case, case, kinds};
+use equations_support::random::{Case, case, kinds, pair, pose};
 
 /// Every function with its arguments, and its results' axes for six joints.
 const GOLDEN: [&str; 21] = [
@@ -59,7 +59,8 @@ fn golden_list() {
     assert_eq!(Function::by_default(), Function::ALL[..6]);
 }
 
-/// Every kind pattern up to three joints, then one of six.
+/// Every kind pattern up to three joints, then one of six, then links with a
+/// turn about y; all of them again with a base and a tool.
 fn cases() -> Vec<Case> {
     let mut points = Points::new(0x6f75);
     let mut cases = Vec::new();
@@ -70,6 +71,20 @@ fn cases() -> Vec<Case> {
             }
         }
         cases.push(case(convention, &kinds(6, 0b001010), &mut points));
+    }
+    // Nearly parallel axes: the turn about y that only standard DH has.
+    for bits in [0b00, 0b01, 0b10] {
+        let mut tilted = case(Convention::Standard, &kinds(3, bits), &mut points);
+        for link in &mut tilted.arm.links {
+            link.beta = Some(pair(&mut points));
+        }
+        cases.push(tilted);
+    }
+    for at in 0..cases.len() {
+        let mut placed = cases[at].clone();
+        placed.arm.base = Some(pose(&mut points));
+        placed.arm.tool = Some(pose(&mut points));
+        cases.push(placed);
     }
     cases
 }
@@ -167,6 +182,8 @@ fn energy_and_wrenches_belong_to_the_torques() {
         let tau = form.inverse_dynamics(arm, at, qd, qdd);
         let wrenches = form.wrenches(arm, at, qd, qdd);
         let jacobian_axes = dalembert_model::equations::kinematics::poses(arm, at);
+        let base = arm.base.as_ref().map(|base| base.axes[2]);
+        let first = base.unwrap_or([Field::zero(), Field::zero(), Field::one()]);
         let (arm_moving, at_moving) = moving(&case);
         let power = form.potential_energy(&arm_moving, &at_moving).rate;
         let of_c = c
@@ -176,7 +193,7 @@ fn energy_and_wrenches_belong_to_the_torques() {
         assert_eq!(power, of_c);
         for (i, link) in arm.links.iter().enumerate() {
             let axis = match (arm.convention, i) {
-                (Convention::Standard, 0) => [Field::zero(), Field::zero(), Field::one()],
+                (Convention::Standard, 0) => first,
                 (Convention::Standard, _) => jacobian_axes[i - 1].axes[2],
                 (Convention::Modified, _) => jacobian_axes[i].axes[2],
             };

@@ -17,6 +17,7 @@ pub fn robot(n: usize) -> Robot {
             name: None,
             kind: JointKind::Revolute,
             alpha: Angle::Radians(milli(200, 1400)),
+            beta: Angle::default(),
             a: milli(100, 600),
             d: milli(100, 600),
             theta: Angle::default(),
@@ -39,6 +40,8 @@ pub fn robot(n: usize) -> Robot {
         name: "generic".to_owned(),
         convention: Convention::Standard,
         gravity,
+        base: None,
+        tool: None,
         joints,
     }
 }

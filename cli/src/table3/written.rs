@@ -18,6 +18,7 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
             sin: value(),
             cos: value(),
         },
+        beta: None,
         theta: Rotor {
             sin: Count::Zero,
             cos: Count::One,
@@ -40,6 +41,8 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
     let arm = Arm {
         convention: Convention::Standard,
         gravity: [value(), value(), value()],
+        base: None,
+        tool: None,
         links: (0..n).map(|_| link()).collect(),
     };
     count(formulation, &arm, &counter)

@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Write};
 
-use dalembert_model::robot::{Convention, JointKind, Robot};
+use dalembert_model::robot::{Convention, JointKind, Placement, Robot};
 
 use super::escape::escaped;
 use super::figures::decimal;
@@ -169,10 +169,22 @@ fn header(
             "SI units, radians; {convention} DH; gravity ({}) m/s² in base axes.",
             gravity.join(", ")
         ),
+    ];
+    if let Some(base) = &robot.base {
+        let at = placed(base);
+        lines.push(format!("Base axes are those in which frame 0 is at {at}."));
+    }
+    if let Some(tool) = &robot.tool {
+        let at = placed(tool);
+        lines.push(format!(
+            "The last frame of poses and Jacobians is the tool, in the last link's at {at}."
+        ));
+    }
+    lines.extend([
         String::new(),
         "| joint | kind | α | a | d | θ | mass |".into(),
         "|---|---|---|---|---|---|---|".into(),
-    ];
+    ]);
     for (index, joint) in robot.joints.iter().enumerate() {
         let label = match &joint.name {
             Some(name) => format!("{} {}", index + 1, escaped(name)),
@@ -197,6 +209,18 @@ fn header(
             joint.alpha,
             decimal(&joint.a),
             decimal(&joint.mass)
+        ));
+    }
+    let tilted = robot.joints.iter().enumerate();
+    let tilted: Vec<String> = tilted
+        .filter(|(_, joint)| !joint.beta.is_zero())
+        .map(|(index, joint)| format!("{} by {}", index + 1, joint.beta))
+        .collect();
+    if !tilted.is_empty() {
+        lines.push(String::new());
+        lines.push(format!(
+            "After its twist each of these turns about y: joint {}.",
+            tilted.join(", joint ")
         ));
     }
     if let Some(scene) = setting.scene() {
@@ -250,6 +274,13 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
         ]));
     }
     lines
+}
+
+/// A placement as a header has it.
+fn placed(placement: &Placement) -> String {
+    let xyz = placement.xyz.each_ref().map(decimal).join(", ");
+    let rpy = placement.rpy.each_ref().map(ToString::to_string).join(", ");
+    format!("xyz ({xyz}) m, rpy ({rpy})")
 }
 
 fn function_doc(

@@ -49,6 +49,7 @@ impl Draw {
                 JointKind::Revolute
             },
             alpha: self.angle(),
+            beta: Angle::default(),
             a: self.length(),
             d: self.length(),
             theta: if self.chance(2) {
@@ -95,6 +96,8 @@ impl Draw {
                 self.milli(-3000, 3000),
                 self.milli(-9800, -9000),
             ],
+            base: None,
+            tool: None,
             joints: (0..n).map(|_| self.joint()).collect(),
         }
     }

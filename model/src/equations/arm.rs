@@ -11,8 +11,12 @@ use crate::scalar::{Rotor, Scalar};
 pub struct Arm<S> {
     /// DH convention of every row.
     pub convention: Convention,
-    /// Acceleration of gravity in base axes.
+    /// Acceleration of gravity in the axes of frame 0.
     pub gravity: [S; 3],
+    /// The pose of frame 0 in base axes; `None` where these are the same.
+    pub base: Option<Columns<S>>,
+    /// The pose of the hand in frame n; `None` where the hand is that frame.
+    pub tool: Option<Columns<S>>,
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
 }
@@ -24,6 +28,8 @@ pub struct Link<S> {
     pub kind: JointKind,
     /// Twist α_i.
     pub alpha: Rotor<S>,
+    /// The turn β_i about y after it, of standard DH.
+    pub beta: Option<Rotor<S>>,
     /// Constant part of θ_i.
     pub theta: Rotor<S>,
     /// Length a_i.
@@ -93,6 +99,8 @@ impl<S> Arm<S> {
         Arm {
             convention: self.convention,
             gravity: self.gravity.each_ref().map(&mut f),
+            base: self.base.as_ref().map(|pose| pose.map(&mut f)),
+            tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
             links: self.links.iter().map(|link| link.map(&mut f)).collect(),
         }
     }
@@ -104,6 +112,7 @@ impl<S> Link<S> {
         Link {
             kind: self.kind,
             alpha: self.alpha.map(&mut f),
+            beta: self.beta.as_ref().map(|beta| beta.map(&mut f)),
             theta: self.theta.map(&mut f),
             a: f(&self.a),
             d: f(&self.d),
@@ -119,7 +128,7 @@ impl<S> Link<S> {
 /// The step from frame i−1 to frame i at a position: ⁱ⁻¹A_i, applied factor by
 /// factor, so that each is a plane rotation or a shift along one axis.
 impl<S: Scalar> Link<S> {
-    /// M ⁱ⁻¹A_i (eq. 2.1).
+    /// M ⁱ⁻¹A_i (eq. 2.1), with the turn about y where a link has one.
     pub fn append(
         &self,
         convention: Convention,
@@ -128,11 +137,17 @@ impl<S: Scalar> Link<S> {
     ) -> Columns<S> {
         let m = before.clone();
         match convention {
-            Convention::Standard => m
-                .turn_z(&at.theta)
-                .shift_z(&at.d)
-                .shift_x(&self.a)
-                .turn_x(&self.alpha),
+            Convention::Standard => {
+                let m = m
+                    .turn_z(&at.theta)
+                    .shift_z(&at.d)
+                    .shift_x(&self.a)
+                    .turn_x(&self.alpha);
+                match &self.beta {
+                    None => m,
+                    Some(beta) => m.turn_y(beta),
+                }
+            }
             Convention::Modified => m
                 .turn_x(&self.alpha)
                 .shift_x(&self.a)
@@ -144,7 +159,9 @@ impl<S: Scalar> Link<S> {
     /// ⁱR_{i−1} v: components from frame i−1 into frame i.
     pub fn to_link(&self, convention: Convention, at: &DhVariables<S>, v: &Vector<S>) -> Vector<S> {
         match convention {
-            Convention::Standard => turn_back_x(&self.alpha, turn_back_z(&at.theta, v.clone())),
+            Convention::Standard => {
+                self.tilt_back(turn_back_x(&self.alpha, turn_back_z(&at.theta, v.clone())))
+            }
             Convention::Modified => turn_back_z(&at.theta, turn_back_x(&self.alpha, v.clone())),
         }
     }
@@ -157,10 +174,38 @@ impl<S: Scalar> Link<S> {
         v: &Vector<S>,
     ) -> Vector<S> {
         match convention {
-            Convention::Standard => turn_z(&at.theta, turn_x(&self.alpha, v.clone())),
+            Convention::Standard => turn_z(&at.theta, turn_x(&self.alpha, self.tilt(v.clone()))),
             Convention::Modified => turn_x(&self.alpha, turn_z(&at.theta, v.clone())),
         }
     }
+}
+
+impl<S: Scalar> Link<S> {
+    /// Ry(β) v
+    fn tilt(&self, v: Vector<S>) -> Vector<S> {
+        match &self.beta {
+            None => v,
+            Some(beta) => turn_y(beta, v),
+        }
+    }
+
+    /// Ry(−β) v: from the axes after the twist into those of frame i.
+    pub(super) fn tilt_back(&self, v: Vector<S>) -> Vector<S> {
+        match &self.beta {
+            None => v,
+            Some(beta) => turn_back_y(beta, v),
+        }
+    }
+}
+
+fn turn_y<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+    let [z, x] = angle.turn(&z, &x);
+    [x, y, z]
+}
+
+fn turn_back_y<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+    let [z, x] = angle.turn_back(&z, &x);
+    [x, y, z]
 }
 
 fn turn_x<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {

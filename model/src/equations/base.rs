@@ -25,7 +25,7 @@ impl<S: Scalar + PartialEq> Arm<S> {
         let mut turned = false;
         for link in &mut self.links {
             // Modified DH: the twist comes before the joint.
-            let parallel = link.alpha.sin == S::zero();
+            let parallel = link.alpha.sin == S::zero() && link.beta.is_none();
             let leaves_axis = turned && !parallel;
             if leaves_axis && self.convention == Convention::Modified {
                 break;

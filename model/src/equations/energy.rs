@@ -134,7 +134,7 @@ impl Formulation {
         }
     }
 
-    /// U = −Σ_j m_j g·r_j, zero where all mass is at the origin of the base:
+    /// U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0:
     /// Lagrange–Euler from the pose of each link; elsewhere from first moments,
     /// gathered from the hand inward.
     pub fn potential_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> S {
@@ -175,9 +175,20 @@ pub(super) fn moving<S: Scalar>(
     (arm.map(|x| Dual::constant(x.clone())), at.collect())
 }
 
-/// Σ_j m_j r_j from the base's origin, link by link.
+/// From the base's origin to that of frame 0, in the axes of frame 0.
+fn base_lever<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
+    match &arm.base {
+        None => zero_vector(),
+        Some(base) => base.rotate_back(&base.origin),
+    }
+}
+
+/// Σ_j m_j r_j from the base's origin in the axes of frame 0, link by link.
 fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
-    let mut pose = Columns::identity();
+    let mut pose = Columns {
+        origin: base_lever(arm),
+        ..Columns::identity()
+    };
     let mut moment = zero_vector();
     for (link, at) in arm.links.iter().zip(at) {
         pose = link.append(arm.convention, at, &pose);
@@ -198,5 +209,8 @@ fn first_moment<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
         let turned = link.to_previous(arm.convention, at, &moment);
         moment = sum(&turned, &scaled(&mass, &step.origin));
     }
-    moment
+    match &arm.base {
+        None => moment,
+        Some(_) => sum(&moment, &scaled(&mass, &base_lever(arm))),
+    }
 }

@@ -1,15 +1,30 @@
 //! From a robot with exact parameters to an arm in any scalar.
 
+use super::matrix::Columns;
 use super::{Arm, Link, Rotor};
-use crate::number::{Exact, Rational};
-use crate::robot::Robot;
+use crate::number::{Angle, Exact, Rational};
+use crate::robot::{Placement, Robot};
+use crate::scalar::Scalar;
 
 impl<S> Arm<S> {
     /// The arm of a robot, each exact parameter sent through `scalar`:
     /// rounding for floats, a constant for symbols, a residue for fields.
     pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
-        let mut number = |value: &Rational| scalar(&Exact::from(value.clone()));
-        let gravity = [0, 1, 2].map(|axis| number(&robot.gravity[axis]));
+        let exact = |placement| {
+            pose_of(placement, Exact::rotor, |x: &Rational| {
+                Exact::from(x.clone())
+            })
+        };
+        let base = robot.base.as_ref().map(exact);
+        let tool = robot.tool.as_ref().map(exact);
+        // The robot has gravity in base axes, the equations in those of frame 0.
+        let gravity = robot.gravity.each_ref().map(|g| Exact::from(g.clone()));
+        let gravity = match &base {
+            None => gravity,
+            Some(base) => base.rotate_back(&gravity),
+        };
+        let gravity = gravity.each_ref().map(&mut *scalar);
+        let [base, tool] = [base, tool].map(|pose| pose.map(|pose| pose.map(&mut *scalar)));
         let links = robot.joints.iter().map(|joint| {
             let mut pair = |angle| {
                 let pair = Exact::rotor(angle);
@@ -19,10 +34,12 @@ impl<S> Arm<S> {
                 }
             };
             let (alpha, theta) = (pair(&joint.alpha), pair(&joint.theta));
+            let beta = (!joint.beta.is_zero()).then(|| pair(&joint.beta));
             let mut number = |value: &Rational| scalar(&Exact::from(value.clone()));
             Link {
                 kind: joint.kind,
                 alpha,
+                beta,
                 theta,
                 a: number(&joint.a),
                 d: number(&joint.d),
@@ -36,7 +53,27 @@ impl<S> Arm<S> {
         Arm {
             convention: robot.convention,
             gravity,
+            base,
+            tool,
             links: links.collect(),
         }
+    }
+}
+
+/// [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll), from what its angles
+/// and lengths are in a scalar.
+pub fn pose_of<S: Scalar>(
+    placement: &Placement,
+    pair: impl Fn(&Angle) -> Rotor<S>,
+    length: impl Fn(&Rational) -> S,
+) -> Columns<S> {
+    let [roll, pitch, yaw] = placement.rpy.each_ref().map(pair);
+    let turned = Columns::identity()
+        .turn_z(&yaw)
+        .turn_y(&pitch)
+        .turn_x(&roll);
+    Columns {
+        origin: placement.xyz.each_ref().map(length),
+        ..turned
     }
 }

@@ -17,24 +17,55 @@ use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
-/// ⁰A_i of every frame i = 1 … n.
+/// ⁰A_i of every frame i = 1 … n, in base axes.
 pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+    poses_from(&frame_0(arm), arm, at)
+}
+
+/// The pose of frame 0 in base axes.
+fn frame_0<S: Scalar>(arm: &Arm<S>) -> Columns<S> {
+    arm.base.clone().unwrap_or_else(Columns::identity)
+}
+
+/// The poses of frames i = 1 … n where frame 0 has this one.
+fn poses_from<S: Scalar>(
+    start: &Columns<S>,
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+) -> Vec<Columns<S>> {
     let mut poses: Vec<Columns<S>> = Vec::with_capacity(at.len());
     for (link, at) in arm.links.iter().zip(at) {
-        let before = poses.last().cloned().unwrap_or_else(Columns::identity);
-        poses.push(link.append(arm.convention, at, &before));
+        let before = poses.last().unwrap_or(start);
+        poses.push(link.append(arm.convention, at, before));
     }
     poses
 }
 
+/// The pose of the hand, from those of the links.
+fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
+    let last = poses.last().cloned().unwrap_or_else(|| frame_0(arm));
+    match &arm.tool {
+        None => last,
+        Some(tool) => last.then(tool),
+    }
+}
+
+/// Components in base axes of a vector that has them in those of frame 0.
+fn in_base_axes<S: Scalar>(arm: &Arm<S>, vector: Vector<S>) -> Vector<S> {
+    match &arm.base {
+        None => vector,
+        Some(base) => base.rotate(&vector),
+    }
+}
+
 impl Formulation {
-    /// ⁰A_n: Lagrange–Euler multiplies from the base outward, the others from
-    /// the hand inward.
+    /// The pose of the hand, ⁰A_n but for base and tool: Lagrange–Euler
+    /// multiplies from the base outward, the others from the hand inward.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
         if self == Self::LagrangeEuler {
-            return poses(arm, at).pop().unwrap_or_else(Columns::identity);
+            return hand_of(arm, &poses(arm, at));
         }
-        let mut pose = Columns::identity();
+        let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
         for (link, at) in arm.links.iter().zip(at).rev() {
             let step = link.append(arm.convention, at, &Columns::identity());
             let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
@@ -43,10 +74,13 @@ impl Formulation {
                 origin: sum(&turn(&pose.origin), &step.origin),
             };
         }
-        pose
+        match &arm.base {
+            None => pose,
+            Some(base) => base.then(&pose),
+        }
     }
 
-    /// J, 6×n: row by row the linear and the angular velocity of frame n for
+    /// J, 6×n: row by row the linear and the angular velocity of the hand for
     /// each unit rate, in base axes.
     pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         let n = at.len();
@@ -55,7 +89,7 @@ impl Formulation {
                 let mut rates = zeros(n);
                 rates[j] = S::one();
                 let (arm, at) = moving(arm, at, &rates);
-                let hand = poses(&arm, &at).pop().unwrap_or_else(Columns::identity);
+                let hand = hand_of(&arm, &poses(&arm, &at));
                 let linear = hand.origin.each_ref().map(|x| x.rate.clone());
                 [linear, angular(&hand)]
             }
@@ -66,7 +100,7 @@ impl Formulation {
         (0..6).map(|r| row(r).collect()).collect()
     }
 
-    /// J̇ q̇, linear over angular: the acceleration of frame n of a motion that
+    /// J̇ q̇, linear over angular: the acceleration of the hand of a motion that
     /// keeps its velocities.
     pub fn jacobian_rate<S: Scalar>(
         self,
@@ -76,11 +110,12 @@ impl Formulation {
     ) -> [Vector<S>; 2] {
         if self != Self::LagrangeEuler {
             let arm = from_torques::weightless(arm);
-            return table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()));
+            let rate = table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()));
+            return rate.map(|part| in_base_axes(&arm, part));
         }
         let rest: Vec<S> = zeros(qd.len());
-        let poses = accelerated(arm, at, qd, &rest);
-        let hand = poses.last().cloned().unwrap_or_else(Columns::identity);
+        let (arm, at) = accelerated(arm, at, qd, &rest);
+        let hand = hand_of(&arm, &poses(&arm, &at));
         let linear = hand.origin.each_ref().map(|x| x.rate.rate.clone());
         [linear, angular(&hand).map(|omega| omega.rate)]
     }
@@ -94,49 +129,64 @@ impl Formulation {
         qd: &[S],
         qdd: &[S],
     ) -> Vec<Wrench<S>> {
-        if self != Self::LagrangeEuler {
-            return table1::wrenches(arm, at, qd, qdd);
-        }
-        let moving = accelerated(arm, at, qd, qdd);
-        let still = poses(arm, at);
-        let n = at.len();
-        let mut wrenches = Vec::with_capacity(n);
-        let (mut force, mut moment) = (zero_vector(), zero_vector());
-        for i in (0..n).rev() {
-            let (own, about_base) = inertial(arm, i, &still[i], &moving[i]);
-            force = sum(&force, &own);
-            moment = sum(&moment, &about_base);
-            let point = match (arm.convention, i) {
-                (Convention::Modified, _) => still[i].origin.clone(),
-                (Convention::Standard, 0) => zero_vector(),
-                (Convention::Standard, _) => still[i - 1].origin.clone(),
-            };
-            wrenches.push(Wrench {
-                moment: difference(&moment, &cross(&point, &force)),
-                force: force.clone(),
-            });
-        }
-        wrenches.reverse();
-        wrenches
+        let wrenches = match self {
+            Self::LagrangeEuler => wrenches_by_poses(arm, at, qd, qdd),
+            _ => table1::wrenches(arm, at, qd, qdd),
+        };
+        let turned = |wrench: Wrench<S>| Wrench {
+            force: in_base_axes(arm, wrench.force),
+            moment: in_base_axes(arm, wrench.moment),
+        };
+        wrenches.into_iter().map(turned).collect()
     }
 }
 
-/// The poses of a motion with these velocities and accelerations, with their
-/// first and second rates.
+/// The wrenches in the axes of frame 0, as gravity is.
+fn wrenches_by_poses<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+) -> Vec<Wrench<S>> {
+    let (arm_moving, at_moving) = accelerated(arm, at, qd, qdd);
+    let moving = poses_from(&Columns::identity(), &arm_moving, &at_moving);
+    let still = poses_from(&Columns::identity(), arm, at);
+    let n = at.len();
+    let mut wrenches = Vec::with_capacity(n);
+    let (mut force, mut moment) = (zero_vector(), zero_vector());
+    for i in (0..n).rev() {
+        let (own, about_base) = inertial(arm, i, &still[i], &moving[i]);
+        force = sum(&force, &own);
+        moment = sum(&moment, &about_base);
+        let point = match (arm.convention, i) {
+            (Convention::Modified, _) => still[i].origin.clone(),
+            (Convention::Standard, 0) => zero_vector(),
+            (Convention::Standard, _) => still[i - 1].origin.clone(),
+        };
+        wrenches.push(Wrench {
+            moment: difference(&moment, &cross(&point, &force)),
+            force: force.clone(),
+        });
+    }
+    wrenches.reverse();
+    wrenches
+}
+
+/// The arm and its position as they move at these velocities and
+/// accelerations, with first and second rates.
 fn accelerated<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
     qd: &[S],
     qdd: &[S],
-) -> Vec<Columns<Dual<Dual<S>>>> {
+) -> (Arm<Dual<Dual<S>>>, Vec<DhVariables<Dual<Dual<S>>>>) {
     let (arm, at) = moving(arm, at, qd);
     let rates = qd.iter().zip(qdd);
     let rates = rates.map(|(value, rate)| Dual {
         value: value.clone(),
         rate: rate.clone(),
     });
-    let (arm, at) = moving(&arm, &at, &rates.collect::<Vec<_>>());
-    poses(&arm, &at)
+    moving(&arm, &at, &rates.collect::<Vec<_>>())
 }
 
 /// ω of a frame: Ṙ Rᵀ is skew.
@@ -152,10 +202,10 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
-/// Linear and angular velocity of the last frame for a unit rate of joint j.
+/// Linear and angular velocity of the hand for a unit rate of joint j.
 fn geometric<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
     let frame = match arm.convention {
-        Convention::Standard if j == 0 => Columns::identity(),
+        Convention::Standard if j == 0 => frame_0(arm),
         Convention::Standard => poses[j - 1].clone(),
         Convention::Modified => poses[j].clone(),
     };
@@ -163,8 +213,8 @@ fn geometric<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>], j: usize) -> [Vector
     match arm.links[j].kind {
         JointKind::Prismatic => [axis, zero_vector()],
         JointKind::Revolute => {
-            let hand = &poses[poses.len() - 1].origin;
-            let lever = difference(hand, &frame.origin);
+            let hand = hand_of(arm, poses).origin;
+            let lever = difference(&hand, &frame.origin);
             [cross(&axis, &lever), axis]
         }
     }

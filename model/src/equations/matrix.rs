@@ -133,6 +133,16 @@ pub struct Columns<S> {
     pub origin: Vector<S>,
 }
 
+impl<S> Columns<S> {
+    /// Every entry through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Columns<T> {
+        Columns {
+            axes: self.axes.each_ref().map(|axis| axis.each_ref().map(&mut f)),
+            origin: self.origin.each_ref().map(&mut f),
+        }
+    }
+}
+
 impl<S: Scalar> Columns<S> {
     /// The pose 1.
     pub fn identity() -> Self {
@@ -157,6 +167,16 @@ impl<S: Scalar> Columns<S> {
     pub fn turn_x(self, alpha: &Rotor<S>) -> Self {
         let [x, y, z] = self.axes;
         let [y, z] = turn_columns(alpha, &y, &z);
+        Columns {
+            axes: [x, y, z],
+            origin: self.origin,
+        }
+    }
+
+    /// · Ry(β)
+    pub fn turn_y(self, beta: &Rotor<S>) -> Self {
+        let [x, y, z] = self.axes;
+        let [z, x] = turn_columns(beta, &z, &x);
         Columns {
             axes: [x, y, z],
             origin: self.origin,
@@ -189,6 +209,14 @@ impl<S: Scalar> Columns<S> {
                 axes: [zero_vector(), zero_vector(), zero_vector()],
                 origin: z.clone(),
             },
+        }
+    }
+
+    /// · the pose of a frame that is fixed in the last one.
+    pub fn then(&self, next: &Self) -> Self {
+        Columns {
+            axes: next.axes.each_ref().map(|axis| self.rotate(axis)),
+            origin: self.apply(&next.origin, &S::one()),
         }
     }
 

@@ -14,7 +14,7 @@
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
-//! | [`Arm::from_robot`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
+//! | [`Arm::from_robot`], [`pose_of`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i in every form: armature is part of
@@ -46,3 +46,4 @@ pub mod newton_euler;
 pub use crate::scalar::Rotor;
 pub use arm::{Arm, DhVariables, JointPosition, Link};
 pub use formulation::Formulation;
+pub use from_robot::pose_of;

@@ -5,10 +5,12 @@
 //! - [`Exact`]: polynomials over ℚ in the sin and cos of constant angles
 //! - `trig`, `round`: their correctly rounded floating-point values
 //! - [`Wide`]: a float of 256 bits, which errors are measured against
+//! - [`recover`]: the number that was meant, from one computed in wide floats
 
 mod angle;
 mod exact;
 pub mod parse;
+pub mod recover;
 mod round;
 mod text;
 mod trig;

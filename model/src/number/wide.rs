@@ -53,6 +53,44 @@ impl Wide {
         }
     }
 
+    /// The same number, exactly.
+    pub fn to_rational(&self) -> Rational {
+        let power = self.exponent.unsigned_abs();
+        match self.exponent < 0 {
+            true => Rational::new(self.significand.clone(), BigInt::one() << power),
+            false => Rational::from_integer(&self.significand << power),
+        }
+    }
+
+    /// The square root, zero of what is negative.
+    #[must_use]
+    pub fn sqrt(&self) -> Wide {
+        if !self.significand.is_positive() {
+            return Wide::zero();
+        }
+        // Twice the bits, and an even exponent.
+        let missing = (2 * BITS + 2).saturating_sub(self.significand.bits()) as i64;
+        let shift = missing + (self.exponent - missing).rem_euclid(2);
+        let root = (&self.significand << shift).sqrt();
+        Wide::cut(root, (self.exponent - shift) / 2)
+    }
+
+    /// self / other; `None` if that is zero.
+    pub fn over(&self, other: &Wide) -> Option<Wide> {
+        if other.significand.is_zero() {
+            return None;
+        }
+        let shift = BITS + other.significand.bits() + 1;
+        let quotient = (&self.significand << shift) / &other.significand;
+        let exponent = self.exponent - other.exponent - shift as i64;
+        Some(Wide::cut(quotient, exponent))
+    }
+
+    /// Whether it is below zero.
+    pub fn is_negative(&self) -> bool {
+        self.significand.is_negative()
+    }
+
     /// |self|, rounded up to a double.
     pub fn magnitude(&self) -> f64 {
         let size = self.significand.abs();

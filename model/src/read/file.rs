@@ -3,6 +3,7 @@
 use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use num_traits::Zero;
 use toml_span::Value;
@@ -11,10 +12,22 @@ use super::places::Places;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
-use super::{Options, guard, joint, scene, syntax};
+use super::{Options, guard, joint, placed, scene, syntax};
 use crate::number::Rational;
-use crate::robot::{Convention, Joint, Place, Robot};
+use crate::placed::{LastLink, Placed};
+use crate::robot::{Convention, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
+
+/// The keys of a robot.
+const KEYS: [&str; 7] = [
+    "name",
+    "convention",
+    "gravity",
+    "base",
+    "tool",
+    "joint",
+    "scene",
+];
 
 /// Reads a robot, reporting to the sink; `None` only after an error.
 pub(super) fn read<'s>(
@@ -38,7 +51,7 @@ pub(super) fn read<'s>(
         sink,
     };
     let mut places = Places::default();
-    let robot = robot(&mut cx, &mut places, &root)?;
+    let (robot, last) = robot(&mut cx, &mut places, &root)?;
     for finding in robot.validate() {
         if !places.was_read(finding.place) {
             continue;
@@ -50,22 +63,25 @@ pub(super) fn read<'s>(
     let scenes = root.as_table().and_then(|table| table.get("scene"));
     // Without joints, every joint of a scene would be unknown as well.
     let scenes = scenes.filter(|_| !robot.joints.is_empty());
-    let scenes = scenes.map_or_else(Vec::new, |scenes| {
+    let mut scenes = scenes.map_or_else(Vec::new, |scenes| {
         scene::read(&mut cx, &robot, &places, scenes)
     });
+    if let Some(last) = &last {
+        for scene in &mut scenes {
+            placed::carry(scene, last);
+        }
+    }
     Some((robot, scenes))
 }
 
-fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
+/// The robot, and where its last link's own frame is if its joints are placed.
+fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Option<LastLink>)> {
     let keys = Keys {
         table: cx.table(root, "")?,
         span: 0..0,
         what: "the robot".to_string(),
     };
-    keys.reject_unknown(
-        &["name", "convention", "gravity", "joint", "scene"],
-        cx.sink,
-    );
+    keys.reject_unknown(&KEYS, cx.sink);
     let at = |value: Option<&Value>| value.map_or(0..0, Context::span);
 
     let name = keys.require(
@@ -76,21 +92,15 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
     let text = name.and_then(|value| cx.string(value));
     let name = places.keep(Place::Name, at(name), text, Default::default);
 
-    let convention = keys
-        .require(
-            "convention",
-            "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a",
-            cx.sink,
-        )
-        .and_then(|value| cx.word(value, &Convention::WORDS))
-        .unwrap_or(Convention::Standard);
-
     const GRAVITY: &str = "gravity = [0, 0, -9.81]: the acceleration of gravity in base axes, m/s²";
     let gravity = keys.require("gravity", GRAVITY, cx.sink);
     let vector = gravity.and_then(|value| cx.array(value, GRAVITY, Context::number));
     let gravity = places.keep(Place::Gravity, at(gravity), vector, || {
         [(); 3].map(|()| Rational::zero())
     });
+
+    let base = placement(cx, places, &keys, "base", Place::Base);
+    let tool = placement(cx, places, &keys, "tool", Place::Tool);
 
     let list = keys.require(
         "joint",
@@ -99,16 +109,58 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
     );
     let span = list.map_or(0..0, |list| first_line(cx.source, Context::span(list)));
     let read = list.and_then(|list| joints(cx, places, list));
-    let joints = places.keep(Place::Joints, span, read, Vec::new);
-    Some(Robot {
+    let read = places.keep(Place::Joints, span, read, Vec::new);
+
+    const CONVENTION: &str =
+        "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a";
+    let convention = match read.iter().any(|joint| joint.placed.is_some()) {
+        true => placed::convention(cx, keys.get("convention")),
+        false => keys
+            .require("convention", CONVENTION, cx.sink)
+            .and_then(|value| cx.word(value, &Convention::WORDS))
+            .unwrap_or(Convention::Standard),
+    };
+    let (joints, placements) = read
+        .into_iter()
+        .map(|read| (read.joint, (read.placed, read.span)))
+        .unzip();
+    let mut robot = Robot {
         name,
         convention,
         gravity,
+        base,
+        tool,
         joints,
-    })
+    };
+    let last = placed::rows(cx, places, &mut robot, placements);
+    Some((robot, last))
 }
 
-fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Joint>> {
+/// A `[[joint]]` table.
+struct Read {
+    joint: Joint,
+    /// Where it is, if it has no row.
+    placed: Option<Placed>,
+    span: Range<usize>,
+}
+
+/// A placement that a key may give.
+fn placement(
+    cx: &mut Context,
+    places: &mut Places,
+    keys: &Keys,
+    key: &str,
+    place: Place,
+) -> Option<Placement> {
+    let value = keys.get(key)?;
+    let read = cx.placement(value, key);
+    let span = first_line(cx.source, Context::span(value));
+    places
+        .keep(place, span, read, Placement::default)
+        .unless_identity()
+}
+
+fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Read>> {
     let Some(items) = list.as_array() else {
         cx.wanted(
             list,
@@ -137,7 +189,13 @@ fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Joi
                     span: first_line(cx.source, Context::span(item)),
                     what: format!("joint {}", index + 1),
                 };
-                Some(joint::read(cx, places, &keys, index))
+                let (joint, placed) = joint::read(cx, places, &keys, index);
+                let span = keys.span;
+                Some(Read {
+                    joint,
+                    placed,
+                    span,
+                })
             })
             .collect(),
     )

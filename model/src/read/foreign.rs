@@ -28,7 +28,7 @@ pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     if text.starts_with("<robot") || (text.starts_with('<') && text.contains("<robot")) {
         return Some((
             "XML, probably URDF",
-            "a robot file is TOML, with a [[joint]] table of DH parameters for every joint",
+            "a robot file is TOML: `dalembert import FILE` makes one of a URDF",
         ));
     }
     if text.starts_with('<') {

@@ -11,12 +11,36 @@ use super::places::Places;
 use super::table::Keys;
 use super::value::{Context, first_line};
 use crate::number::{Angle, Rational};
-use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Position};
+use crate::placed::Placed;
+use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Placement, Position};
 
 /// The keys of a joint, in the order that robot files have them.
-const KEYS: [&str; 13] = [
-    "name", "kind", "alpha", "a", "d", "theta", "offset", "mass", "com", "inertia", "viscous",
-    "armature", "limits",
+const KEYS: [&str; 16] = [
+    "name",
+    "kind",
+    "alpha",
+    "beta",
+    "a",
+    "d",
+    "theta",
+    "offset",
+    "placement",
+    "axis",
+    "mass",
+    "com",
+    "inertia",
+    "viscous",
+    "armature",
+    "limits",
+];
+/// Those of a row of the DH table.
+const ROW: [Field; 6] = [
+    Field::Alpha,
+    Field::Beta,
+    Field::A,
+    Field::D,
+    Field::Theta,
+    Field::Offset,
 ];
 /// The keys of its limits.
 const LIMITS: [&str; 4] = ["position", "velocity", "acceleration", "torque"];
@@ -31,7 +55,12 @@ struct Fields<'r, 's, 'k, 'v, 'de> {
 
 /// Reads joint `index`, counted from zero; what cannot be read is reported and
 /// made up.
-pub(super) fn read(cx: &mut Context, places: &mut Places, keys: &Keys, index: usize) -> Joint {
+pub(super) fn read(
+    cx: &mut Context,
+    places: &mut Places,
+    keys: &Keys,
+    index: usize,
+) -> (Joint, Option<Placed>) {
     keys.reject_unknown(&KEYS, cx.sink);
     let mut fields = Fields {
         cx,
@@ -44,15 +73,18 @@ pub(super) fn read(cx: &mut Context, places: &mut Places, keys: &Keys, index: us
         fields.keep(Field::Name, value, text, Default::default)
     });
     let kind = fields.kind();
+    let placed = fields.placed();
     let alpha = fields.angle(Field::Alpha);
+    let beta = fields.angle(Field::Beta);
     let a = fields.number(Field::A);
     let (d, theta) = fields.variable(kind);
     let (mass, com) = fields.mass_and_com();
     let inertia = fields.inertia();
-    Joint {
+    let joint = Joint {
         name,
         kind: kind.unwrap_or(JointKind::Revolute),
         alpha,
+        beta,
         a,
         d,
         theta,
@@ -62,7 +94,8 @@ pub(super) fn read(cx: &mut Context, places: &mut Places, keys: &Keys, index: us
         viscous: fields.number(Field::Viscous),
         armature: fields.number(Field::Armature),
         limits: fields.limits(kind),
-    }
+    };
+    (joint, placed)
 }
 
 impl Fields<'_, '_, '_, '_, '_> {
@@ -86,6 +119,44 @@ impl Fields<'_, '_, '_, '_, '_> {
     ) -> T {
         let place = Place::Joint(self.index, field);
         self.places.keep(place, span, read, or)
+    }
+
+    /// Where the link is, if that is given instead of a row.
+    fn placed(&mut self) -> Option<Placed> {
+        const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
+        let given = self.keys.get("placement").or(self.keys.get("axis"))?;
+        let span = first_line(self.cx.source, Context::span(given));
+        for field in ROW {
+            if let Some(value) = self.keys.get(field.key()) {
+                let message = format!("`{}` of a joint that is placed", field.key());
+                let help = "a placement takes the place of the DH row: leave the one or the other";
+                self.cx.sink.error(Context::span(value), message, help);
+            }
+            // What is odd about the row is so because of the placement.
+            self.keep_at(field, span.clone(), Some(()), || ());
+        }
+        let placement = match self.keys.get("placement") {
+            None => Some(Placement::default()),
+            Some(value) => self.cx.placement(value, "placement"),
+        };
+        let axis = self.keys.require("axis", AXIS, self.cx.sink);
+        let axis = axis.and_then(|value| {
+            let read = self.cx.array(value, AXIS, Context::number)?;
+            if read.iter().all(Zero::is_zero) {
+                let span = first_line(self.cx.source, Context::span(value));
+                let message = "an axis of length zero has no direction".to_string();
+                self.cx.sink.error(span, message, AXIS);
+                return None;
+            }
+            Some(read)
+        });
+        // Without one of them nothing is said of what would follow.
+        let read = placement.zip(axis);
+        let (placement, axis) = self.keep_at(Field::Placement, span, read, || {
+            let axis = [0, 0, 1].map(|x: i64| Rational::from_integer(x.into()));
+            (Placement::default(), axis)
+        });
+        Some(Placed { placement, axis })
     }
 
     fn kind(&mut self) -> Option<JointKind> {

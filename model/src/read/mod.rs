@@ -5,7 +5,28 @@
 //! - `toml-span`, for the structure and the spans; its numbers are not used
 //! - `file`, `joint` and `scene`: the keys of the file, through `table` and
 //!   `value`
+//! - `placed`: DH rows for joints that are placed by frames
 //! - [`Robot::validate`]: what is wrong whoever made the robot
+//!
+//! # What a robot file may say besides rows
+//!
+//! ```toml
+//! base = { xyz = [0, 0, 0.8], rpy = ["pi", 0, 0] }    # frame 0 in base axes
+//! tool = { xyz = [0, 0, 0.107] }                      # the hand in the last frame
+//!
+//! [[joint]]                       # a joint without a row of the DH table:
+//! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
+//! axis = [0, 0, 1]
+//! ```
+//!
+//! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's
+//! own without a `base`. A placement is where a frame is in the one before: moved
+//! by `xyz` metres, its axes turned by `rpy` about the fixed axes x, y and z, in
+//! this order, as in URDF. Joints are placed all or none; their `com` and
+//! `inertia`, the `tool` and a scene's payload are in the links' own frames, whose
+//! origins lie on the joints' axes. [`placed`](crate::placed) says which rows they
+//! get; `link_poses` are those of the rows' frames. A row may turn about y after
+//! its twist, `beta`, where axes are nearly parallel.
 //!
 //! `report` collects and prints what was found; `suggest` finds the word that
 //! was meant, `foreign` what was meant where the text is no TOML.
@@ -14,6 +35,7 @@ mod file;
 mod foreign;
 mod guard;
 mod joint;
+mod placed;
 mod places;
 mod report;
 mod scene;

@@ -12,10 +12,11 @@ use toml_span::Value;
 use toml_span::value::{Table, ValueInner};
 
 use super::report::{Sink, quote};
+use super::table::Keys;
 use super::{Severity, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
-use crate::robot::Inertia;
+use crate::robot::{Inertia, Placement};
 
 /// What reading a value needs.
 pub(super) struct Context<'s, 'k> {
@@ -238,6 +239,30 @@ impl<'s> Context<'s, '_> {
         let read: Vec<Option<T>> = items.iter().map(|v| item(self, v)).collect();
         let read: Option<Vec<T>> = read.into_iter().collect();
         read?.try_into().ok()
+    }
+
+    /// A placement; `what` is the key that has it.
+    pub(super) fn placement(&mut self, value: &Value, what: &str) -> Option<Placement> {
+        const XYZ: &str = "xyz = [x, y, z], in m";
+        const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
+        let help = format!("{what} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
+        let keys = Keys {
+            table: self.table(value, &help)?,
+            span: first_line(self.source, Self::span(value)),
+            what: what.to_string(),
+        };
+        keys.reject_unknown(&["xyz", "rpy"], self.sink);
+        let mut placement = Placement::default();
+        let (xyz, rpy) = (keys.get("xyz"), keys.get("rpy"));
+        let xyz = xyz.map(|value| self.array(value, XYZ, Self::length));
+        let rpy = rpy.map(|value| self.array(value, RPY, Self::angle));
+        if let Some(xyz) = xyz {
+            placement.xyz = xyz?;
+        }
+        if let Some(rpy) = rpy {
+            placement.rpy = rpy?;
+        }
+        Some(placement)
     }
 
     /// An inertia tensor: six entries or three rows.

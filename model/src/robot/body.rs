@@ -20,7 +20,25 @@ pub(crate) enum Defect {
     Massless,
 }
 
+impl Defect {
+    /// What is wrong.
+    pub(crate) fn message(self) -> &'static str {
+        match self {
+            Defect::NegativeMoment => "no body has this inertia: a principal moment is negative",
+            Defect::Triangle => {
+                "no body has this inertia: one principal moment exceeds the sum of the other two"
+            }
+            Defect::Massless => "no body has this inertia: the mass is zero",
+        }
+    }
+}
+
 impl Inertia<Rational> {
+    /// Why no body of this mass can have this tensor, in words, if none can.
+    pub fn impossible(&self, mass: &Rational) -> Option<&'static str> {
+        self.defect(mass).map(Defect::message)
+    }
+
     /// The reason why no body of this mass can have this tensor, if there is
     /// one.
     pub(crate) fn defect(&self, mass: &Rational) -> Option<Defect> {

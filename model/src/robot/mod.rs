@@ -3,6 +3,7 @@
 //! One [`Joint`] per row of the DH table; everything is SI, angles are exact
 //! ([`Angle`]), all other numbers are exact rationals.
 //!
+//! - `placement`: where a frame is in another, [`Placement`]
 //! - `place`: names of the parts of a robot, for findings
 //! - `findings`: what is said of a robot, and how much it matters
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
@@ -13,6 +14,7 @@
 mod body;
 mod findings;
 mod place;
+mod placement;
 mod units;
 mod validate;
 mod write;
@@ -25,7 +27,9 @@ use crate::number::{Angle, Rational};
 
 pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
+pub use placement::Placement;
 
+pub use validate::suggested_name;
 pub use write::write;
 
 /// Which of the two DH conventions the table is written in.
@@ -70,7 +74,15 @@ pub struct Robot {
     /// DH convention of every row.
     pub convention: Convention,
     /// Acceleration of gravity in base axes, m/s², e.g. (0, 0, −9.81).
+    ///
+    /// Base axes are those that [`Robot::base`] places frame 0 in, here and in
+    /// every pose, Jacobian and wrench; without it they are frame 0's own.
     pub gravity: [Rational; 3],
+    /// Frame 0 of the DH table in base axes, unless they are the same.
+    pub base: Option<Placement>,
+    /// The hand in the last frame, unless it is that frame: what forward
+    /// kinematics and Jacobians are of.
+    pub tool: Option<Placement>,
     /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`].
     pub joints: Vec<Joint>,
 }
@@ -101,6 +113,12 @@ pub struct Joint {
     pub kind: JointKind,
     /// Twist α_i.
     pub alpha: Angle,
+    /// A turn β_i about y after the twist, A_i Ry(β_i); of standard DH only.
+    ///
+    /// Where the next axis is *nearly* parallel, the common normal is far away
+    /// or nowhere; with this angle (Hayati's) the frame stays near. Zero for
+    /// every other joint.
+    pub beta: Angle,
     /// Length a_i, m.
     pub a: Rational,
     /// Constant part of d_i, m: all of it for a revolute joint, the offset

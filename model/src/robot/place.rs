@@ -10,6 +10,10 @@ pub enum Place {
     Name,
     /// The gravity vector.
     Gravity,
+    /// The placement of frame 0.
+    Base,
+    /// The placement of the hand.
+    Tool,
     /// The list of joints as a whole.
     Joints,
     /// A field of the joint with this zero-based index.
@@ -28,6 +32,10 @@ pub enum Field {
     Kind,
     /// Twist.
     Alpha,
+    /// Turn about y after the twist.
+    Beta,
+    /// Where its link is at q = 0, and its axis.
+    Placement,
     /// Length of the common normal.
     A,
     /// Constant d of a revolute joint.
@@ -63,6 +71,8 @@ impl Field {
             Field::Name => "name",
             Field::Kind => "kind",
             Field::Alpha => "alpha",
+            Field::Beta => "beta",
+            Field::Placement => "placement",
             Field::A => "a",
             Field::D => "d",
             Field::Theta => "theta",
@@ -85,6 +95,8 @@ impl fmt::Display for Place {
         match self {
             Place::Name => f.write_str("name"),
             Place::Gravity => f.write_str("gravity"),
+            Place::Base => f.write_str("base"),
+            Place::Tool => f.write_str("tool"),
             Place::Joints => f.write_str("joints"),
             // People count joints from one, as the equations do.
             Place::Joint(index, field) => write!(f, "joint {}: {}", index + 1, field.key()),

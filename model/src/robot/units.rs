@@ -11,7 +11,7 @@ use alloc::string::{String, ToString};
 use num_traits::{Signed, Zero};
 
 use super::findings::{Findings, Severity};
-use super::{Field, Joint, JointKind, Place, Position};
+use super::{Field, Joint, JointKind, Place, Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -71,18 +71,28 @@ impl Findings {
         );
     }
 
+    pub(super) fn doubtful_placement(&mut self, place: Place, placement: &Placement) {
+        if let Some(longest) = placement.xyz.iter().max_by_key(|x| x.abs()) {
+            self.doubtful_length(place, "xyz", longest);
+        }
+        for angle in &placement.rpy {
+            self.doubtful_angle(place, "rpy", angle);
+        }
+    }
+
     pub(super) fn doubtful_joint(&mut self, index: usize, joint: &Joint) {
         let at = |field| Place::Joint(index, field);
         let (d, theta) = match joint.kind {
             JointKind::Revolute => (Field::D, Field::Offset),
             JointKind::Prismatic => (Field::Offset, Field::Theta),
         };
-        self.doubtful_angle(at(Field::Alpha), Field::Alpha, &joint.alpha);
-        self.doubtful_angle(at(theta), theta, &joint.theta);
-        self.doubtful_length(at(Field::A), Field::A, &joint.a);
-        self.doubtful_length(at(d), d, &joint.d);
+        self.doubtful_angle(at(Field::Alpha), Field::Alpha.key(), &joint.alpha);
+        self.doubtful_angle(at(Field::Beta), Field::Beta.key(), &joint.beta);
+        self.doubtful_angle(at(theta), theta.key(), &joint.theta);
+        self.doubtful_length(at(Field::A), Field::A.key(), &joint.a);
+        self.doubtful_length(at(d), d.key(), &joint.d);
         if let Some(longest) = joint.com.iter().max_by_key(|x| x.abs()) {
-            self.doubtful_length(at(Field::Com), Field::Com, longest);
+            self.doubtful_length(at(Field::Com), Field::Com.key(), longest);
         }
         if joint.mass >= whole(MAX_MASS) {
             let mass = &joint.mass;
@@ -111,7 +121,7 @@ impl Findings {
                     break;
                 }
                 Position::Length(value) if value.abs() > whole(MAX_LENGTH) => {
-                    self.doubtful_length(at(Field::Position), Field::Position, value);
+                    self.doubtful_length(at(Field::Position), Field::Position.key(), value);
                     break;
                 }
                 _ => {}
@@ -141,7 +151,7 @@ impl Findings {
         self.doubt(at(Field::Velocity), message, &help);
     }
 
-    fn doubtful_angle(&mut self, place: Place, field: Field, angle: &Angle) {
+    fn doubtful_angle(&mut self, place: Place, what: &str, angle: &Angle) {
         // Whoever writes 5*pi/2 or "450deg" knows the unit.
         let Angle::Radians(value) = angle else {
             return;
@@ -150,7 +160,7 @@ impl Findings {
         if size.cmp_value(&Angle::right_angles(4)).is_gt() {
             self.doubt(
                 place,
-                format!("{} is {} rad: more than a turn", field.key(), shown(value)),
+                format!("{what} is {} rad: more than a turn", shown(value)),
                 &format!(
                     "angles are in rad: of degrees, write \"{}deg\"",
                     shown(value)
@@ -159,13 +169,13 @@ impl Findings {
         }
     }
 
-    fn doubtful_length(&mut self, place: Place, field: Field, length: &Rational) {
+    fn doubtful_length(&mut self, place: Place, what: &str, length: &Rational) {
         if length.abs() > whole(MAX_LENGTH) {
             self.doubt(
                 place,
                 format!(
                     "{} is {} m: longer than {MAX_LENGTH} m",
-                    field.key(),
+                    what,
                     shown(length)
                 ),
                 &format!(

@@ -14,7 +14,7 @@ use num_traits::Signed;
 
 use super::body::Defect;
 use super::findings::{Finding, Findings, Severity};
-use super::{Field, Joint, JointKind, Place, Position, Robot, units};
+use super::{Convention, Field, Joint, JointKind, Place, Placement, Position, Robot, units};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational};
 
@@ -28,6 +28,12 @@ impl Robot {
             findings.size(Place::Gravity, value);
         }
         findings.doubtful_gravity(&self.gravity);
+        for (place, placement) in [(Place::Base, &self.base), (Place::Tool, &self.tool)] {
+            if let Some(placement) = placement {
+                findings.placement(place, placement);
+                findings.doubtful_placement(place, placement);
+            }
+        }
         if self.joints.is_empty() || self.joints.len() > Robot::MAX_JOINTS {
             findings.error(
                 Place::Joints,
@@ -43,6 +49,13 @@ impl Robot {
         for (index, joint) in self.joints.iter().enumerate() {
             findings.joint(index, joint);
             findings.doubtful_joint(index, joint);
+            if self.convention == Convention::Modified && !joint.beta.is_zero() {
+                findings.error(
+                    Place::Joint(index, Field::Beta),
+                    "a turn about y after the twist belongs to standard DH".to_owned(),
+                    "write the table in the standard convention, or leave beta out",
+                );
+            }
             let Some(name) = joint.name.as_deref() else {
                 continue;
             };
@@ -102,6 +115,15 @@ impl Findings {
         }
     }
 
+    fn placement(&mut self, place: Place, placement: &Placement) {
+        for value in &placement.xyz {
+            self.size(place, value);
+        }
+        for value in &placement.rpy {
+            self.angle(place, value);
+        }
+    }
+
     fn joint(&mut self, index: usize, joint: &Joint) {
         let at = |field| Place::Joint(index, field);
         // What the file calls offset is the constant part of the variable.
@@ -110,6 +132,7 @@ impl Findings {
             JointKind::Prismatic => (Field::Offset, Field::Theta),
         };
         self.angle(at(Field::Alpha), &joint.alpha);
+        self.angle(at(Field::Beta), &joint.beta);
         self.angle(at(theta), &joint.theta);
         self.size(at(Field::A), &joint.a);
         self.size(at(d), &joint.d);
@@ -202,23 +225,19 @@ impl Findings {
         let Some(defect) = joint.inertia.defect(&joint.mass) else {
             return;
         };
-        let (message, help) = match defect {
-            Defect::NegativeMoment => (
-                "no body has this inertia: a principal moment is negative",
-                "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass; taken as it stands",
-            ),
-            Defect::Triangle => (
-                "no body has this inertia: one principal moment exceeds the sum of the other two",
-                "expected for a link whose other moments were left out; taken as it stands",
-            ),
-            Defect::Massless => (
-                "no body has this inertia: the mass is zero",
-                "expected for a link whose mass was left out; taken as it stands",
-            ),
+        let help = match defect {
+            Defect::NegativeMoment => {
+                "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass; taken as it stands"
+            }
+            Defect::Triangle => {
+                "expected for a link whose other moments were left out; taken as it stands"
+            }
+            Defect::Massless => "expected for a link whose mass was left out; taken as it stands",
         };
         // A missing mass that leaves the tensor a possible one is usual in
         // published tables, and so is a broken one: either way only a warning.
-        self.push(Severity::Warning, place, message.to_owned(), help);
+        let message = defect.message().to_owned();
+        self.push(Severity::Warning, place, message, help);
     }
 }
 
@@ -238,8 +257,9 @@ fn is_snake(name: &str) -> bool {
             .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
 }
 
-/// The nearest good name: `"UR-10 e"` gives `ur_10_e`.
-fn suggested_name(name: &str) -> Option<String> {
+/// The nearest name that a robot can have: `"UR-10 e"` gives `ur_10_e`; none
+/// where there is no letter or digit.
+pub fn suggested_name(name: &str) -> Option<String> {
     let mut better = String::new();
     for c in name.chars() {
         if c.is_ascii_alphanumeric() {

@@ -10,7 +10,7 @@ use core::fmt::Write;
 
 use num_traits::Zero;
 
-use super::{Convention, Joint, JointKind, Position, Robot};
+use super::{Convention, Joint, JointKind, Placement, Position, Robot};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 
@@ -30,6 +30,11 @@ pub fn write(robot: &Robot) -> String {
     };
     line(&mut text, "convention", convention);
     line(&mut text, "gravity", &list([x, y, z]));
+    for (key, value) in [("base", &robot.base), ("tool", &robot.tool)] {
+        if let Some(value) = value {
+            line(&mut text, key, &placement(value));
+        }
+    }
     for joint in &robot.joints {
         text.push_str("\n[[joint]]\n");
         write_joint(&mut text, joint);
@@ -69,6 +74,7 @@ fn write_joint(text: &mut String, joint: &Joint) {
     line(text, "kind", kind);
     for (key, value) in [
         ("alpha", angle(&joint.alpha)),
+        ("beta", angle(&joint.beta)),
         ("a", number(&joint.a)),
         ("d", number(d)),
         ("theta", angle(theta)),
@@ -142,6 +148,12 @@ fn list<const N: usize>(values: [&Rational; N]) -> String {
     }
     text.push(']');
     text
+}
+
+fn placement(value: &Placement) -> String {
+    let [x, y, z] = &value.xyz;
+    let rpy = value.rpy.each_ref().map(angle).join(", ");
+    format!("{{ xyz = {}, rpy = [{rpy}] }}", list([x, y, z]))
 }
 
 fn number(value: &Rational) -> String {

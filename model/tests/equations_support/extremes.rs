@@ -78,6 +78,7 @@ impl Extreme {
                     },
                     None => pair(alpha[i]),
                 },
+                beta: None,
                 theta: pair(offset[i]),
                 a: number(a[i]),
                 d: number(d[i]),
@@ -98,6 +99,8 @@ impl Extreme {
         Arm {
             convention: Convention::Standard,
             gravity: triple(&robot["g"]).map(&number),
+            base: None,
+            tool: None,
             links: types.chars().enumerate().map(link).collect(),
         }
     }

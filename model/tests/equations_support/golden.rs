@@ -59,6 +59,8 @@ fn arm(json: &Value) -> Arm<f64> {
             Convention::Standard
         },
         gravity: triple(&json["gravity"]),
+        base: None,
+        tool: None,
         links: json["links"].as_array().unwrap().iter().map(link).collect(),
     }
 }
@@ -77,6 +79,7 @@ fn link(json: &Value) -> Link<f64> {
     Link {
         kind,
         alpha: snapped(number("alpha")),
+        beta: None,
         theta: snapped(theta),
         a: number("a"),
         d,

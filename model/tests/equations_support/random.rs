@@ -1,11 +1,13 @@
 //! Random general arms in the prime field: every parameter its own residue, so
 //! that no slip can hide behind a zero or a right angle.
 
+use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, Rotor};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::field::{Field, Points};
 
 /// An arm and one state of it.
+#[derive(Clone)]
 pub struct Case {
     pub arm: Arm<Field>,
     pub at: Vec<DhVariables<Field>>,
@@ -27,6 +29,8 @@ pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) ->
     let arm = Arm {
         convention,
         gravity: triple(points),
+        base: None,
+        tool: None,
         links: kinds.iter().map(|kind| link(*kind, points)).collect(),
     };
     let position = |kind: &JointKind| match kind {
@@ -42,10 +46,23 @@ pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) ->
     }
 }
 
+/// Somewhere, turned about all three axes.
+pub fn pose(points: &mut Points) -> Columns<Field> {
+    let turned = Columns::identity()
+        .turn_z(&pair(points))
+        .turn_y(&pair(points))
+        .turn_x(&pair(points));
+    Columns {
+        origin: triple(points),
+        ..turned
+    }
+}
+
 fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
     Link {
         kind,
         alpha: pair(points),
+        beta: None,
         theta: pair(points),
         a: points.field(),
         d: points.field(),

@@ -86,6 +86,7 @@ pub fn chain(n: usize, seed: u64) -> Robot {
                 2 => Angle::right_angles(-1),
                 _ => Angle::Radians(decimal(-1000, 1000)).canonical(),
             },
+            beta: Angle::default(),
             a: decimal(10, 300),
             d: decimal(10, 300),
             theta: Angle::default(),
@@ -108,6 +109,8 @@ pub fn chain(n: usize, seed: u64) -> Robot {
         name: "chain".into(),
         convention: Convention::Standard,
         gravity: [1.3, -2.1, -9.4].map(|x| Rational::new(((x * 10.0) as i64).into(), 10.into())),
+        base: None,
+        tool: None,
         joints: (0..n.min(Robot::MAX_JOINTS)).map(joint).collect(),
     }
 }

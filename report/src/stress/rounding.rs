@@ -1,7 +1,7 @@
 //! A robot whose parameters are numbers of a scalar.
 
 use dalembert_model::number::{Angle, Rational, Rounded};
-use dalembert_model::robot::{Inertia, Joint, Robot};
+use dalembert_model::robot::{Inertia, Joint, Placement, Robot};
 
 use dalembert_codegen::program::ScalarType;
 
@@ -33,6 +33,7 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
         } = &joint.inertia;
         Some(Joint {
             alpha: angle(&joint.alpha)?,
+            beta: angle(&joint.beta)?,
             a: number(&joint.a)?,
             d: number(&joint.d)?,
             theta: angle(&joint.theta)?,
@@ -51,8 +52,24 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
             ..joint.clone()
         })
     };
+    let placement = |placement: &Option<Placement>| {
+        let placement = placement.as_ref().map(
+            |Placement {
+                 xyz,
+                 rpy: [r, p, y],
+             }| {
+                Some(Placement {
+                    xyz: triple(xyz)?,
+                    rpy: [angle(r)?, angle(p)?, angle(y)?],
+                })
+            },
+        );
+        placement.map_or(Some(None), |rounded| rounded.map(Some))
+    };
     Some(Robot {
         gravity: triple(&robot.gravity)?,
+        base: placement(&robot.base)?,
+        tool: placement(&robot.tool)?,
         joints: robot.joints.iter().map(joint).collect::<Option<_>>()?,
         ..robot.clone()
     })

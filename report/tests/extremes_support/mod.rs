@@ -64,6 +64,7 @@ fn robot(json: &Value) -> Robot {
                 Some(pair) => right_angle(pair),
                 None => radians(alpha[i]),
             },
+            beta: Angle::default(),
             a: exact(a[i]),
             d: exact(d[i]),
             theta: radians(offset[i]),
@@ -87,6 +88,8 @@ fn robot(json: &Value) -> Robot {
         name: "extreme".into(),
         convention: Convention::Standard,
         gravity: [0, 1, 2].map(|axis| exact(gravity[axis])),
+        base: None,
+        tool: None,
         joints: kinds.enumerate().map(joint).collect(),
     }
 }

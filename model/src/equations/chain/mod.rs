@@ -231,6 +231,15 @@ fn turn_x<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
     ]
 }
 
+fn turn_y<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
+    let (s, c) = (&angle.sin, &angle.cos);
+    [
+        [c.clone(), S::zero(), s.clone()],
+        [S::zero(), S::one(), S::zero()],
+        [s.neg(), S::zero(), c.clone()],
+    ]
+}
+
 fn turn_z<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
     let (s, c) = (&angle.sin, &angle.cos);
     [

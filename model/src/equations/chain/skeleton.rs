@@ -6,7 +6,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Rotation, apply, identity, product, turn_x, turn_z, unit_z};
+use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
 use crate::equations::matrix::{Vector, plus, sum, zero_vector};
 use crate::equations::{Arm, JointPosition, Rotor};
 use crate::robot::{Convention, JointKind};
@@ -58,7 +58,10 @@ impl<S: Scalar> Skeleton<S> {
         let mut moved: Vector<S> = zero_vector();
         let mut merged = false;
         for (joint, link) in arm.links.iter().enumerate() {
-            let twist = turn_x(&link.alpha);
+            let twist = match &link.beta {
+                None => turn_x(&link.alpha),
+                Some(beta) => product(&turn_x(&link.alpha), &turn_y(beta)),
+            };
             let along = [link.a.clone(), S::zero(), S::zero()];
             if arm.convention == Convention::Modified {
                 moved = sum(&moved, &apply(&turned, &along));

@@ -62,7 +62,7 @@ pub fn wrenches<S: Scalar>(
     wrenches_on(arm, &bodies(arm, at, qd, qdd), None)
 }
 
-/// v̇ and ω̇ of the last frame.
+/// v̇ and ω̇ of the hand, in the axes of frame 0.
 pub fn tip_acceleration<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -70,7 +70,7 @@ pub fn tip_acceleration<S: Scalar>(
     qdd: &[S],
 ) -> [Vector<S>; 2] {
     match bodies(arm, at, qd, qdd).pop() {
-        Some(last) => [last.acceleration, last.omega_dot],
+        Some(last) => [last.acceleration_of(arm.tool.as_ref()), last.omega_dot],
         None => [opposite(&arm.gravity), zero_vector()],
     }
 }
@@ -157,6 +157,21 @@ fn bodies<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -
 }
 
 impl<S: Scalar> Body<S> {
+    /// v̇ of a tool's origin, or of the frame's own.
+    fn acceleration_of(&self, tool: Option<&Columns<S>>) -> Vector<S> {
+        let Some(tool) = tool else {
+            return self.acceleration.clone();
+        };
+        let axes = Columns {
+            axes: self.rotation.clone(),
+            origin: zero_vector(),
+        };
+        let lever = axes.rotate(&tool.origin);
+        let turning = cross(&self.omega_dot, &lever);
+        let of_lever = sum(&turning, &centripetal(&self.omega, &lever));
+        sum(&self.acceleration, &of_lever)
+    }
+
     /// ω_i, ω̇_i and v̇_i from those of the link before.
     fn moved(
         mut self,

@@ -268,17 +268,18 @@ impl<'a, S: Scalar> Step<'a, S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH).
+    /// p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH; turned
+    /// back by β where there is one).
     fn lever_here(&self, d: &S) -> Vector<S> {
-        [
+        self.tilt_back([
             self.a.clone(),
             times(d, &self.alpha.sin),
             times(d, &self.alpha.cos),
-        ]
+        ])
     }
 
     /// X z_0 = (0, sin α_i, cos α_i), the joint's axis in frame i (standard DH).
     fn axis_here(&self) -> Vector<S> {
-        [S::zero(), self.alpha.sin.clone(), self.alpha.cos.clone()]
+        self.tilt_back([S::zero(), self.alpha.sin.clone(), self.alpha.cos.clone()])
     }
 }

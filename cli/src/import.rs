@@ -1,0 +1,75 @@
+//! `dalembert import`: a robot file of a chain of a URDF.
+
+use std::path::Path;
+
+use dalembert_import::{Change, Imported, MAX_BYTES, Options, import};
+use dalembert_model::robot::Robot;
+
+use crate::args::ImportArgs;
+use crate::files::target::Target;
+use crate::files::{distinct, write};
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
+
+/// Runs the subcommand.
+pub fn run(args: &ImportArgs) -> Outcome {
+    let target = match &args.output {
+        None => Target::standard(),
+        Some(path) => Target::at(path)?,
+    };
+    distinct::distinct(&[("the URDF", &args.urdf)], &[("the robot file", &target)])?;
+    target.check()?;
+    let name = args.urdf.display().to_string();
+    let bytes = input::bytes(&args.urdf, MAX_BYTES as u64)?;
+    let source = String::from_utf8(bytes)
+        .map_err(|_| Failure::Input(format!("error: `{name}` is not UTF-8 text")))?;
+    let options = Options {
+        base: args.base.clone(),
+        tip: args.tip.clone(),
+        lock: args.lock.clone(),
+        without: args.without.clone(),
+        exact: args.exact,
+        file: file_name(&args.urdf),
+    };
+    let imported = import(&source, &options)
+        .map_err(|errors| Failure::Input(errors.render(&name, &source)))?;
+    write::write(&[(&target, &imported.text)])?;
+    report(&imported, &name, &source);
+    Ok(())
+}
+
+/// What a person wants to know: what was left out, which numbers were taken for
+/// others, and what that changes.
+fn report(imported: &Imported, name: &str, source: &str) {
+    for note in &imported.notes {
+        output::note(&note.render(name, source));
+    }
+    for snap in &imported.snaps {
+        output::note(&format!("{name}:{}: {snap}", snap.line(source)));
+    }
+    let Robot { name, joints, .. } = &imported.robot;
+    output::note(&format!("{name}: {} joints", joints.len()));
+    if let Some(change) = &imported.change {
+        let n = imported.snaps.len();
+        output::note(&format!(
+            "{n} numbers were taken for others; what that changes in the torques is bounded: {change}"
+        ));
+        let limits = change.limits();
+        let bounds = change.torques(limits);
+        for (i, joint) in joints.iter().enumerate() {
+            let label = joint.name.as_deref().unwrap_or_default();
+            output::note(&format!(
+                "  {label}: ≤ {} N·m or N, at rates up to {:.3} and {:.3} a second",
+                Change::in_digits(bounds[i]),
+                limits.velocity[i],
+                limits.acceleration[i]
+            ));
+        }
+        output::note("  --exact takes every digit as it stands");
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}

@@ -1,0 +1,95 @@
+//! `dalembert import`: the robot file of a URDF, and what is said about it.
+
+mod support;
+
+use std::fs;
+
+use support::{run, temporary};
+
+fn urdf(name: &str) -> String {
+    format!(
+        "{}/../import/tests/data/{name}.urdf",
+        env!("CARGO_MANIFEST_DIR")
+    )
+}
+
+#[test]
+fn a_chain_becomes_a_robot_file_that_counts() {
+    let folder = temporary("import");
+    let file = folder.join("ur5.toml");
+    let name = file.to_str().unwrap();
+    let ran = run(&["import", &urdf("ur5"), "--tip", "tool0", "-o", name]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.is_empty());
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(
+        text.starts_with("# From link world to link tool0 of ur5.urdf"),
+        "{text}"
+    );
+    for part in [
+        "ur5.urdf:",
+        "is taken for pi/2",
+        "what that changes in the torques is bounded: ≤ ",
+        "of the effort limits",
+        "wrist_3_joint: ≤ ",
+        "--exact takes every digit as it stands",
+    ] {
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+    }
+    // To standard output the same bytes.
+    let again = run(&["import", &urdf("ur5"), "--tip", "tool0"]);
+    assert_eq!((again.code, again.out == text), (0, true));
+    // Snapped, the structure is back: this arm is the UR10's size in operations.
+    let counted = run(&["count", name, "--outputs", "gravity"]);
+    assert_eq!(counted.code, 0, "{}", counted.err);
+    assert!(counted.out.contains("gravity"), "{}", counted.out);
+}
+
+#[test]
+fn refusals_are_bad_input() {
+    let folder = temporary("import_refused");
+    let output = folder.join("panda.toml");
+    let output = output.to_str().unwrap();
+    let panda = urdf("panda");
+    for (arguments, part) in [
+        (
+            &["--tip", "panda_hand_tcp"][..],
+            "add --lock panda_finger_joint1=0, or leave its link away: --without panda_leftfinger",
+        ),
+        (&["--tip", "nowhere"], "--tip: there is no link `nowhere`"),
+        (&["--lock", "panda_joint1"], "a joint and its position"),
+        (&[], "choose the end by --tip"),
+    ] {
+        let ran = run(&[&["import", &panda, "-o", output], arguments].concat());
+        assert_eq!(ran.code, 2, "{}", ran.err);
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+        assert!(!fs::exists(output).unwrap());
+    }
+    let over = folder.join("arm.urdf");
+    fs::copy(&panda, &over).unwrap();
+    let over = over.to_str().unwrap();
+    let ran = run(&["import", over, "-o", over, "--tip", "panda_link8"]);
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("would be written over the URDF"),
+        "{}",
+        ran.err
+    );
+    fs::write(over, b"\xff\xfe").unwrap();
+    assert!(run(&["import", over]).err.contains("is not UTF-8 text"));
+    // The way out that was named is one.
+    let ran = run(&[
+        "import",
+        &panda,
+        "--tip",
+        "panda_hand_tcp",
+        "--lock",
+        "panda_finger_joint1=0",
+        "--without",
+        "panda_rightfinger",
+        "-o",
+        output,
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(fs::exists(output).unwrap());
+}

@@ -1,0 +1,317 @@
+//! What snapping changes in the torques, bounded.
+//!
+//! The recursion of Newton and Euler over the joints' own frames, with sizes for
+//! vectors: the length that a vector has at most, of either arm, and how far the two
+//! arms' vectors are apart. For sums both add up; of a product, |a₂ b₂ − a₁ b₁| ≤
+//! |a₂||b₂ − b₁| + |a₂ − a₁||b₁|. A turn keeps lengths, and two turns move a vector
+//! apart by its length times the distance of the turns. So every position of the
+//! joints is covered, and with upward rounding the result is a bound, not a
+//! measurement. The triangle inequality makes it a few times too large.
+
+use std::fmt;
+
+use dalembert_model::equations::matrix::Vector;
+use dalembert_model::number::{Rational, Rounded, Wide};
+use dalembert_model::scalar::Scalar;
+use num_traits::Signed;
+
+use crate::merge::{Arm, Link};
+use crate::tree::Chain;
+use crate::urdf::{Kind, Urdf};
+
+/// How far the torques of the snapped arm are from those of the URDF's digits.
+#[derive(Clone, Debug)]
+pub struct Change {
+    links: Vec<Parts>,
+    limits: Motion,
+    /// The efforts of the joints, if each has one.
+    efforts: Option<Vec<f64>>,
+}
+
+/// The motion that a bound is over: at most so far, so fast, so steeply.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// |q| of joints that slide, m; those that turn may be anywhere.
+    pub position: Vec<f64>,
+    /// |q̇|, rad/s or m/s.
+    pub velocity: Vec<f64>,
+    /// |q̈|, rad/s² or m/s².
+    pub acceleration: Vec<f64>,
+}
+
+/// What a joint's recursion is made of.
+#[derive(Clone, Debug)]
+struct Parts {
+    slides: bool,
+    turn: Pair,
+    axis: Pair,
+    lever: Pair,
+    mass: Pair,
+    com: Pair,
+    inertia: Pair,
+}
+
+/// A length that neither arm exceeds, and how far both are apart.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    size: f64,
+    off: f64,
+}
+
+impl Change {
+    /// The motion within the URDF's limits; where it has none, ±1 m, 3 per second;
+    /// 10 per second squared always, of which a URDF does not speak.
+    pub fn limits(&self) -> &Motion {
+        &self.limits
+    }
+
+    /// What each torque may be off over a motion, N·m or N; joints beyond the
+    /// motion's are taken not to move.
+    pub fn torques(&self, motion: &Motion) -> Vec<f64> {
+        let value =
+            |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
+        let (mut omega, mut turning) = (Pair::ZERO, Pair::ZERO);
+        // v̇ of the base: gravity, the same of both.
+        let mut moving = Pair::of(9.81);
+        let mut loads = Vec::with_capacity(self.links.len());
+        for (i, part) in self.links.iter().enumerate() {
+            let [q, qd, qdd] = [&motion.position, &motion.velocity, &motion.acceleration]
+                .map(|values| value(values, i));
+            let lever = match part.slides {
+                true => part.lever + part.turn * part.axis * q,
+                false => part.lever,
+            };
+            let carried = moving + turning * lever + omega * omega * lever;
+            let (before, along) = (part.turn * omega, part.axis * qd);
+            moving = part.turn * carried;
+            turning = part.turn * turning;
+            if part.slides {
+                let coriolis = before * along;
+                moving = moving + part.axis * qdd + coriolis + coriolis;
+                omega = before;
+            } else {
+                turning = turning + part.axis * qdd + before * along;
+                omega = before + along;
+            }
+            let of_com = moving + turning * part.com + omega * omega * part.com;
+            let force = part.mass * of_com;
+            let moment = part.inertia * turning + omega * part.inertia * omega + part.com * force;
+            loads.push((lever, force, moment));
+        }
+        let (mut force, mut moment) = (Pair::ZERO, Pair::ZERO);
+        let mut torques = Vec::with_capacity(self.links.len());
+        for (i, (_, own, turn)) in loads.iter().enumerate().rev() {
+            // From the next joint's frame into this one's.
+            if let (Some(next), Some((lever, ..))) = (self.links.get(i + 1), loads.get(i + 1)) {
+                let carried = next.turn * force;
+                moment = next.turn * moment + *lever * carried;
+                force = carried;
+            }
+            (force, moment) = (force + *own, moment + *turn);
+            let part = &self.links[i];
+            let load = if part.slides { force } else { moment };
+            torques.push((part.axis * load).off);
+        }
+        torques.reverse();
+        torques
+    }
+
+    /// The same as text, two digits, not below.
+    pub fn in_digits(bound: f64) -> String {
+        upward(bound)
+    }
+
+    /// The largest of them within the limits, relative to the joint's effort, if
+    /// every joint has one.
+    pub fn of_efforts(&self) -> Option<f64> {
+        let torques = self.torques(&self.limits);
+        let parts = torques.iter().zip(self.efforts.as_ref()?);
+        Some(
+            parts
+                .map(|(off, effort)| (off / effort).next_up())
+                .fold(0.0, f64::max),
+        )
+    }
+}
+
+/// `≤ 3.1e-9 of the effort limits`
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.of_efforts() {
+            Some(0.0) => f.write_str("nothing"),
+            Some(part) => write!(f, "≤ {} of the effort limits", upward(part)),
+            None => {
+                let worst = self.torques(&self.limits).into_iter().fold(0.0, f64::max);
+                write!(f, "≤ {} N·m or N", upward(worst))
+            }
+        }
+    }
+}
+
+/// Two digits, not below.
+fn upward(x: f64) -> String {
+    let text = format!("{x:.1e}");
+    match text.parse::<f64>() {
+        Ok(read) if read >= x => text,
+        // One unit of the second digit more.
+        _ => format!("{:.1e}", x * 1.06),
+    }
+}
+
+/// The bound of two arms that differ by what was snapped.
+pub(crate) fn bound(written: &Arm, snapped: &Arm, urdf: &Urdf, chain: &Chain) -> Change {
+    let joints = || chain.moving.iter().map(|moving| &urdf.joints[moving.joint]);
+    let links = written.links.iter().zip(&snapped.links).zip(joints());
+    let upper = |value: &Rational| f64::nearest_rational(&value.abs()).next_up();
+    let given = |value: &Option<crate::urdf::Number>| {
+        let value = value.as_ref().filter(|value| value.value.is_positive());
+        value.map(|value| upper(&value.value))
+    };
+    let position = joints().map(|joint| {
+        let ends = joint.position.iter().flatten();
+        let ends = ends.map(|end| match &end.value {
+            dalembert_model::robot::Position::Length(length) => upper(length),
+            dalembert_model::robot::Position::Angle(_) => 0.0,
+        });
+        ends.reduce(f64::max).unwrap_or(1.0)
+    });
+    let limits = Motion {
+        position: position.collect(),
+        velocity: joints()
+            .map(|joint| given(&joint.velocity).unwrap_or(3.0))
+            .collect(),
+        acceleration: vec![10.0; written.links.len()],
+    };
+    let least = |value: &crate::urdf::Number| f64::nearest_rational(&value.value).next_down();
+    let efforts = joints().map(|joint| {
+        let effort = joint
+            .effort
+            .as_ref()
+            .filter(|effort| effort.value.is_positive());
+        effort.map(least)
+    });
+    Change {
+        limits,
+        efforts: efforts.collect(),
+        links: links
+            .map(|((one, other), joint)| parts(one, other, joint.kind == Kind::Prismatic))
+            .collect(),
+    }
+}
+
+fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
+    let axes = [0, 1, 2].map(|k| vectors(&one.pose.axes[k], &other.pose.axes[k]).off);
+    let placed = root_of_squares(&axes);
+    let axis = Pair {
+        size: 1f64.next_up(),
+        off: vectors(&one.axis, &other.axis).off,
+    };
+    // Turns about two unit vectors: s [u]× + (1 − c) u uᵀ differ by no more than
+    // |δu| + 2 · 2 |δu|.
+    let turned = if slides {
+        0.0
+    } else {
+        (5.0 * axis.off).next_up_unless_zero()
+    };
+    let wide = |values: &[Rational; 3]| values.each_ref().map(Wide::from_rational);
+    let [tensor, other_tensor] = [one, other].map(|link| {
+        let rows = link.body.inertia.rows();
+        rows.each_ref().map(wide)
+    });
+    let rows = [0, 1, 2].map(|i| vectors(&tensor[i], &other_tensor[i]));
+    let mass = f64::nearest_rational(&one.mass.abs()).next_up();
+    Parts {
+        slides,
+        turn: Pair {
+            size: 1.0,
+            off: (placed + turned).next_up_unless_zero(),
+        },
+        axis,
+        lever: vectors(&one.pose.origin, &other.pose.origin),
+        mass: Pair {
+            size: mass,
+            off: 0.0,
+        },
+        com: vectors(&wide(&one.body.com), &wide(&other.body.com)),
+        inertia: Pair {
+            size: root_of_squares(&rows.map(|row| row.size)),
+            off: root_of_squares(&rows.map(|row| row.off)),
+        },
+    }
+}
+
+/// Both lengths, and the distance.
+fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
+    let length = |v: &Vector<Wide>| root_of_squares(&v.each_ref().map(Wide::magnitude));
+    let off: Vector<Wide> = core::array::from_fn(|i| other[i].sub(&one[i]));
+    Pair {
+        size: length(one).max(length(other)),
+        off: length(&off),
+    }
+}
+
+/// √(a² + b² + c²), upward: of numbers whose squares may vanish, their sum.
+fn root_of_squares(values: &[f64; 3]) -> f64 {
+    let sum: f64 = values
+        .iter()
+        .fold(0.0, |sum, x| (sum + x.abs()).next_up_unless_zero());
+    let squares: f64 = values.iter().fold(0.0, |sum, x| {
+        (sum + (x * x).next_up_unless_zero()).next_up_unless_zero()
+    });
+    let root = squares.sqrt().next_up_unless_zero();
+    if sum < 1e-140 { sum } else { root.min(sum) }
+}
+
+/// Upward rounding that leaves an exact zero alone.
+trait NextUp {
+    fn next_up_unless_zero(self) -> f64;
+}
+
+impl NextUp for f64 {
+    fn next_up_unless_zero(self) -> f64 {
+        if self == 0.0 { 0.0 } else { self.next_up() }
+    }
+}
+
+impl Pair {
+    const ZERO: Pair = Pair {
+        size: 0.0,
+        off: 0.0,
+    };
+
+    /// The same of both.
+    fn of(size: f64) -> Pair {
+        Pair {
+            size: size.next_up_unless_zero(),
+            off: 0.0,
+        }
+    }
+}
+
+impl std::ops::Add for Pair {
+    type Output = Pair;
+
+    fn add(self, other: Pair) -> Pair {
+        Pair {
+            size: (self.size + other.size).next_up_unless_zero(),
+            off: (self.off + other.off).next_up_unless_zero(),
+        }
+    }
+}
+
+impl std::ops::Mul for Pair {
+    type Output = Pair;
+
+    fn mul(self, other: Pair) -> Pair {
+        let product = |a: f64, b: f64| match a == 0.0 || b == 0.0 {
+            true => 0.0,
+            // Never zero where neither factor is.
+            false => (a * b).next_up(),
+        };
+        let off = product(self.size, other.off) + product(self.off, other.size);
+        Pair {
+            size: product(self.size, other.size),
+            off: off.next_up_unless_zero(),
+        }
+    }
+}

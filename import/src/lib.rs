@@ -1,0 +1,143 @@
+//! Robot files from URDF.
+//!
+//! [`import`] takes one chain of a URDF, from a base to a tip, and writes the robot
+//! file that says the same: every joint by its placement, as the URDF has it.
+//!
+//! - `urdf`: what a URDF says, each number with its digits and its place
+//! - `problems`: what is wrong or odd, at its place in the file
+//! - `tree`: the chain, and what hangs on its links
+//! - `snap`: numbers that were meant to be others: 1.57079632679 is π/2
+//! - `merge`: links that are fixed to each other, as one body
+//! - `change`: what snapping changes, bounded
+//! - `write`: the robot file
+//!
+//! # What is read
+//!
+//! Joints that are revolute, continuous, prismatic or fixed, their limits (a limit
+//! of zero is none), damping as viscous friction, and rotors where a transmission's
+//! actuator has an inertia and a reduction. A continuous joint has no limits of
+//! position. Coulomb friction is said and left out. Links that are fixed to each
+//! other become one; what hangs on a link moves with it. A movable joint beside the
+//! chain must be [locked](Options::lock) or [left away](Options::without), unless it
+//! hangs on the base, which feels nothing. Joints that mimic others, planar and
+//! floating ones are refused where they would move.
+//!
+//! Gravity is 9.81 m/s² against the z axis of the base's link: a URDF does not say.
+//!
+//! # Digits
+//!
+//! A URDF has 1.57079632679 for π/2 and 7.7e-34 for 0; taken at their word every
+//! structural zero is lost, and with it most of what generated code saves. [`Snap`]
+//! is a number that was taken for another, under these rules:
+//!
+//! - an angle within 1e-9 rad of a multiple of π/2, or within one unit of its last
+//!   digit, at most 1e-5 rad: `1.5708` is π/2, `1.57` stays;
+//! - the same of multiples of π/4 and π/6, within 1e-12 rad, or one unit of the last
+//!   of at least five digits;
+//! - a length, or a coordinate of a centre of mass, below 1e-9 m: 0;
+//! - a component of an axis within 1e-9 of 0, 1 or −1;
+//! - a product of inertia below 1e-9 of the largest moment: 0.
+//!
+//! What all of them together change in the torques is bounded ([`Change`]).
+//! [`Options::exact`] takes the digits as they stand; the reader of robot files still
+//! takes the double next to a multiple of π/2 for it.
+#![forbid(unsafe_code)]
+
+mod change;
+mod merge;
+mod problems;
+mod snap;
+mod tree;
+mod urdf;
+mod write;
+
+use dalembert_model::read::{self, Diagnostic, Diagnostics};
+use dalembert_model::robot::Robot;
+
+pub use change::{Change, Motion};
+pub use snap::Snap;
+
+/// The largest URDF that is read, in bytes: meshes are not in it.
+pub const MAX_BYTES: usize = 1 << 24;
+
+/// What to take of a URDF, and how.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The link that stands still; without one, the root.
+    pub base: Option<String>,
+    /// The link whose frame is the hand; without one, the only link there is at
+    /// the end of the longest chain.
+    pub tip: Option<String>,
+    /// Joints that stay where they are, each with its position: a number of the
+    /// URDF's units, `pi/2` or `90deg`.
+    pub lock: Vec<(String, String)>,
+    /// Links to leave away, with everything that hangs on them.
+    pub without: Vec<String>,
+    /// Take every digit as it stands.
+    pub exact: bool,
+    /// What the file is called, for the robot file's first line.
+    pub file: String,
+}
+
+/// A chain of a URDF.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The robot file.
+    pub text: String,
+    /// The robot that it is read as.
+    pub robot: Robot,
+    /// What a user should know, at its place in the URDF.
+    pub notes: Vec<Diagnostic>,
+    /// Every number that was taken for another, in the order of the file.
+    pub snaps: Vec<Snap>,
+    /// What that changes; `None` where there is none.
+    pub change: Option<Change>,
+}
+
+/// Makes a robot file of a chain of a URDF.
+///
+/// # Errors
+/// Everything that is wrong with the URDF or the options, at once, each at its
+/// place in the URDF.
+pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> {
+    let mut problems = problems::Problems::new(source);
+    let imported = imported(source, options, &mut problems);
+    let notes = problems.finish()?;
+    match imported {
+        Some(imported) => Ok(Imported { notes, ..imported }),
+        // Nothing is given up without an error.
+        None => Err(Diagnostics(notes)),
+    }
+}
+
+fn imported(
+    source: &str,
+    options: &Options,
+    problems: &mut problems::Problems,
+) -> Option<Imported> {
+    let urdf = urdf::read(source, problems)?;
+    let chain = tree::chain(&urdf, options, problems)?;
+    let as_written = merge::arm(&urdf, &chain, problems)?;
+    let (snapped, snaps) = match options.exact {
+        true => (urdf, Vec::new()),
+        false => snap::snapped(&urdf, &chain),
+    };
+    // What there is to say was said of the digits as they stand.
+    let arm = merge::arm(&snapped, &chain, &mut problems::Problems::new(source))?;
+    let text = write::file(&snapped, &chain, &arm, &snaps, options, problems);
+    let reading = match read::parse(&text, &read::Options::default()) {
+        Ok(reading) => reading,
+        Err(errors) => {
+            problems.refused(&errors, &text);
+            return None;
+        }
+    };
+    let change = (!snaps.is_empty()).then(|| change::bound(&as_written, &arm, &snapped, &chain));
+    Some(Imported {
+        text,
+        robot: reading.robot,
+        notes: Vec::new(),
+        snaps,
+        change,
+    })
+}

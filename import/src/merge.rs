@@ -1,0 +1,173 @@
+//! Links that are fixed to each other, as one body a joint.
+
+use dalembert_model::equations::matrix::{Columns, Vector};
+use dalembert_model::number::parse::write_decimal;
+use dalembert_model::number::recover::rounded;
+use dalembert_model::number::{Rational, Wide};
+use dalembert_model::placed::Body;
+use dalembert_model::placed::frame::{direction, moved, placement, pose, turned};
+use dalembert_model::robot::{Inertia, Placement, Position};
+use dalembert_model::scalar::Scalar;
+use num_traits::{One, Signed, Zero};
+
+use crate::problems::Problems;
+use crate::tree::{Chain, Moving, Step};
+use crate::urdf::{Joint, Urdf};
+
+/// The chain's joints with what they move, and the tool.
+#[derive(Clone, Debug)]
+pub(crate) struct Arm {
+    pub(crate) links: Vec<Link>,
+    pub(crate) tool: Placement,
+}
+
+/// A joint, and all that is fixed to it as one body.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    /// The joint's frame at q = 0 in that of the joint before.
+    pub(crate) pose: Columns<Wide>,
+    pub(crate) placement: Placement,
+    pub(crate) axis: Vector<Wide>,
+    pub(crate) mass: Rational,
+    pub(crate) body: Body,
+}
+
+/// The bodies of a chain; `None` after saying what is wrong with one.
+pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option<Arm> {
+    let size = size(urdf, chain);
+    let links = chain.moving.iter().map(|moving| {
+        let joint = &urdf.joints[moving.joint];
+        let own = pose(&joint.origin.placement());
+        let before = way(urdf, &moving.before)?;
+        // Where nothing lies between, the placement is the file's own.
+        let (pose, placement) = match moving.before.is_empty() {
+            true => (own, joint.origin.placement()),
+            false => {
+                let pose = before.then(&own);
+                (pose.clone(), placement(&pose, &size))
+            }
+        };
+        let (mass, body) = body(urdf, moving)?;
+        Some(Link {
+            pose,
+            placement,
+            axis: direction_of(joint)?,
+            mass,
+            body,
+        })
+    });
+    let links: Vec<Link> = links.collect::<Option<_>>()?;
+    for (moving, link) in chain.moving.iter().zip(&links) {
+        let body = &link.body.inertia.rows();
+        if link.mass.is_zero() && body.iter().flatten().all(Zero::is_zero) {
+            let child = &urdf.joints[moving.joint].child.0;
+            let span = urdf.links.iter().find(|link| link.name == *child);
+            let span = span.map_or(0..0, |link| link.span.clone());
+            let message = format!("link `{child}`, and what is fixed to it, has no mass");
+            let help = "give it an <inertial>, unless it weighs nothing";
+            problems.warning(&span, message, help);
+        }
+    }
+    Some(Arm {
+        links,
+        tool: placement(&way(urdf, &chain.tool)?, &size),
+    })
+}
+
+/// What lengths are small against.
+fn size(urdf: &Urdf, chain: &Chain) -> Rational {
+    let joints = chain.joints().into_iter();
+    let lengths = joints.flat_map(|joint| &urdf.joints[joint].origin.xyz);
+    let size: Rational = lengths.map(|length| length.value.abs()).sum();
+    if size.is_zero() {
+        Rational::one()
+    } else {
+        size
+    }
+}
+
+/// From the first step's parent to the last one's child.
+fn way(urdf: &Urdf, steps: &[Step]) -> Option<Columns<Wide>> {
+    steps.iter().try_fold(Columns::identity(), |at, step| {
+        let joint = &urdf.joints[step.joint];
+        let placed = at.then(&pose(&joint.origin.placement()));
+        Some(match &step.at {
+            None => placed,
+            Some(position) => placed.then(&displaced(joint, position)?),
+        })
+    })
+}
+
+/// What a locked joint has moved its child by.
+fn displaced(joint: &Joint, position: &Position) -> Option<Columns<Wide>> {
+    let axis = direction_of(joint)?;
+    Some(match position {
+        Position::Angle(angle) => turned(&axis, angle),
+        Position::Length(length) => {
+            let length = Wide::from_rational(length);
+            Columns {
+                origin: axis.map(|component| component.mul(&length)),
+                ..Columns::identity()
+            }
+        }
+    })
+}
+
+/// The unit vector of an axis: a direction of length zero was refused when it was
+/// read, and none that is not zero is taken for zero.
+fn direction_of(joint: &Joint) -> Option<Vector<Wide>> {
+    direction(&joint.axis.each_ref().map(|x| x.value.clone()))
+}
+
+/// Mass and body of everything that a joint moves, in its child's frame.
+fn body(urdf: &Urdf, moving: &Moving) -> Option<(Rational, Body)> {
+    let mut parts: Vec<(Rational, Body)> = Vec::new();
+    for (link, steps) in &moving.links {
+        let Some(inertial) = &urdf.links[*link].inertial else {
+            continue;
+        };
+        let own = Body {
+            com: [(); 3].map(|()| Rational::zero()),
+            inertia: inertial.inertia.map(|entry| entry.value.clone()),
+        };
+        let at = way(urdf, steps)?.then(&pose(&inertial.origin.placement()));
+        parts.push((inertial.mass.value.clone(), moved(&own, &at)));
+    }
+    let total: Rational = parts.iter().map(|(mass, _)| mass).sum();
+    let centre: [Rational; 3] = core::array::from_fn(|i| {
+        let moment: Rational = parts.iter().map(|(mass, body)| mass * &body.com[i]).sum();
+        if total.is_zero() {
+            moment
+        } else {
+            moment / &total
+        }
+    });
+    let entry = |i: usize, k: usize| {
+        let parts = parts.iter().map(|(mass, body)| {
+            // m (d·d 1 − d dᵀ)
+            let d: [Rational; 3] = core::array::from_fn(|i| &body.com[i] - &centre[i]);
+            let square: Rational = d.iter().map(|x| x * x).sum();
+            let diagonal = if i == k { square } else { Rational::zero() };
+            &body.inertia.rows()[i][k] + mass * (diagonal - &d[i] * &d[k])
+        });
+        short(parts.sum())
+    };
+    let inertia = Inertia {
+        xx: entry(0, 0),
+        yy: entry(1, 1),
+        zz: entry(2, 2),
+        xy: entry(0, 1),
+        yz: entry(1, 2),
+        xz: entry(0, 2),
+    };
+    let com = centre.clone().map(short);
+    Some((total, Body { com, inertia }))
+}
+
+/// A decimal that a person would write, or 20 digits.
+fn short(value: Rational) -> Rational {
+    match write_decimal(&value) {
+        Some(text) if text.len() < 28 => value,
+        _ => rounded(&value),
+    }
+}

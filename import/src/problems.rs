@@ -1,0 +1,112 @@
+//! What is wrong with a URDF, or odd about it, at its place in the file.
+
+use std::ops::Range;
+
+use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
+
+/// More than these are counted, not listed.
+const MOST: usize = 200;
+/// More names than these are not listed.
+const MOST_NAMES: usize = 30;
+
+/// Collects them, in any order.
+pub(crate) struct Problems<'s> {
+    source: &'s str,
+    found: Vec<Diagnostic>,
+    /// How many there were beyond those that are listed.
+    more: usize,
+}
+
+impl<'s> Problems<'s> {
+    pub(crate) fn new(source: &'s str) -> Self {
+        Problems {
+            source,
+            found: Vec::new(),
+            more: 0,
+        }
+    }
+
+    /// The text of the URDF.
+    pub(crate) fn source(&self) -> &'s str {
+        self.source
+    }
+
+    pub(crate) fn error(&mut self, span: &Range<usize>, message: String, help: &str) {
+        self.push(Severity::Error, span, message, help);
+    }
+
+    pub(crate) fn warning(&mut self, span: &Range<usize>, message: String, help: &str) {
+        self.push(Severity::Warning, span, message, help);
+    }
+
+    pub(crate) fn note(&mut self, span: &Range<usize>, message: String, help: &str) {
+        self.push(Severity::Note, span, message, help);
+    }
+
+    fn push(&mut self, severity: Severity, span: &Range<usize>, message: String, help: &str) {
+        if self.found.len() == MOST {
+            self.more += usize::from(severity == Severity::Error);
+            return;
+        }
+        let (line, column) = place(self.source, span.start);
+        self.found.push(Diagnostic {
+            severity,
+            message,
+            span: span.clone(),
+            line,
+            column,
+            help: (!help.is_empty()).then(|| help.to_owned()),
+        });
+    }
+
+    /// The robot file that was written is refused: what its reader says.
+    pub(crate) fn refused(&mut self, errors: &Diagnostics, text: &str) {
+        for error in &errors.0 {
+            let line = text.lines().nth(error.line.saturating_sub(1));
+            let message = format!(
+                "the robot file would be refused: {} in `{}`",
+                error.message,
+                line.unwrap_or_default()
+            );
+            let help = error.help.clone().unwrap_or_default();
+            self.error(&(0..0), message, &help);
+        }
+    }
+
+    /// The notes and warnings in the order of the file, or the errors alone.
+    pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
+        if let (1.., Some(last)) = (self.more, self.found.last_mut()) {
+            last.severity = Severity::Error;
+            last.message += &format!(" (and {} more errors)", self.more);
+        }
+        self.found.sort_by_key(|found| found.span.start);
+        let (errors, notes): (Vec<_>, Vec<_>) = self
+            .found
+            .into_iter()
+            .partition(|found| found.severity == Severity::Error);
+        match errors.is_empty() {
+            true => Ok(notes),
+            false => Err(Diagnostics(errors)),
+        }
+    }
+}
+
+/// Line and column of a byte, both from one.
+pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
+    let before = source.get(..byte).unwrap_or_default();
+    let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    (line, before[start..].chars().count() + 1)
+}
+
+/// The help for a name that there is not.
+pub(crate) fn instead<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> String {
+    let names: Vec<&str> = names.collect();
+    match closest(name, &names) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None if names.len() > MOST_NAMES => {
+            format!("there is: {}, …", names[..MOST_NAMES].join(", "))
+        }
+        None => format!("there is: {}", names.join(", ")),
+    }
+}

@@ -1,0 +1,472 @@
+//! The chain from the base to the tip, and what moves with its links.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Angle, Snap, Snapped};
+use dalembert_model::robot::Position;
+
+use crate::Options;
+use crate::problems::{Problems, instead};
+use crate::urdf::{Joint, Kind, Urdf};
+
+/// A chain of joints that move. Links and joints are by their place in the URDF.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    pub(crate) base: usize,
+    pub(crate) tip: usize,
+    /// From the base to the hand.
+    pub(crate) moving: Vec<Moving>,
+    /// From the last link that moves to the tip.
+    pub(crate) tool: Vec<Step>,
+}
+
+/// A joint that moves, and what moves with it.
+#[derive(Clone, Debug)]
+pub(crate) struct Moving {
+    pub(crate) joint: usize,
+    /// From the link that moved before, or the base, to the joint's parent.
+    pub(crate) before: Vec<Step>,
+    /// Every link that is fixed to the joint's child, itself included, and the
+    /// way there.
+    pub(crate) links: Vec<(usize, Vec<Step>)>,
+}
+
+/// A joint that stays where it is.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pub(crate) joint: usize,
+    /// Where it is locked, if it could move.
+    pub(crate) at: Option<Position>,
+}
+
+impl Chain {
+    /// Every joint that the chain's parameters come from, each once.
+    pub(crate) fn joints(&self) -> BTreeSet<usize> {
+        let moving = self.moving.iter().flat_map(|moving| {
+            let ways = moving.links.iter().flat_map(|(_, way)| way);
+            let steps = moving.before.iter().chain(ways).map(|step| step.joint);
+            steps.chain([moving.joint])
+        });
+        moving
+            .chain(self.tool.iter().map(|step| step.joint))
+            .collect()
+    }
+
+    /// Every link whose mass moves.
+    pub(crate) fn links(&self) -> BTreeSet<usize> {
+        let all = self.moving.iter().flat_map(|moving| &moving.links);
+        all.map(|(link, _)| *link).collect()
+    }
+}
+
+/// The links and joints as a tree.
+struct Tree<'u, 'p, 's> {
+    urdf: &'u Urdf,
+    problems: &'p mut Problems<'s>,
+    /// The joint that a link hangs on.
+    above: BTreeMap<usize, usize>,
+    /// The joints that hang on a link.
+    below: BTreeMap<usize, Vec<usize>>,
+    /// Both ends of every joint.
+    ends: Vec<[usize; 2]>,
+    locks: BTreeMap<usize, Position>,
+    without: BTreeSet<usize>,
+}
+
+/// Finds the chain; `None` after saying why there is none.
+pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Chain> {
+    let mut tree = Tree::new(urdf, problems)?;
+    let read = tree.options(options);
+    let base = match &options.base {
+        Some(name) => tree.link(name, "--base"),
+        None => tree.root(),
+    };
+    let (base, ()) = base.zip(read)?;
+    let tip = match &options.tip {
+        Some(name) => tree.link(name, "--tip")?,
+        None => tree.longest(base)?,
+    };
+    let path = tree.path(base, tip)?;
+    let mut moving: Vec<Moving> = Vec::new();
+    let mut before = Vec::new();
+    let mut good = true;
+    for joint in &path {
+        good &= tree.can_move(*joint);
+        match tree.step(*joint) {
+            Some(step) => before.push(step),
+            None => moving.push(Moving {
+                joint: *joint,
+                before: std::mem::take(&mut before),
+                links: Vec::new(),
+            }),
+        }
+    }
+    if moving.is_empty() {
+        let span = &tree.urdf.links[tip].span;
+        let message = format!(
+            "no joint moves between link `{}` and link `{}`",
+            urdf.links[base].name, urdf.links[tip].name
+        );
+        tree.problems
+            .error(span, message, "take another --base or --tip");
+        return None;
+    }
+    let on_path: BTreeSet<usize> = path.iter().copied().collect();
+    for moving in &mut moving {
+        let [_, child] = tree.ends[moving.joint];
+        good &= tree.gather(child, &on_path, &mut moving.links);
+    }
+    tree.beside_the_base(base, &on_path);
+    good.then_some(Chain {
+        base,
+        tip,
+        moving,
+        tool: before,
+    })
+}
+
+impl<'u, 'p, 's> Tree<'u, 'p, 's> {
+    fn new(urdf: &'u Urdf, problems: &'p mut Problems<'s>) -> Option<Self> {
+        let links: BTreeMap<&str, usize> = urdf
+            .links
+            .iter()
+            .enumerate()
+            .map(|(index, link)| (link.name.as_str(), index))
+            .collect();
+        let mut tree = Tree {
+            urdf,
+            problems,
+            above: BTreeMap::new(),
+            below: BTreeMap::new(),
+            ends: Vec::new(),
+            locks: BTreeMap::new(),
+            without: BTreeSet::new(),
+        };
+        let mut good = true;
+        for (index, joint) in urdf.joints.iter().enumerate() {
+            let ends = [&joint.parent, &joint.child].map(|(name, span)| {
+                let found = links.get(name.as_str()).copied();
+                if found.is_none() {
+                    let message = format!("there is no link `{name}`");
+                    let help = instead(name, urdf.links.iter().map(|link| link.name.as_str()));
+                    tree.problems.error(span, message, &help);
+                }
+                found
+            });
+            let [Some(parent), Some(child)] = ends else {
+                good = false;
+                continue;
+            };
+            tree.ends.push([parent, child]);
+            tree.below.entry(parent).or_default().push(index);
+            if let Some(other) = tree.above.insert(child, index) {
+                let message = format!(
+                    "link `{}` hangs on joint `{}` already",
+                    joint.child.0, urdf.joints[other].name
+                );
+                let help = "a link hangs on one joint: closed loops are not read";
+                tree.problems.error(&joint.child.1, message, help);
+                good = false;
+            }
+        }
+        good.then_some(tree)
+    }
+
+    /// Locks and links to leave away; `None` after an error.
+    fn options(&mut self, options: &Options) -> Option<()> {
+        let mut good = true;
+        for (name, text) in &options.lock {
+            let lock = self.joint(name).and_then(|joint| {
+                let at = self.position(joint, text)?;
+                Some((joint, at))
+            });
+            good &= lock.is_some();
+            self.locks.extend(lock);
+        }
+        for name in &options.without {
+            let link = self.link(name, "--without");
+            good &= link.is_some();
+            self.without.extend(link);
+        }
+        good.then_some(())
+    }
+
+    fn joint(&mut self, name: &str) -> Option<usize> {
+        let joints = &self.urdf.joints;
+        let found = joints.iter().position(|joint| joint.name == name);
+        if found.is_none() {
+            let message = format!("--lock: there is no joint `{name}`");
+            let help = instead(name, joints.iter().map(|joint| joint.name.as_str()));
+            self.problems.error(&self.urdf.span, message, &help);
+        }
+        found
+    }
+
+    fn link(&mut self, name: &str, option: &str) -> Option<usize> {
+        let links = &self.urdf.links;
+        let found = links.iter().position(|link| link.name == name);
+        if found.is_none() {
+            let message = format!("{option}: there is no link `{name}`");
+            let help = instead(name, links.iter().map(|link| link.name.as_str()));
+            self.problems.error(&self.urdf.span, message, &help);
+        }
+        found
+    }
+
+    /// Where a joint is locked.
+    fn position(&mut self, joint: usize, text: &str) -> Option<Position> {
+        let Joint {
+            name, span, kind, ..
+        } = &self.urdf.joints[joint];
+        let number = parse_decimal(text.trim());
+        let read = match kind {
+            Kind::Fixed | Kind::Planar | Kind::Floating => {
+                let message = format!("--lock {name}: a {} joint has no position", kind.word());
+                self.problems.error(span, message, "leave it out");
+                return None;
+            }
+            Kind::Prismatic => number.map(Position::Length),
+            Kind::Revolute | Kind::Continuous => number
+                .map(Angle::Radians)
+                .or_else(|_| Angle::parse(text))
+                .map(|angle| Position::Angle(right(angle))),
+        };
+        read.map_err(|error| {
+            let message = format!("--lock {name}: `{text}` is {error}");
+            let help = "write a number in rad or m, or an angle as pi/2 or 90deg";
+            self.problems.error(span, message, help);
+        })
+        .ok()
+    }
+
+    /// The only link that hangs on nothing.
+    fn root(&mut self) -> Option<usize> {
+        let all = 0..self.urdf.links.len();
+        let roots: Vec<usize> = all.filter(|link| !self.above.contains_key(link)).collect();
+        if let [root] = roots[..] {
+            return Some(root);
+        }
+        let names = roots
+            .iter()
+            .map(|root| self.urdf.links[*root].name.as_str());
+        let (message, help) = match roots.is_empty() {
+            true => (
+                "every link hangs on another: this is no tree".to_owned(),
+                "the base hangs on nothing".to_owned(),
+            ),
+            false => (
+                format!("{} links hang on nothing", roots.len()),
+                format!(
+                    "choose one by --base: {}",
+                    names.collect::<Vec<_>>().join(", ")
+                ),
+            ),
+        };
+        self.problems.error(&self.urdf.span, message, &help);
+        None
+    }
+
+    /// The joint as a step that stays, or none if it moves.
+    fn step(&self, joint: usize) -> Option<Step> {
+        let at = self.locks.get(&joint).cloned();
+        let stays = at.is_some() || self.urdf.joints[joint].kind == Kind::Fixed;
+        stays.then_some(Step { joint, at })
+    }
+
+    /// Whether a joint of the chain moves by itself about or along one axis.
+    fn can_move(&mut self, joint: usize) -> bool {
+        let Joint {
+            name,
+            span,
+            kind,
+            mimic,
+            ..
+        } = &self.urdf.joints[joint];
+        if matches!(kind, Kind::Planar | Kind::Floating) {
+            let message = format!("joint `{name}` of the chain is {}", kind.word());
+            let help = format!(
+                "joints turn about or slide along one axis: begin behind it, --base {}",
+                self.urdf.joints[joint].child.0
+            );
+            self.problems.error(span, message, &help);
+            return false;
+        }
+        match mimic {
+            Some((other, span)) if !self.locks.contains_key(&joint) => {
+                let message = format!("joint `{name}` of the chain mimics `{other}`");
+                let help =
+                    format!("each joint moves by itself: add --lock {name}=0, or end before it");
+                self.problems.error(span, message, &help);
+                false
+            }
+            _ => true,
+        }
+    }
+
+    /// The joints from the base to the tip.
+    fn path(&mut self, base: usize, tip: usize) -> Option<Vec<usize>> {
+        let mut path = Vec::new();
+        let mut at = tip;
+        while at != base {
+            let above = self.above.get(&at).copied();
+            // In a circle there is no end.
+            let Some(joint) = above.filter(|_| path.len() <= self.ends.len()) else {
+                let [base, tip] = [base, tip].map(|link| &self.urdf.links[link]);
+                let message = format!("link `{}` does not hang on link `{}`", tip.name, base.name);
+                self.problems
+                    .error(&tip.span, message, "take another --base or --tip");
+                return None;
+            };
+            path.push(joint);
+            if self.without.contains(&at) {
+                let name = &self.urdf.links[at].name;
+                let message = format!("--without {name}: the chain passes through it");
+                let help = "take another --tip, or leave it in";
+                self.problems
+                    .error(&self.urdf.links[at].span, message, help);
+                return None;
+            }
+            at = self.ends[joint][0];
+        }
+        path.reverse();
+        Some(path)
+    }
+
+    /// The end of the chain with the most joints that move, if there is one.
+    fn longest(&mut self, base: usize) -> Option<usize> {
+        let mut ends: Vec<(usize, usize)> = Vec::new();
+        let mut open = vec![(base, 0)];
+        let mut seen = BTreeSet::new();
+        while let Some((link, moving)) = open.pop() {
+            if !seen.insert(link) {
+                continue;
+            }
+            let below = self.below.get(&link).into_iter().flatten();
+            let below = below.filter(|joint| !self.without.contains(&self.ends[**joint][1]));
+            let before = open.len();
+            open.extend(below.map(|joint| {
+                let moves = usize::from(self.step(*joint).is_none());
+                (self.ends[*joint][1], moving + moves)
+            }));
+            if open.len() == before {
+                ends.push((moving, link));
+            }
+        }
+        let most = ends.iter().map(|(moving, _)| *moving).max()?;
+        ends.retain(|(moving, _)| *moving == most);
+        ends.sort_by_key(|(_, link)| *link);
+        let names = |ends: &[(usize, usize)]| {
+            let names = ends
+                .iter()
+                .map(|(_, link)| self.urdf.links[*link].name.as_str());
+            names.collect::<Vec<_>>().join(", ")
+        };
+        if let [(_, link)] = ends[..] {
+            let message = format!("the chain ends at link `{}`", self.urdf.links[link].name);
+            let help = "--tip LINK chooses another end";
+            self.problems
+                .note(&self.urdf.links[link].span, message, help);
+            return Some(link);
+        }
+        let message = format!("{} chains have {most} joints", ends.len());
+        let help = format!("choose the end by --tip: {}", names(&ends));
+        self.problems.error(&self.urdf.span, message, &help);
+        None
+    }
+
+    /// Gathers the links that are fixed to a link; what moves by itself and is no
+    /// part of the chain is an error.
+    fn gather(
+        &mut self,
+        link: usize,
+        path: &BTreeSet<usize>,
+        links: &mut Vec<(usize, Vec<Step>)>,
+    ) -> bool {
+        let mut good = true;
+        let mut open = vec![(link, Vec::new())];
+        while let Some((link, way)) = open.pop() {
+            for joint in self.below.get(&link).cloned().unwrap_or_default() {
+                let [_, child] = self.ends[joint];
+                if self.without.contains(&child) {
+                    continue;
+                }
+                match self.step(joint) {
+                    Some(step) => {
+                        let way = way.iter().cloned().chain([step]);
+                        open.push((child, way.collect()));
+                    }
+                    None if path.contains(&joint) => {}
+                    None => {
+                        self.moves_beside(joint);
+                        good = false;
+                    }
+                }
+            }
+            links.push((link, way));
+        }
+        links.sort_by_key(|(link, _)| *link);
+        good
+    }
+
+    fn moves_beside(&mut self, joint: usize) {
+        let Joint {
+            name,
+            span,
+            kind,
+            child: (child, _),
+            mimic,
+            ..
+        } = &self.urdf.joints[joint];
+        let follows = match mimic {
+            Some((other, _)) => format!(", mimics `{other}`"),
+            None => String::new(),
+        };
+        let message = format!(
+            "joint `{name}` is {}{follows} and hangs on the chain without being part of it",
+            kind.word()
+        );
+        let help = match kind {
+            Kind::Planar | Kind::Floating => format!("leave its link away: --without {child}"),
+            _ => format!("add --lock {name}=0, or leave its link away: --without {child}"),
+        };
+        self.problems.error(span, message, &help);
+    }
+
+    /// What hangs on the base moves no joint of the chain: it is said, and left
+    /// out.
+    fn beside_the_base(&mut self, base: usize, path: &BTreeSet<usize>) {
+        let mut open = vec![base];
+        let mut others = Vec::new();
+        while let Some(link) = open.pop() {
+            for joint in self.below.get(&link).into_iter().flatten() {
+                let [_, child] = self.ends[*joint];
+                match self.step(*joint) {
+                    Some(_) if !self.without.contains(&child) => open.push(child),
+                    None if !path.contains(joint) => others.push(*joint),
+                    _ => {}
+                }
+            }
+        }
+        others.sort_unstable();
+        let [first, ..] = others[..] else { return };
+        let names = others
+            .iter()
+            .map(|joint| self.urdf.joints[*joint].name.as_str());
+        let names = names.collect::<Vec<_>>().join(", ");
+        let message = format!("what hangs on the base is left out: {names}");
+        let help = "a base that stands still feels nothing of it";
+        self.problems
+            .note(&self.urdf.joints[first].span, message, help);
+    }
+}
+
+/// 1.5707963267948966 is what other tools print for π/2.
+fn right(angle: Angle) -> Angle {
+    let Angle::Radians(value) = angle else {
+        return angle;
+    };
+    match Snap::RightAngles.apply(value) {
+        Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
+    }
+}

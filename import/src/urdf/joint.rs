@@ -1,0 +1,231 @@
+//! A joint, its limits, and what drives it.
+
+use std::ops::Range;
+
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::Position;
+use num_traits::{Signed, Zero};
+use roxmltree::Node;
+
+use super::{Number, Origin, Reader, Value, child, start_tag};
+use crate::problems::instead;
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Revolute,
+    Continuous,
+    Prismatic,
+    Fixed,
+    Planar,
+    Floating,
+}
+
+impl Kind {
+    const WORDS: [(&'static str, Kind); 6] = [
+        ("revolute", Kind::Revolute),
+        ("continuous", Kind::Continuous),
+        ("prismatic", Kind::Prismatic),
+        ("fixed", Kind::Fixed),
+        ("planar", Kind::Planar),
+        ("floating", Kind::Floating),
+    ];
+
+    /// Its word.
+    pub(crate) fn word(self) -> &'static str {
+        let found = Kind::WORDS.iter().find(|(_, kind)| *kind == self);
+        found.map_or("", |(word, _)| word)
+    }
+}
+
+/// A joint.
+#[derive(Clone, Debug)]
+pub(crate) struct Joint {
+    pub(crate) name: String,
+    pub(crate) span: Range<usize>,
+    pub(crate) kind: Kind,
+    /// The child's frame at q = 0, in the parent's.
+    pub(crate) origin: Origin,
+    /// The links by name, each with its place.
+    pub(crate) parent: (String, Range<usize>),
+    pub(crate) child: (String, Range<usize>),
+    pub(crate) axis: [Number; 3],
+    /// Lowest and highest position.
+    pub(crate) position: Option<[Value<Position>; 2]>,
+    pub(crate) effort: Option<Number>,
+    pub(crate) velocity: Option<Number>,
+    pub(crate) damping: Option<Number>,
+    /// Coulomb friction, which is not modelled.
+    pub(crate) friction: Option<Number>,
+    /// Rotors felt at the joint.
+    pub(crate) armature: Rational,
+    /// The joint that it follows, with the place that says so.
+    pub(crate) mimic: Option<(String, Range<usize>)>,
+}
+
+impl Reader<'_, '_, '_> {
+    pub(super) fn joint(&mut self, node: Node) -> Option<Joint> {
+        let (name, _) = self.attribute(node, "name")?;
+        let kind = self.kind(node);
+        let [parent, below] = ["parent", "child"].map(|end| {
+            let Some(element) = child(node, end) else {
+                let message = format!("joint `{name}` has no <{end}>");
+                let help = format!("<{end} link=\"…\"/>");
+                let span = start_tag(self.source, node);
+                self.problems.error(&span, message, &help);
+                return None;
+            };
+            let (link, span) = self.attribute(element, "link")?;
+            Some((link.to_owned(), span))
+        });
+        let origin = self.origin(node);
+        let axis = match child(node, "axis") {
+            Some(axis) => self.triple(axis, "xyz"),
+            // As the format has it.
+            None => Some(self.constant(node, ["1", "0", "0"])),
+        };
+        let (kind, axis) = (kind?, axis?);
+        let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
+        if moves && axis.iter().all(|x| x.value.is_zero()) {
+            let message = format!("the axis of joint `{name}` has no direction");
+            self.problems
+                .error(&axis[0].span, message, "<axis xyz=\"0 0 1\"/>");
+            return None;
+        }
+        let limit = child(node, "limit");
+        let mut of_limit = |key| limit.and_then(|limit| self.number(limit, key));
+        let [lower, upper, effort, velocity] =
+            ["lower", "upper", "effort", "velocity"].map(&mut of_limit);
+        let dynamics = child(node, "dynamics");
+        let mut of_dynamics = |key| dynamics.and_then(|dynamics| self.number(dynamics, key));
+        let [damping, friction] = ["damping", "friction"].map(&mut of_dynamics);
+        let position = match (lower, upper, limit) {
+            (None, None, _) | (_, _, None) => None,
+            (lower, upper, Some(limit)) => {
+                let [zero] = self.constant(limit, ["0"]);
+                Some([lower.unwrap_or(zero.clone()), upper.unwrap_or(zero)])
+            }
+        };
+        let position = position.filter(|_| kind != Kind::Continuous);
+        let in_units = |number: Number| {
+            number.map(|value| match kind {
+                Kind::Prismatic => Position::Length(value),
+                _ => Position::Angle(Angle::Radians(value).canonical()),
+            })
+        };
+        let mimic = child(node, "mimic").map(|mimic| {
+            let other = mimic.attribute("joint").unwrap_or_default();
+            (other.to_owned(), start_tag(self.source, mimic))
+        });
+        for load in [&effort, &velocity, &damping].into_iter().flatten() {
+            if load.value.is_negative() {
+                let message = format!("`{}` of joint `{name}` is negative", load.text);
+                self.problems.error(
+                    &load.span,
+                    message,
+                    "a limit bounds the size, and damping takes energy out: zero or more",
+                );
+            }
+        }
+        Some(Joint {
+            name: name.to_owned(),
+            span: start_tag(self.source, node),
+            kind,
+            origin: origin?,
+            parent: parent?,
+            child: below?,
+            axis,
+            position: self
+                .ordered(name, position)
+                .map(|range| range.map(in_units)),
+            effort,
+            velocity,
+            damping,
+            friction,
+            armature: Rational::zero(),
+            mimic,
+        })
+    }
+
+    fn kind(&mut self, node: Node) -> Option<Kind> {
+        let (word, span) = self.attribute(node, "type")?;
+        let found = Kind::WORDS.iter().find(|(known, _)| *known == word);
+        if found.is_none() {
+            let words = Kind::WORDS.iter().map(|(word, _)| *word);
+            let message = format!("`{word}` is no type of joint");
+            self.problems.error(&span, message, &instead(word, words));
+        }
+        found.map(|(_, kind)| *kind)
+    }
+
+    /// Limits that are limits: equal ones, as where they were left at zero, are
+    /// none; reversed ones are an error.
+    fn ordered(&mut self, name: &str, position: Option<[Number; 2]>) -> Option<[Number; 2]> {
+        let [lower, upper] = position?;
+        if lower.value > upper.value {
+            let message = format!("the limits of joint `{name}` are reversed");
+            let help = "`lower` is the lowest position, `upper` the highest";
+            self.problems.error(&lower.span, message, help);
+            return None;
+        }
+        if lower.value == upper.value {
+            let message = format!("both limits of joint `{name}` are {}", lower.text);
+            let help = "they are left out: a joint that does not move is `fixed`";
+            self.problems.warning(&lower.span, message, help);
+            return None;
+        }
+        Some([lower, upper])
+    }
+
+    /// The rotors of a transmission: inertia times the square of the reduction,
+    /// for every joint that it drives.
+    pub(super) fn transmission(&mut self, node: Node, joints: &mut [Joint]) {
+        let mut armature = Rational::zero();
+        for actuator in node
+            .children()
+            .filter(|child| child.has_tag_name("actuator"))
+        {
+            let inertia = self.of_actuator(
+                actuator,
+                &[
+                    "rotorInertia",
+                    "rotor_inertia",
+                    "motorInertia",
+                    "motor_inertia",
+                ],
+            );
+            let reduction = self.of_actuator(
+                actuator,
+                &["mechanicalReduction", "gear_ratio", "gearRatio"],
+            );
+            let Some(inertia) = inertia else { continue };
+            let ratio = reduction.map_or_else(|| Rational::from_integer(1.into()), |r| r.value);
+            armature += inertia.value * &ratio * &ratio;
+        }
+        if armature.is_zero() {
+            return;
+        }
+        let driven: Vec<&str> = node
+            .children()
+            .filter(|child| child.has_tag_name("joint"))
+            .filter_map(|joint| joint.attribute("name"))
+            .collect();
+        for joint in joints {
+            if driven.contains(&joint.name.as_str()) {
+                joint.armature += &armature;
+            }
+        }
+    }
+
+    /// A number of an actuator: `<gear_ratio value="…"/>`, or as its text.
+    fn of_actuator(&mut self, actuator: Node, names: &[&str]) -> Option<Number> {
+        let found = actuator
+            .children()
+            .find(|child| names.contains(&child.tag_name().name()))?;
+        if found.has_attribute("value") {
+            return self.required(found, "value");
+        }
+        let text = found.text().unwrap_or_default().trim();
+        self.parse(text, start_tag(self.source, found))
+    }
+}

@@ -1,0 +1,88 @@
+//! A link: its name, and where its mass is.
+
+use std::ops::Range;
+
+use dalembert_model::robot::Inertia;
+use num_traits::Signed;
+use roxmltree::Node;
+
+use super::{Number, Origin, Reader, child, start_tag};
+
+/// A link.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    pub(crate) name: String,
+    pub(crate) span: Range<usize>,
+    /// None for a frame without mass.
+    pub(crate) inertial: Option<Inertial>,
+}
+
+/// Mass, centre and inertia.
+#[derive(Clone, Debug)]
+pub(crate) struct Inertial {
+    /// The centre of mass, and the axes of the inertia.
+    pub(crate) origin: Origin,
+    pub(crate) mass: Number,
+    pub(crate) inertia: Inertia<Number>,
+}
+
+impl Reader<'_, '_, '_> {
+    pub(super) fn link(&mut self, node: Node) -> Option<Link> {
+        let (name, _) = self.attribute(node, "name")?;
+        let inertial = match child(node, "inertial") {
+            None => None,
+            Some(inertial) => Some(self.inertial(inertial, name)?),
+        };
+        Some(Link {
+            name: name.to_owned(),
+            span: start_tag(self.source, node),
+            inertial,
+        })
+    }
+
+    fn inertial(&mut self, node: Node, link: &str) -> Option<Inertial> {
+        let origin = self.origin(node);
+        let [mass, inertia] = ["mass", "inertia"].map(|name| {
+            let found = child(node, name);
+            if found.is_none() {
+                let span = start_tag(self.source, node);
+                let message = format!("the inertial of link `{link}` has no <{name}>");
+                let help = "an <inertial> has <mass value=\"…\"/> and <inertia ixx=\"…\" …/>; a link without mass has none";
+                self.problems.error(&span, message, help);
+            }
+            found
+        });
+        let mass = mass.and_then(|mass| self.required(mass, "value"));
+        let tensor = inertia.and_then(|node| {
+            let keys = ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"];
+            let [xx, yy, zz, xy, yz, xz] = keys.map(|key| self.required(node, key));
+            Some(Inertia {
+                xx: xx?,
+                yy: yy?,
+                zz: zz?,
+                xy: xy?,
+                yz: yz?,
+                xz: xz?,
+            })
+        });
+        let (origin, mass, inertia) = (origin?, mass?, tensor?);
+        if mass.value.is_negative() {
+            let message = format!("the mass of link `{link}` is negative");
+            self.problems
+                .error(&mass.span, message, "a mass is zero or more, in kg");
+            return None;
+        }
+        let exact = inertia.map(|entry| entry.value.clone());
+        if let Some(defect) = exact.impossible(&mass.value) {
+            let message = format!("link `{link}`: {defect}");
+            let help =
+                "the inertia is about the centre of mass, in kg·m²; it is taken as it stands";
+            self.problems.warning(&inertia.xx.span, message, help);
+        }
+        Some(Inertial {
+            origin,
+            mass,
+            inertia,
+        })
+    }
+}

@@ -1,0 +1,171 @@
+//! What a URDF says: links, joints, and the rotors of transmissions.
+//!
+//! - `number`: numbers and words of attributes
+//! - `link`: a link and its inertial
+//! - `joint`: a joint and what drives it
+//!
+//! Shapes, materials and sensors are not looked at, nor is what simulators add.
+
+mod joint;
+mod link;
+mod number;
+
+use std::ops::Range;
+
+use roxmltree::{Document, Node};
+
+use crate::problems::Problems;
+
+pub(crate) use joint::{Joint, Kind};
+pub(crate) use link::Link;
+pub(crate) use number::{Number, Origin, Value};
+
+/// No robot has more links.
+const MOST_LINKS: usize = 4096;
+
+/// A URDF, every joint with a parent and a child that there are.
+#[derive(Clone, Debug)]
+pub(crate) struct Urdf {
+    /// What the robot is called.
+    pub(crate) name: String,
+    /// The start tag of the robot.
+    pub(crate) span: Range<usize>,
+    pub(crate) links: Vec<Link>,
+    pub(crate) joints: Vec<Joint>,
+}
+
+/// Reads a URDF; `None` after saying why there is none.
+pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
+    // Nodes: more than any robot has, fewer than fill a memory.
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: false,
+        nodes_limit: 1 << 20,
+        ..Default::default()
+    };
+    let document = match Document::parse_with_options(source, options) {
+        Ok(document) => document,
+        Err(error) => {
+            let at = error.pos();
+            let before = source.lines().take(at.row.saturating_sub(1) as usize);
+            let start: usize = before.map(|line| line.len() + 1).sum();
+            let at = start + at.col.saturating_sub(1) as usize;
+            let help = match source.trim_start().starts_with('<') {
+                true => "",
+                false => "a URDF is XML: <robot name=\"arm\"> …",
+            };
+            problems.error(&(at..at + 1), format!("no XML: {error}"), help);
+            return None;
+        }
+    };
+    let root = document.root_element();
+    let span = start_tag(source, root);
+    if let Some(help) = other_format(root) {
+        let message = format!("<{}> is no URDF", root.tag_name().name());
+        problems.error(&span, message, help);
+        return None;
+    }
+    let mut reader = Reader { source, problems };
+    if !reader.is_expanded(root) {
+        return None;
+    }
+    let elements = |name: &'static str| root.children().filter(move |node| node.has_tag_name(name));
+    let links: Vec<Link> = elements("link")
+        .filter_map(|node| reader.link(node))
+        .collect();
+    let mut joints: Vec<Joint> = elements("joint")
+        .filter_map(|node| reader.joint(node))
+        .collect();
+    for node in elements("transmission") {
+        reader.transmission(node, &mut joints);
+    }
+    reader.unique("link", links.iter().map(|link| (&link.name, &link.span)));
+    reader.unique(
+        "joint",
+        joints.iter().map(|joint| (&joint.name, &joint.span)),
+    );
+    if links.len() > MOST_LINKS {
+        let message = format!("there are {} links, more than {MOST_LINKS}", links.len());
+        let help = "is this a robot? cut out the arm";
+        reader.problems.error(&span, message, help);
+        return None;
+    }
+    if links.is_empty() {
+        let help = "a URDF has a <link> for every body";
+        reader
+            .problems
+            .error(&span, "there are no links".to_owned(), help);
+        return None;
+    }
+    Some(Urdf {
+        name: root.attribute("name").unwrap_or("arm").to_owned(),
+        span,
+        links,
+        joints,
+    })
+}
+
+/// What to do with another format.
+fn other_format(root: Node) -> Option<&'static str> {
+    match root.tag_name().name() {
+        "robot" => None,
+        "mujoco" => Some(
+            "this is MJCF, which is not read: take the URDF that it was made from, or write the joints' placements into a robot file",
+        ),
+        "sdf" => Some("this is SDF, which is not read: take the URDF that it was made from"),
+        _ => Some("a URDF begins with <robot name=\"arm\">"),
+    }
+}
+
+/// Reads elements, reporting what is wrong with them.
+pub(crate) struct Reader<'r, 's, 'p> {
+    pub(crate) source: &'s str,
+    pub(crate) problems: &'r mut Problems<'p>,
+}
+
+impl Reader<'_, '_, '_> {
+    /// Whether a xacro was expanded: it has no element of its own any more.
+    fn is_expanded(&mut self, root: Node) -> bool {
+        let of_xacro = |node: &Node| {
+            let space = node.tag_name().namespace();
+            node.is_element() && space.is_some_and(|space| space.contains("xacro"))
+        };
+        let Some(left) = root.descendants().find(of_xacro) else {
+            return true;
+        };
+        let span = start_tag(self.source, left);
+        let message = format!("<xacro:{}> is not expanded", left.tag_name().name());
+        let help = "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first";
+        self.problems.error(&span, message, help);
+        false
+    }
+
+    fn unique<'n>(
+        &mut self,
+        what: &str,
+        names: impl Iterator<Item = (&'n String, &'n Range<usize>)>,
+    ) {
+        let mut seen = std::collections::BTreeSet::new();
+        for (name, span) in names {
+            if !seen.insert(name) {
+                let message = format!("there is a {what} `{name}` already");
+                let help = "names tell them apart: give it another";
+                self.problems.error(span, message, help);
+            }
+        }
+    }
+}
+
+/// The start tag of an element: what a message points at.
+pub(crate) fn start_tag(source: &str, node: Node) -> Range<usize> {
+    let range = node.range();
+    let text = source.get(range.clone()).unwrap_or_default();
+    let line = text.lines().next().unwrap_or_default();
+    let end = line.find('>').map_or(line.len(), |end| end + 1);
+    range.start..range.start + end
+}
+
+/// The first child of this name.
+pub(crate) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
+    node.children()
+        .find(|child| child.tag_name().name() == name)
+}

@@ -1,0 +1,175 @@
+//! Numbers of attributes, exact, with their digits and their place.
+
+use std::ops::Range;
+
+use dalembert_model::number::parse::{NumberError, parse_decimal};
+use dalembert_model::number::{Angle, Rational};
+use num_traits::Zero;
+use roxmltree::Node;
+
+use super::{Reader, start_tag};
+
+/// A value of the file.
+#[derive(Clone, Debug)]
+pub(crate) struct Value<T> {
+    /// What it is.
+    pub(crate) value: T,
+    /// As it stands in the file.
+    pub(crate) text: String,
+    pub(crate) span: Range<usize>,
+}
+
+/// A number.
+pub(crate) type Number = Value<Rational>;
+
+impl<T> Value<T> {
+    pub(crate) fn map<U>(self, f: impl FnOnce(T) -> U) -> Value<U> {
+        Value {
+            value: f(self.value),
+            text: self.text,
+            span: self.span,
+        }
+    }
+}
+
+/// Where a frame is in another, `rpy` about fixed axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Origin {
+    pub(crate) xyz: [Number; 3],
+    pub(crate) rpy: [Value<Angle>; 3],
+}
+
+impl Origin {
+    /// The placement that it is.
+    pub(crate) fn placement(&self) -> dalembert_model::robot::Placement {
+        dalembert_model::robot::Placement {
+            xyz: self.xyz.each_ref().map(|x| x.value.clone()),
+            rpy: self.rpy.each_ref().map(|x| x.value.clone()),
+        }
+    }
+}
+
+impl Reader<'_, '_, '_> {
+    /// The `origin` of an element; the identity where there is none.
+    pub(crate) fn origin(&mut self, node: Node) -> Option<Origin> {
+        let origin = super::child(node, "origin");
+        let at = origin.unwrap_or(node);
+        let [xyz, rpy] = ["xyz", "rpy"].map(|key| match origin {
+            Some(origin) if origin.has_attribute(key) => self.triple(origin, key),
+            _ => Some(self.constant(at, ["0", "0", "0"])),
+        });
+        let radians = |number: Number| number.map(|value| Angle::Radians(value).canonical());
+        Some(Origin {
+            xyz: xyz?,
+            rpy: rpy?.map(radians),
+        })
+    }
+
+    /// Numbers that the format has where a file says nothing.
+    pub(crate) fn constant<const N: usize>(&self, node: Node, texts: [&str; N]) -> [Number; N] {
+        let span = start_tag(self.source, node);
+        texts.map(|text| Value {
+            value: parse_decimal(text).unwrap_or_else(|_| Rational::zero()),
+            text: text.to_owned(),
+            span: span.clone(),
+        })
+    }
+
+    /// Three numbers in one attribute.
+    pub(crate) fn triple(&mut self, node: Node, key: &str) -> Option<[Number; 3]> {
+        let (text, span) = self.attribute(node, key)?;
+        let mut words = Vec::new();
+        let mut at = 0;
+        for word in text.split_ascii_whitespace() {
+            // Where entities were written out, places are only the attribute's.
+            let start = text[at..].find(word).map_or(at, |start| at + start);
+            at = start + word.len();
+            let word_span = span.start + start..span.start + at;
+            let inside = self.source.get(word_span.clone()) == Some(word);
+            words.push((word, if inside { word_span } else { span.clone() }));
+        }
+        if words.len() != 3 {
+            let message = format!("`{key}` has {} numbers, not 3", words.len());
+            let help = format!("{key}=\"x y z\", with spaces between");
+            self.problems.error(&span, message, &help);
+            return None;
+        }
+        let numbers: Vec<_> = words
+            .into_iter()
+            .map(|(word, span)| self.parse(word, span))
+            .collect();
+        numbers
+            .into_iter()
+            .collect::<Option<Vec<_>>>()?
+            .try_into()
+            .ok()
+    }
+
+    /// A number that an attribute may give.
+    pub(crate) fn number(&mut self, node: Node, key: &str) -> Option<Number> {
+        node.attribute(key)?;
+        let (text, span) = self.attribute(node, key)?;
+        self.parse(text.trim(), span)
+    }
+
+    /// A number that must be there.
+    pub(crate) fn required(&mut self, node: Node, key: &str) -> Option<Number> {
+        let (text, span) = self.attribute(node, key)?;
+        self.parse(text.trim(), span)
+    }
+
+    /// The text of an attribute that must be there.
+    pub(crate) fn attribute<'a>(
+        &mut self,
+        node: Node<'a, '_>,
+        key: &str,
+    ) -> Option<(&'a str, Range<usize>)> {
+        let attribute = node.attribute_node(key);
+        if attribute.is_none() {
+            let name = node.tag_name().name();
+            let message = format!("<{name}> has no `{key}`");
+            let span = start_tag(self.source, node);
+            self.problems
+                .error(&span, message, &format!("<{name} {key}=\"…\">"));
+        }
+        attribute.map(|attribute| (attribute.value(), attribute.range_value()))
+    }
+
+    /// The number of a text.
+    pub(crate) fn parse(&mut self, text: &str, span: Range<usize>) -> Option<Number> {
+        match parse_decimal(&spelled_out(text)) {
+            Ok(value) => Some(Value {
+                value,
+                text: text.to_owned(),
+                span,
+            }),
+            Err(error) => {
+                let help = match error {
+                    // What was left of a xacro, or a unit.
+                    NumberError::Malformed if text.contains("${") => {
+                        "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first"
+                    }
+                    error => error.help(),
+                };
+                self.problems
+                    .error(&span, format!("`{text}` is {error}"), help);
+                None
+            }
+        }
+    }
+}
+
+/// `.5` and `5.` as 0.5 and 5, which other readers take too.
+fn spelled_out(text: &str) -> String {
+    let (mantissa, exponent) = match text.find(['e', 'E']) {
+        Some(at) => text.split_at(at),
+        None => (text, ""),
+    };
+    let mantissa = mantissa.strip_suffix('.').unwrap_or(mantissa);
+    let (sign, digits) = match mantissa.strip_prefix(['-', '+']) {
+        Some(digits) => (&mantissa[..1], digits),
+        None => ("", mantissa),
+    };
+    let zero = if digits.starts_with('.') { "0" } else { "" };
+    format!("{sign}{zero}{digits}{exponent}")
+}

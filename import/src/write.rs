@@ -1,0 +1,184 @@
+//! The robot file of a chain.
+
+use std::fmt::Write;
+
+use dalembert_model::number::parse::write_decimal;
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{Placement, Position, suggested_name};
+use num_traits::{Signed, Zero};
+
+use crate::Options;
+use crate::merge::{Arm, Link};
+use crate::problems::{Problems, place};
+use crate::snap::Snap;
+use crate::tree::Chain;
+use crate::urdf::{Joint, Kind, Number, Urdf};
+
+/// Writes the robot file, and says what of the URDF is not in it.
+pub(crate) fn file(
+    urdf: &Urdf,
+    chain: &Chain,
+    arm: &Arm,
+    snaps: &[Snap],
+    options: &Options,
+    problems: &mut Problems,
+) -> String {
+    let [base, tip] = [chain.base, chain.tip].map(|link| urdf.links[link].name.as_str());
+    let file = match options.file.as_str() {
+        "" => "a URDF",
+        file => file,
+    };
+    let mut text = String::new();
+    comment(
+        &mut text,
+        &format!("From link {base} to link {tip} of {file}, by `dalembert import`."),
+    );
+    comment(
+        &mut text,
+        &format!("Base axes are those of {base}; gravity is taken to pull against its z."),
+    );
+    if !snaps.is_empty() {
+        comment(
+            &mut text,
+            "Numbers that were taken for others, with their lines there:",
+        );
+        for snap in snaps {
+            let line = place(problems.source(), snap.span.start).0;
+            comment(&mut text, &format!("  line {line}: {snap}"));
+        }
+    }
+    text.push('\n');
+    let name = suggested_name(&urdf.name).unwrap_or_else(|| "arm".to_owned());
+    line(&mut text, "name", &quoted(&name));
+    line(&mut text, "gravity", "[0, 0, -9.81]");
+    if !arm.tool.is_identity() {
+        line(&mut text, "tool", &placement(&arm.tool));
+    }
+    for (moving, link) in chain.moving.iter().zip(&arm.links) {
+        text.push_str("\n[[joint]]\n");
+        joint(&mut text, &urdf.joints[moving.joint], link, problems);
+    }
+    text
+}
+
+fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems) {
+    line(text, "name", &quoted(&joint.name));
+    let kind = match joint.kind {
+        Kind::Prismatic => "prismatic",
+        _ => "revolute",
+    };
+    line(text, "kind", &quoted(kind));
+    line(text, "placement", &placement(&link.placement));
+    line(text, "axis", &list(joint.axis.iter().map(|x| &x.value)));
+    line(text, "mass", &number(&link.mass));
+    line(text, "com", &list(&link.body.com));
+    let i = &link.body.inertia;
+    line(
+        text,
+        "inertia",
+        &list([&i.xx, &i.yy, &i.zz, &i.xy, &i.yz, &i.xz]),
+    );
+    if let Some(damping) = joint.damping.as_ref().filter(|b| !b.value.is_zero()) {
+        line(text, "viscous", &number(&damping.value));
+    }
+    if !joint.armature.is_zero() {
+        line(text, "armature", &number(&joint.armature));
+    }
+    if let Some(friction) = joint.friction.as_ref().filter(|f| !f.value.is_zero()) {
+        let message = format!(
+            "the Coulomb friction of joint `{}`, {}, is left out",
+            joint.name, friction.text
+        );
+        let help = "friction is viscous, of `damping`; add the rest to the torques";
+        problems.note(&friction.span, message, help);
+    }
+    let mut limits = Vec::new();
+    if let Some(range) = &joint.position {
+        let [low, high] = range.each_ref().map(|end| position(&end.value));
+        limits.push(format!("position = [{low}, {high}]"));
+    }
+    for (key, limit) in [("velocity", &joint.velocity), ("torque", &joint.effort)] {
+        limits.extend(limit_of(joint, key, limit.as_ref(), problems));
+    }
+    if !limits.is_empty() {
+        line(text, "limits", &format!("{{ {} }}", limits.join(", ")));
+    }
+}
+
+/// A limit of zero is one that was never filled in.
+fn limit_of(
+    joint: &Joint,
+    key: &str,
+    limit: Option<&Number>,
+    problems: &mut Problems,
+) -> Option<String> {
+    let limit = limit?;
+    if limit.value.is_positive() {
+        return Some(format!("{key} = {}", number(&limit.value)));
+    }
+    let message = format!(
+        "the limit of {key} of joint `{}` is {}",
+        joint.name, limit.text
+    );
+    problems.note(&limit.span, message, "it is left out: nothing would move");
+    None
+}
+
+fn placement(value: &Placement) -> String {
+    let rpy = value.rpy.each_ref().map(angle).join(", ");
+    format!("{{ xyz = {}, rpy = [{rpy}] }}", list(&value.xyz))
+}
+
+fn position(value: &Position) -> String {
+    match value {
+        Position::Angle(value) => angle(value),
+        Position::Length(value) => number(value),
+    }
+}
+
+fn angle(value: &Angle) -> String {
+    match value {
+        Angle::Radians(value) => number(value),
+        value if value.is_zero() => "0".to_owned(),
+        value => format!("\"{value}\""),
+    }
+}
+
+fn number(value: &Rational) -> String {
+    write_decimal(value).unwrap_or_else(|| format!("\"{value}\""))
+}
+
+fn list<'v>(values: impl IntoIterator<Item = &'v Rational>) -> String {
+    let values: Vec<String> = values.into_iter().map(number).collect();
+    format!("[{}]", values.join(", "))
+}
+
+fn line(text: &mut String, key: &str, value: &str) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{key} = {value}");
+}
+
+/// A comment on one line: names may be anything.
+fn comment(text: &mut String, what: &str) {
+    let plain = what
+        .chars()
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c });
+    let plain: String = plain.collect();
+    let _ = writeln!(text, "# {plain}");
+}
+
+/// A TOML basic string.
+fn quoted(value: &str) -> String {
+    let mut text = String::from("\"");
+    for c in value.chars() {
+        match c {
+            '"' | '\\' => text.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(text, "\\U{:08X}", u32::from(c));
+            }
+            c => text.push(c),
+        }
+    }
+    text.push('"');
+    text
+}

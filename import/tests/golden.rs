@@ -1,0 +1,135 @@
+//! Real URDFs: torques, gravity loads and poses are those of an independent
+//! library; with snapping they are off by no more than the bound says.
+
+mod support;
+
+use dalembert_import::Motion;
+use dalembert_model::reference::Reference;
+use nalgebra::DVector;
+use support::{NAMES, exact, golden, imported, snapped};
+
+/// Digits as they stand: every torque, load and pose of all six.
+#[test]
+fn exact_digits_give_the_torques_of_the_urdf() {
+    for name in NAMES {
+        let golden = golden(name);
+        let robot = imported(name, &exact(name)).robot;
+        let names: Vec<_> = robot
+            .joints
+            .iter()
+            .map(|j| j.name.clone().unwrap())
+            .collect();
+        assert_eq!(names, golden.joints, "{name}");
+        let runtime = Reference::<f64>::from_robot(&robot);
+        let mut worst: f64 = 0.0;
+        for state in &golden.states {
+            let [q, qd, qdd] =
+                [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
+            let mut tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+            for (i, joint) in robot.joints.iter().enumerate() {
+                tau[i] -= num_traits::ToPrimitive::to_f64(&joint.viscous).unwrap() * qd[i];
+            }
+            worst = worst.max(support::relative(tau.as_slice(), &state.tau));
+            let c = runtime.gravity(&q).unwrap();
+            worst = worst.max(support::relative(c.as_slice(), &state.gravity));
+            let d = runtime.inertia(&q).unwrap();
+            worst = worst.max(support::relative(d.transpose().as_slice(), &state.inertia));
+            let hand = runtime.hand(&q).unwrap().rows();
+            worst = worst.max(support::relative(&hand, &state.pose));
+        }
+        println!("{name}: {worst:.1e}");
+        assert!(worst < 1e-12, "{name}: {worst:e}");
+    }
+}
+
+/// Snapped: within the bound over a motion that has all the states in it, and
+/// the bound is not absurd.
+#[test]
+fn snapped_torques_stay_within_the_bound() {
+    for name in NAMES {
+        let golden = golden(name);
+        let imported = imported(name, &snapped(name));
+        let runtime = Reference::<f64>::from_robot(&imported.robot);
+        let largest = |of: fn(&support::State) -> &Vec<f64>| {
+            let n = golden.joints.len();
+            let most = |i: usize| golden.states.iter().map(move |s| of(s)[i].abs());
+            (0..n)
+                .map(|i| most(i).fold(0.0, f64::max))
+                .collect::<Vec<_>>()
+        };
+        let motion = Motion {
+            position: largest(|s| &s.q),
+            velocity: largest(|s| &s.qd),
+            acceleration: largest(|s| &s.qdd),
+        };
+        let bounds = match &imported.change {
+            Some(change) => change.torques(&motion),
+            None => vec![0.0; golden.joints.len()],
+        };
+        let (mut worst, mut most) = (0.0f64, 0.0f64);
+        for state in &golden.states {
+            let [q, qd, qdd] =
+                [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
+            let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+            let size = state.tau.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            for (i, joint) in imported.robot.joints.iter().enumerate() {
+                let damping = num_traits::ToPrimitive::to_f64(&joint.viscous).unwrap() * qd[i];
+                let off = (tau[i] - damping - state.tau[i]).abs();
+                // Of the golden values' own rounding and the runtime's.
+                let rounding = 1e-12 * size;
+                assert!(
+                    off <= bounds[i] + rounding,
+                    "{name}, joint {i}: {off:e} > {:e}",
+                    bounds[i]
+                );
+                worst = worst.max(off);
+                most = most.max(bounds[i]);
+            }
+        }
+        println!(
+            "{name}: {} snaps, off by {worst:.1e} N·m, bound {most:.1e}, {}",
+            imported.snaps.len(),
+            imported
+                .change
+                .map_or("none".to_owned(), |change| change.to_string())
+        );
+        assert!(most < 0.1, "{name}: {most:e}");
+    }
+}
+
+/// One joint whose bound can be worked out by hand: a bar of 2 kg, 0.5 m from an
+/// axis that 1.5708 tilts by δ = 3.7e-6 against gravity.
+#[test]
+fn the_bound_is_the_size_of_the_change() {
+    let source = r#"<robot name="bar">
+      <link name="base"/>
+      <joint name="swing" type="revolute">
+        <parent link="base"/> <child link="bar"/> <axis xyz="0 0 1"/>
+        <origin xyz="0 0 0" rpy="1.5708 0 0"/>
+        <limit lower="-3" upper="3" effort="10" velocity="0"/>
+      </joint>
+      <link name="bar"> <inertial> <origin xyz="0.5 0 0"/> <mass value="2"/>
+        <inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/> </inertial> </link>
+    </robot>"#;
+    let imported = dalembert_import::import(source, &dalembert_import::Options::default()).unwrap();
+    let change = imported.change.unwrap();
+    let still = Motion {
+        position: vec![0.0],
+        velocity: vec![0.0],
+        acceleration: vec![0.0],
+    };
+    let delta = 1.5708 - std::f64::consts::FRAC_PI_2;
+    let [bound] = change.torques(&still)[..] else {
+        panic!("one joint");
+    };
+    // Weight times lever times δ is what a tilt can do at most; it is turned by a
+    // matrix whose distance is √2 δ.
+    let most = 2.0 * 9.81 * 0.5 * delta;
+    assert!(
+        (most..1.5 * most).contains(&bound),
+        "{bound:e} against {most:e}"
+    );
+    // Relative to 10 N·m, over accelerations too: 2 kg at 0.5 m hardly feel δ.
+    let part = change.of_efforts().unwrap();
+    assert!((bound / 10.0..2.0 * bound).contains(&part), "{part:e}");
+}

@@ -1,0 +1,267 @@
+//! What is refused, by name, with the line of the URDF and what to do about it;
+//! and what is said of what is taken.
+
+mod support;
+
+use dalembert_import::{Imported, Options, import};
+use dalembert_model::read::Severity;
+use support::{refused, source};
+
+/// Two links that turn, a gripper beside the tip, and all that a URDF may have.
+const ARM: &str = r#"<?xml version="1.0"?>
+<robot name="Test Arm">
+  <link name="world"/>
+  <joint name="stand" type="fixed">
+    <parent link="world"/> <child link="foot"/> <origin xyz="0 0 .5"/>
+  </joint>
+  <link name="foot"/>
+  <joint name="turn" type="revolute">
+    <parent link="foot"/> <child link="upper"/>
+    <origin xyz="0.1 0 0.2" rpy="1.5708 0 0"/> <axis xyz="0 0 1"/>
+    <limit lower="-1" upper="2" effort="50" velocity="3"/>
+    <dynamics damping="0.5" friction="0.25"/>
+  </joint>
+  <link name="upper">
+    <inertial> <origin xyz="0 0 0.1"/> <mass value="2"/>
+      <inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0" ixz="0" iyz="0"/> </inertial>
+  </link>
+  <joint name="reach" type="prismatic">
+    <parent link="upper"/> <child link="lower"/> <origin xyz="0.3 0 0"/> <axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.4" effort="0" velocity="1"/>
+  </joint>
+  <link name="lower">
+    <inertial> <mass value="1"/>
+      <inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/> </inertial>
+  </link>
+  <joint name="grip" type="fixed"> <parent link="lower"/> <child link="hand"/> <origin xyz="0.1 0 0"/> </joint>
+  <link name="hand"/>
+  <joint name="finger" type="prismatic">
+    <parent link="hand"/> <child link="thumb"/> <axis xyz="0 1 0"/> <limit effort="1" velocity="1"/>
+  </joint>
+  <link name="thumb">
+    <inertial> <mass value="0.1"/> <inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/> </inertial>
+  </link>
+  <transmission name="drive">
+    <type>transmission_interface/SimpleTransmission</type>
+    <joint name="turn"/>
+    <actuator name="motor"><mechanicalReduction>100</mechanicalReduction><motorInertia>2e-5</motorInertia></actuator>
+  </transmission>
+</robot>
+"#;
+
+fn at_the_hand() -> Options {
+    Options {
+        tip: Some("hand".into()),
+        without: vec!["thumb".into()],
+        ..Options::default()
+    }
+}
+
+fn taken(source: &str, options: &Options) -> Imported {
+    import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
+}
+
+#[test]
+fn the_file_says_what_the_urdf_says() {
+    let imported = taken(ARM, &at_the_hand());
+    for line in [
+        "# From link world to link hand of a URDF, by `dalembert import`.",
+        "#   line 10: joint turn, rpy: 1.5708 is taken for pi/2",
+        "name = \"test_arm\"",
+        "tool = { xyz = [0.1, 0, 0], rpy = [0, 0, 0] }",
+        "placement = { xyz = [0.1, 0, 0.7], rpy = [\"pi/2\", 0, 0] }",
+        "viscous = 0.5",
+        "armature = 0.2",
+        "limits = { position = [-1, 2], velocity = 3, torque = 50 }",
+        "limits = { position = [0, 0.4], velocity = 1 }",
+    ] {
+        assert!(
+            imported.text.contains(&format!("{line}\n")),
+            "{line}\n{}",
+            imported.text
+        );
+    }
+    let notes = imported.notes.iter();
+    let notes: Vec<_> = notes
+        .map(|note| (note.line, note.message.as_str()))
+        .collect();
+    let expected = [
+        (
+            12,
+            "the Coulomb friction of joint `turn`, 0.25, is left out",
+        ),
+        (20, "the limit of torque of joint `reach` is 0"),
+    ];
+    assert_eq!(notes, expected);
+}
+
+/// A locked finger weighs what it weighs, where it is.
+#[test]
+fn what_is_locked_moves_with_the_link() {
+    let lock = Options {
+        tip: Some("hand".into()),
+        lock: vec![("finger".into(), "0.05".into())],
+        ..Options::default()
+    };
+    let joint = taken(ARM, &lock).robot.joints[1].clone();
+    let ratio = |n: i64, d: i64| dalembert_model::number::Rational::new(n.into(), d.into());
+    assert_eq!(joint.mass, ratio(11, 10));
+    // (0.1 kg at (0.1, 0.05)) / 1.1 kg, to 20 digits.
+    let file = taken(ARM, &lock).text;
+    assert!(
+        file.contains("com = [0.0090909090909090909091, 0.00454545454545454545455, 0]"),
+        "{file}"
+    );
+    let without = taken(ARM, &at_the_hand()).robot.joints[1].clone();
+    assert_eq!(without.mass, ratio(1, 1));
+    // A joint of the chain that is locked is part of the link before.
+    let short = Options {
+        lock: vec![
+            ("finger".into(), "0".into()),
+            ("turn".into(), "90deg".into()),
+        ],
+        tip: Some("hand".into()),
+        ..Options::default()
+    };
+    assert_eq!(taken(ARM, &short).robot.joints.len(), 1);
+}
+
+#[test]
+fn refusals_name_the_joint_and_the_way_out() {
+    let hand = at_the_hand();
+    let open = Options {
+        without: Vec::new(),
+        ..hand.clone()
+    };
+    let with = |option: fn(&mut Options)| {
+        let mut options = at_the_hand();
+        option(&mut options);
+        options
+    };
+    let mimic = ARM.replacen(
+        "<limit lower=\"-1\"",
+        "<mimic joint=\"reach\"/><limit lower=\"-1\"",
+        1,
+    );
+    let kind = |kind: &str| ARM.replacen("type=\"prismatic\"", &format!("type=\"{kind}\""), 1);
+    let cases: Vec<(String, Options, &[&str])> = vec![
+        (ARM.into(), open.clone(), &["arm.urdf:28:3", "joint `finger` is prismatic", "add --lock finger=0", "--without thumb"]),
+        (mimic, hand.clone(), &["arm.urdf:11", "joint `turn` of the chain mimics `reach`", "--lock turn=0"]),
+        (kind("planar"), hand.clone(), &["joint `reach` of the chain is planar", "--base lower"]),
+        (kind("floating"), hand.clone(), &["arm.urdf:18:3", "joint `reach` of the chain is floating"]),
+        (kind("ball"), hand.clone(), &["arm.urdf:18", "`ball` is no type of joint", "there is: revolute"]),
+        (ARM.into(), with(|o| o.tip = Some("hnad".into())), &["--tip: there is no link `hnad`", "did you mean `hand`?"]),
+        (ARM.into(), with(|o| o.base = Some("hand".into())), &["no joint moves between link `hand` and link `hand`"]),
+        (ARM.into(), with(|o| { o.base = Some("thumb".into()); o.without.clear(); }), &["link `hand` does not hang on link `thumb`"]),
+        (ARM.into(), with(|o| o.lock = vec![("fingr".into(), "0".into())]), &["--lock: there is no joint `fingr`", "did you mean `finger`?"]),
+        (ARM.into(), with(|o| o.lock = vec![("finger".into(), "90deg".into())]), &["--lock finger: `90deg` is not"]),
+        (ARM.into(), with(|o| o.lock = vec![("stand".into(), "0".into())]), &["a fixed joint has no position"]),
+        (ARM.into(), with(|o| o.without = vec!["lower".into()]), &["--without lower: the chain passes through it"]),
+        (ARM.replace("<mass value=\"2\"/>", ""), hand.clone(), &["arm.urdf:15:5", "the inertial of link `upper` has no <mass>"]),
+        (ARM.replace("<mass value=\"2\"/>", "<mass value=\"-2\"/>"), hand.clone(), &["the mass of link `upper` is negative"]),
+        (ARM.replace("ixx=\"0.02\" iyy=\"0.03\"", "ixx=\"0.02m\" iyy=\"0.03\""), hand.clone(), &["arm.urdf:16:21", "`0.02m` is not a decimal number"]),
+        (ARM.replace("lower=\"-1\" upper=\"2\"", "lower=\"2\" upper=\"-1\""), hand.clone(), &["arm.urdf:11:19", "the limits of joint `turn` are reversed"]),
+        (ARM.replace("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 0\"/>"), hand.clone(), &["the axis of joint `turn` has no direction"]),
+        (ARM.replace("xyz=\"0.1 0 0.2\"", "xyz=\"0.1 0\""), hand.clone(), &["arm.urdf:10:18", "`xyz` has 2 numbers, not 3"]),
+        (ARM.replace("<child link=\"lower\"/>", "<child link=\"lowr\"/>"), hand.clone(), &["there is no link `lowr`", "did you mean `lower`?"]),
+        (ARM.replace("<child link=\"lower\"/>", "<child link=\"foot\"/>"), hand.clone(), &["link `foot` hangs on joint `stand` already", "closed loops"]),
+        (ARM.replace("<robot", "<robots").replace("</robot>", "</robots>"), hand.clone(), &["<robots> is no URDF"]),
+        ("<mujoco/>".into(), hand.clone(), &["this is MJCF"]),
+        ("joints: 3".into(), hand.clone(), &["no XML", "a URDF is XML"]),
+        (ARM.replace("</robot>", ""), hand.clone(), &["no XML"]),
+        (
+            ARM.replace("<link name=\"world\"/>", "<xacro:macro xmlns:xacro=\"http://www.ros.org/wiki/xacro\"/><link name=\"world\"/>"),
+            hand.clone(),
+            &["arm.urdf:3:3", "run `xacro arm.urdf.xacro > arm.urdf` first"],
+        ),
+    ];
+    for (source, options, parts) in cases {
+        let text = refused(&source, &options);
+        for part in parts {
+            assert!(text.contains(part), "{part} is missing:\n{text}");
+        }
+    }
+}
+
+/// Everything that is wrong is said at once, in the file's order.
+#[test]
+fn all_at_once() {
+    let source = ARM
+        .replace("<mass value=\"2\"/>", "")
+        .replace("xyz=\"0.1 0 0.2\"", "xyz=\"0.1 0\"")
+        .replace("type=\"prismatic\"", "type=\"slider\"");
+    let text = refused(&source, &at_the_hand());
+    assert_eq!(text.matches("error: ").count(), 5, "{text}");
+}
+
+/// Impossible and missing inertials are taken, and named with their lines.
+#[test]
+fn doubtful_inertials_are_named() {
+    let flat = ARM.replace("izz=\"0.04\"", "izz=\"0.4\"");
+    let warned = |source: &str| {
+        let notes = taken(source, &at_the_hand()).notes;
+        let warnings = notes
+            .into_iter()
+            .filter(|note| note.severity == Severity::Warning);
+        warnings
+            .map(|note| (note.line, note.message))
+            .collect::<Vec<_>>()
+    };
+    let [(line, message)] = &warned(&flat)[..] else {
+        panic!("one warning")
+    };
+    assert_eq!(*line, 16);
+    assert!(
+        message.contains("link `upper`: no body has this inertia"),
+        "{message}"
+    );
+    let start = ARM.find("<link name=\"upper\">").unwrap();
+    let end = start + ARM[start..].find("</link>").unwrap();
+    let bare = format!("{}<link name=\"upper\">{}", &ARM[..start], &ARM[end..]);
+    let [(line, message)] = &warned(&bare)[..] else {
+        panic!("one warning")
+    };
+    assert_eq!(
+        (
+            *line,
+            message.contains("link `upper`, and what is fixed to it, has no mass")
+        ),
+        (14, true)
+    );
+    assert_eq!(warned(ARM), []);
+}
+
+/// Chains that end in several places, and a chain that has one end.
+#[test]
+fn the_end_is_asked_for_where_there_are_several() {
+    let text = refused(&source("panda"), &Options::default());
+    assert!(text.contains("2 chains have 8 joints"), "{text}");
+    assert!(
+        text.contains("choose the end by --tip: panda_leftfinger, panda_rightfinger"),
+        "{text}"
+    );
+    // Mimic joints beside the chain say whom they follow.
+    let tcp = Options {
+        tip: Some("panda_hand_tcp".into()),
+        ..Options::default()
+    };
+    let text = refused(&source("panda"), &tcp);
+    assert!(
+        text.contains("joint `panda_finger_joint2` is prismatic, mimics `panda_finger_joint1`"),
+        "{text}"
+    );
+    assert!(text.contains("--lock panda_finger_joint1=0"), "{text}");
+    let imported = taken(
+        ARM,
+        &Options {
+            without: vec!["thumb".into()],
+            ..Options::default()
+        },
+    );
+    assert!(
+        imported
+            .notes
+            .iter()
+            .any(|note| note.message == "the chain ends at link `hand`")
+    );
+}

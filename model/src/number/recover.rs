@@ -1,0 +1,205 @@
+//! The numbers that were meant, from what a computation in wide floats made of
+//! them.
+//!
+//! Geometry needs roots and arcs, which exact constants have not. But where the
+//! result of a computation with 256 bits is within 2⁻²⁰⁰ of a simple fraction,
+//! or of a simple multiple of π, it *is* that number, or so close that no
+//! digit which anybody gave can tell: an arm whose angles are multiples of π/2
+//! and whose lengths are decimals comes out in the same decimals. Everything
+//! else is rounded once, to 20 digits.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use super::{Angle, Rational, Rounded, Wide};
+use crate::scalar::Scalar;
+
+/// What is closer than 2^−`NEAR` to a number, in units of the size of what it
+/// was computed from, is that number.
+const NEAR: u32 = 200;
+/// The most bits of the denominator of a fraction that was meant.
+const SIMPLE: u64 = 90;
+/// The digits that everything else is rounded to.
+const DIGITS: i64 = 20;
+
+/// 2^−[`NEAR`].
+pub fn near() -> Rational {
+    Rational::new(BigInt::one(), BigInt::one() << NEAR)
+}
+
+/// The fraction that a number computed from others of this size was meant to
+/// be, or the number rounded to 20 digits.
+pub fn recovered(value: &Wide, size: &Rational) -> Rational {
+    let value = value.to_rational();
+    simple(&value, &(size * near())).unwrap_or_else(|| rounded(&value))
+}
+
+impl Angle {
+    /// The angle whose sine and cosine are in this ratio, in (−π, π]: a multiple
+    /// of π or a number of radians that was meant, or radians rounded to 20
+    /// digits. Zero for two zeros.
+    pub fn recovered(sin: &Wide, cos: &Wide) -> Angle {
+        let radians = arc(sin, cos);
+        let pi = Angle::PiTimes(Rational::one()).radians();
+        match simple(&(&radians / pi), &near()) {
+            Some(multiple) => Angle::PiTimes(multiple),
+            None => {
+                let radians = simple(&radians, &near()).unwrap_or_else(|| rounded(&radians));
+                Angle::Radians(radians).canonical()
+            }
+        }
+    }
+}
+
+/// The first convergent of the continued fraction that is this near, if its
+/// denominator is simple.
+fn simple(value: &Rational, near: &Rational) -> Option<Rational> {
+    // Euclid's algorithm on integers: fractions would be cancelled at every step.
+    let (numer, denom) = (value.numer(), value.denom());
+    let (mut rest, mut divisor) = (numer.clone(), denom.clone());
+    let mut before = [BigInt::zero(), BigInt::one()];
+    let mut last = [BigInt::one(), BigInt::zero()];
+    while !divisor.is_zero() {
+        let (whole, remainder) = rest.div_mod_floor(&divisor);
+        let next = [0, 1].map(|i| &whole * &last[i] + &before[i]);
+        let [p, q] = &next;
+        if q.bits() > SIMPLE {
+            return None;
+        }
+        // |p/q − value| ≤ near
+        let off = (p * denom - numer * q).abs();
+        if off * near.denom() <= near.numer() * q * denom {
+            return Some(Rational::new(p.clone(), q.clone()));
+        }
+        (rest, divisor) = (divisor, remainder);
+        (before, last) = (last, next);
+    }
+    None
+}
+
+/// To 20 digits, or 21: half away from zero.
+pub fn rounded(value: &Rational) -> Rational {
+    if value.is_zero() {
+        return Rational::zero();
+    }
+    // 2^bits is within a factor of two of the size; 30103/100000 is log₁₀ 2.
+    let bits = value.numer().bits() as i64 - value.denom().bits() as i64;
+    let digits = DIGITS - Integer::div_floor(&(bits * 30103), &100_000);
+    let power = BigInt::from(10).pow(digits.unsigned_abs() as u32);
+    let power = match digits < 0 {
+        true => Rational::new(BigInt::one(), power),
+        false => Rational::from_integer(power),
+    };
+    (value * &power).round() / power
+}
+
+/// The angle of the point (cos, sin), in (−π, π], to 2⁻²⁴⁰ or so.
+fn arc(sin: &Wide, cos: &Wide) -> Rational {
+    let size = sin.mul(sin).add(&cos.mul(cos)).sqrt();
+    let (Some(sin), Some(cos)) = (sin.over(&size), cos.over(&size)) else {
+        return Rational::zero();
+    };
+    // What is nothing beside the other has no sign: −π is π.
+    let sin = match sin.to_rational().abs() <= near() {
+        true => Wide::zero(),
+        false => sin,
+    };
+    let [y, x] = [&sin, &cos].map(|part| f64::nearest_rational(&part.to_rational()));
+    let start = Rational::from_float(libm::atan2(y, x)).unwrap_or_else(Rational::zero);
+    let at = Wide::rotor(&Angle::Radians(start.clone()));
+    // The sine of what is missing, 1e-16 or less: arcsin x = x + x³/6 + 3x⁵/40 …
+    let x = sin.mul(&at.cos).sub(&cos.mul(&at.sin)).to_rational();
+    let square = &x * &x;
+    let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
+    let series = ratio(1, 1) + &square * (ratio(1, 6) + &square * ratio(3, 40));
+    start + x * series
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratio(n: i64, d: i64) -> Rational {
+        Rational::new(n.into(), d.into())
+    }
+
+    fn of(angle: &Angle) -> Angle {
+        let pair = Wide::rotor(angle);
+        let size = Wide::from_rational(&ratio(7, 3));
+        Angle::recovered(&pair.sin.mul(&size), &pair.cos.mul(&size))
+    }
+
+    #[test]
+    fn angles_come_back() {
+        for n in -11..=12 {
+            let angle = Angle::PiTimes(ratio(n, 12));
+            assert_eq!(of(&angle), angle);
+        }
+        let degrees = Angle::PiTimes(ratio(-17_345, 180_000));
+        assert_eq!(of(&degrees), degrees);
+        for radians in [
+            ratio(3, 10),
+            ratio(-31_415, 10_000),
+            ratio(1, 3),
+            ratio(1, 1 << 40),
+        ] {
+            let angle = Angle::Radians(radians);
+            assert_eq!(of(&angle), angle);
+        }
+        assert_eq!(
+            Angle::recovered(&Wide::zero(), &Wide::zero()),
+            Angle::default()
+        );
+        // π from either side.
+        let tiny = Wide::from_rational(&Rational::new(1.into(), BigInt::one() << 240));
+        let back = Wide::one().neg();
+        let half_turn = Angle::right_angles(2);
+        assert_eq!(Angle::recovered(&tiny, &back), half_turn);
+        assert_eq!(Angle::recovered(&tiny.neg(), &back), half_turn);
+    }
+
+    /// atan2(1, 2) = 0.46364760900080611621425623146121…
+    #[test]
+    fn other_angles_are_rounded_once() {
+        let [one, two] = [ratio(1, 1), ratio(2, 1)].map(|x| Wide::from_rational(&x));
+        let expected = Rational::new(
+            46_364_760_900_080_611_621i128.into(),
+            BigInt::from(10).pow(20),
+        );
+        let Angle::Radians(found) = Angle::recovered(&one, &two) else {
+            panic!("a number of radians");
+        };
+        let off = (found.clone() - expected).abs();
+        assert!(
+            off <= Rational::new(1.into(), BigInt::from(10).pow(20)),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn decimals_come_back_and_noise_goes() {
+        let size = ratio(1, 1);
+        let third = Wide::from_rational(&ratio(1, 3));
+        let noise = third.add(&third).add(&third).sub(&Wide::one());
+        for text in [
+            ratio(4318, 10_000),
+            ratio(-1, 12),
+            ratio(123_456_789_012_345_678, 1 << 40),
+        ] {
+            let noisy = Wide::from_rational(&text).add(&noise);
+            assert_eq!(recovered(&noisy, &size), text);
+        }
+        assert_eq!(recovered(&noise, &size), Rational::zero());
+        let root = Wide::from_rational(&ratio(2, 1)).sqrt();
+        // √2 = 1.41421356237309504880168872…
+        let expected = Rational::new(
+            141_421_356_237_309_504_880i128.into(),
+            BigInt::from(10).pow(20),
+        );
+        let off = recovered(&root, &size) - expected;
+        assert!(off.abs() <= Rational::new(1.into(), BigInt::from(10).pow(20)));
+        assert_eq!(rounded(&ratio(1, 1_000_000)), ratio(1, 1_000_000));
+        assert_eq!(rounded(&ratio(25_000_000, 1)), ratio(25_000_000, 1));
+    }
+}

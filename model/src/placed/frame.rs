@@ -1,0 +1,130 @@
+//! Poses in wide floats.
+
+use num_traits::{Signed, Zero};
+
+use crate::equations::matrix::{Columns, Vector, cross, dot, opposite, scaled, zero_vector};
+use crate::equations::{Rotor, pose_of};
+use crate::number::recover::recovered;
+use crate::number::{Angle, Rational, Wide};
+use crate::robot::{Inertia, Placement};
+use crate::scalar::Scalar;
+
+/// Where a body's mass is, in a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Body {
+    /// Centre of mass, m.
+    pub com: [Rational; 3],
+    /// Inertia about it in the frame's axes, kg·m².
+    pub inertia: Inertia<Rational>,
+}
+
+/// [R | p] of a placement.
+pub fn pose(placement: &Placement) -> Columns<Wide> {
+    pose_of(placement, Wide::rotor, Wide::from_rational)
+}
+
+/// Rows for columns, and the origin seen from itself.
+pub fn inverse(pose: &Columns<Wide>) -> Columns<Wide> {
+    let axes = core::array::from_fn(|i| core::array::from_fn(|k| pose.axes[k][i].clone()));
+    Columns {
+        axes,
+        origin: opposite(&pose.rotate_back(&pose.origin)),
+    }
+}
+
+/// The placement that a pose is, lengths beside those of this size.
+pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
+    let [x, y, z] = &pose.axes;
+    // R = Rz(yaw) Ry(pitch) Rx(roll): x is (cos pitch cos yaw, cos pitch sin yaw,
+    // −sin pitch).
+    let level = length(&[x[0].clone(), x[1].clone(), Wide::zero()]);
+    let pitch = Angle::recovered(&x[2].neg(), &level);
+    let (roll, yaw) = match pitch.quarter_turns() {
+        // The nose up or down: roll and yaw are about one axis.
+        Some(1 | 3) => (Angle::default(), Angle::recovered(&y[0].neg(), &y[1])),
+        _ => (
+            Angle::recovered(&y[2], &z[2]),
+            Angle::recovered(&x[1], &x[0]),
+        ),
+    };
+    Placement {
+        xyz: pose.origin.each_ref().map(|x| recovered(x, size)),
+        rpy: [roll, pitch, yaw],
+    }
+}
+
+/// A body given in a frame, seen from one in which that frame has this pose.
+pub fn moved(body: &Body, pose: &Columns<Wide>) -> Body {
+    let com = body.com.each_ref().map(Wide::from_rational);
+    let com = pose.apply(&com, &Wide::one());
+    // Centres are of the size of what they were computed from.
+    let lengths = body.com.iter().map(Signed::abs);
+    let origin = pose.origin.iter().map(|x| x.to_rational().abs());
+    let size = lengths.chain(origin).sum::<Rational>();
+
+    let tensor = body.inertia.map(Wide::from_rational).rows();
+    // (R I) Rᵀ, column by column.
+    let columns: [Vector<Wide>; 3] =
+        core::array::from_fn(|k| core::array::from_fn(|i| tensor[i][k].clone()));
+    let half = columns.map(|column| pose.rotate(&column));
+    let row = |i: usize| core::array::from_fn(|k| half[k][i].clone());
+    let turned = |i: usize, k: usize| pose.rotate(&row(i))[k].clone();
+    let entries = body.inertia.rows();
+    let moments: Rational = entries.iter().flatten().map(Signed::abs).sum();
+    let entry = |i: usize, k: usize| recovered(&turned(i, k), &moments);
+    Body {
+        com: com.each_ref().map(|x| recovered(x, &size)),
+        inertia: Inertia {
+            xx: entry(0, 0),
+            yy: entry(1, 1),
+            zz: entry(2, 2),
+            xy: entry(0, 1),
+            yz: entry(1, 2),
+            xz: entry(0, 2),
+        },
+    }
+}
+
+/// The turn by an angle about a unit vector: c 1 + s [u]× + (1 − c) u uᵀ.
+pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
+    let Rotor { sin, cos } = Wide::rotor(angle);
+    let rest = Wide::one().sub(&cos);
+    let column = |k: usize| {
+        let mut unit: Vector<Wide> = zero_vector();
+        unit[k] = Wide::one();
+        let across = cross(about, &unit);
+        let along = rest.mul(&about[k]);
+        core::array::from_fn(|i| {
+            let turned = cos.mul(&unit[i]).add(&sin.mul(&across[i]));
+            turned.add(&along.mul(&about[i]))
+        })
+    };
+    Columns {
+        axes: [column(0), column(1), column(2)],
+        origin: zero_vector(),
+    }
+}
+
+/// The unit vector along a direction, unless that is zero.
+pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
+    // Of ordinary size first: 1e-300 is a direction too.
+    let largest = axis.iter().map(Signed::abs).max()?;
+    if largest.is_zero() {
+        return None;
+    }
+    let axis = axis
+        .each_ref()
+        .map(|x| Wide::from_rational(&(x / &largest)));
+    unit(&axis)
+}
+
+/// A vector divided by its length, unless that is zero.
+pub fn unit(vector: &Vector<Wide>) -> Option<Vector<Wide>> {
+    let per_length = Wide::one().over(&length(vector))?;
+    Some(scaled(&per_length, vector))
+}
+
+/// |v|
+pub fn length(vector: &Vector<Wide>) -> Wide {
+    dot(vector, vector).sqrt()
+}

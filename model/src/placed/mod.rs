@@ -1,0 +1,160 @@
+//! Joints by placements: from frames in frames to the rows of a DH table.
+//!
+//! A data sheet or a URDF says where each link's frame is in the one before at
+//! q = 0, and about which of its axes the joint moves. The equations want DH
+//! rows. [`derive()`] finds these, once, when the robot is read: so every
+//! formulation, proof and search sees the same rows whichever way they were
+//! written.
+//!
+//! - this file: what is given, and the walk from the base to the hand
+//! - `row`: one row, from an axis to the next
+//! - [`frame`]: poses in wide floats: inverses, placements, bodies that move over
+//!
+//! The rows are of the standard convention. Frame i lies on the axis of joint
+//! i + 1, its x along the common normal from the axis of joint i, as far as
+//! there is one; of the two directions that it can have, it is the one in which
+//! θ_i is nearer to zero. Frame 0 is on the first axis, next to the origin of the
+//! base; the last frame is at the origin of the last link's own frame. What is
+//! left over at both ends are the robot's base and tool, so that poses are those
+//! of the frames which were given.
+//!
+//! Everything is computed with 256 bits and then recovered
+//! ([`recover`](crate::number::recover)): exact where the geometry is, rounded
+//! once where it is not.
+//!
+//! # Parallel axes
+//!
+//! Between *parallel* axes, sin α < 2⁻¹⁵⁰, there are many common normals: the one
+//! beside the link's own origin is taken. Between *nearly* parallel ones, sin α
+//! below [`NEARLY_PARALLEL`], there is one only, and it may be anywhere: with 1e-4
+//! rad between axes 0.4 m apart, 4 km away, and lengths of that size would take
+//! seven digits of every torque with them. There the frame stays where the next
+//! axis passes the plane beside the link's own origin, and turns by an angle β about y
+//! after the twist (Hayati's fifth parameter), [`Joint::beta`].
+//!
+//! [`Joint::beta`]: crate::robot::Joint::beta
+
+pub mod frame;
+mod row;
+
+use alloc::vec::Vec;
+
+use crate::equations::matrix::Columns;
+use crate::number::recover::recovered;
+use crate::number::{Rational, Wide};
+use crate::robot::{Placement, Robot};
+use crate::scalar::Scalar;
+
+pub use frame::Body;
+pub use row::NEARLY_PARALLEL;
+
+/// Where a joint's link is, and what it moves about or along.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Placed {
+    /// The link's frame at q = 0, in that of the link before; of the first
+    /// link, in the frame that the robot's base places.
+    pub placement: Placement,
+    /// The direction of the joint's axis, which passes through the origin of
+    /// the link's frame, in the axes of that frame. Its length does not matter.
+    pub axis: [Rational; 3],
+}
+
+/// The last link's own frame, seen from the last frame of the table.
+#[derive(Clone, Debug)]
+pub struct LastLink(Columns<Wide>);
+
+impl LastLink {
+    /// A body that is given in the last link's own frame, in the table's.
+    pub fn carried(&self, body: &Body) -> Body {
+        frame::moved(body, &self.0)
+    }
+}
+
+/// A joint's axis has no direction; the joint is counted from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoDirection(pub usize);
+
+/// Gives a robot whose joints are placed its DH rows.
+///
+/// The robot's centres of mass and inertias are in the links' own frames, its
+/// tool in the last link's; its rows are not read. All of them are replaced,
+/// and so is the base. Where there are fewer placements than joints, or the
+/// other way round, the rest is left alone.
+///
+/// # Errors
+/// [`NoDirection`], and then the robot is unchanged.
+pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<LastLink, NoDirection> {
+    let steps = placed.iter().enumerate().map(|(joint, placed)| {
+        let axis = frame::direction(&placed.axis).ok_or(NoDirection(joint))?;
+        let link = frame::pose(&placed.placement);
+        Ok(row::Axis {
+            along: link.rotate(&axis),
+            through: link.origin.clone(),
+            link,
+        })
+    });
+    let axes = steps.collect::<Result<Vec<row::Axis>, NoDirection>>()?;
+    let Some(first) = axes.first() else {
+        return Ok(LastLink(Columns::identity()));
+    };
+    let size = size(robot, placed);
+
+    let mut before = row::first_frame(first);
+    let base = match &robot.base {
+        None => before.clone(),
+        Some(base) => frame::pose(base).then(&before),
+    };
+    robot.base = frame::placement(&base, &size).unless_identity();
+    robot.convention = crate::robot::Convention::Standard;
+    for (i, joint) in robot.joints.iter_mut().enumerate().take(axes.len()) {
+        // The frame before, seen from the link's own at q = 0: its z is the axis.
+        let here = frame::inverse(&axes[i].link).then(&before);
+        let row = match axes.get(i + 1) {
+            Some(next) => row::to_axis(&here, next, &size),
+            None => row::to_link(&here),
+        };
+        joint.theta = row.theta;
+        joint.d = recovered(&row.d, &size);
+        joint.a = recovered(&row.a, &size);
+        joint.alpha = row.alpha;
+        joint.beta = row.beta;
+        let own = Body {
+            com: joint.com.clone(),
+            inertia: joint.inertia.clone(),
+        };
+        let moved = frame::moved(&own, &frame::inverse(&row.frame));
+        (joint.com, joint.inertia) = (moved.com, moved.inertia);
+        before = row.frame;
+    }
+    let last = frame::inverse(&before);
+    let tool = match &robot.tool {
+        None => last.clone(),
+        Some(tool) => last.then(&frame::pose(tool)),
+    };
+    robot.tool = frame::placement(&tool, &size).unless_identity();
+    Ok(LastLink(last))
+}
+
+/// What lengths are small against: the arm stretched out, or a metre if it has
+/// no length.
+fn size(robot: &Robot, placed: &[Placed]) -> Rational {
+    let ends = [&robot.base, &robot.tool].into_iter().flatten();
+    let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
+    let lengths = placements.flat_map(|placement| placement.xyz.iter());
+    let total: Rational = lengths.map(num_traits::Signed::abs).sum();
+    match num_traits::Zero::is_zero(&total) {
+        true => num_traits::One::one(),
+        false => total,
+    }
+}
+
+/// Whether a number is nothing beside what is of this size.
+fn is_nothing(value: &Wide, size: &Rational) -> bool {
+    let value = num_traits::Signed::abs(&value.to_rational());
+    value <= size * crate::number::recover::near()
+}
+
+/// a + s b, for points along lines.
+fn along(a: &[Wide; 3], s: &Wide, b: &[Wide; 3]) -> [Wide; 3] {
+    core::array::from_fn(|i| a[i].add(&s.mul(&b[i])))
+}

@@ -1,0 +1,210 @@
+//! One row of the table: from a frame on the axis of joint i to one on the axis
+//! of joint i + 1.
+
+use super::frame::{length, unit};
+use super::{along, is_nothing};
+use crate::equations::Rotor;
+use crate::equations::matrix::{Columns, Vector, cross, difference, dot, opposite, scaled};
+use crate::number::{Angle, Rational, Wide};
+use crate::scalar::Scalar;
+
+/// Axes with a sine of the angle between them below this, and not parallel, are
+/// nearly parallel: 0.9°. Where it is more, the common normal is at most 64 times
+/// as far away as the axes are apart.
+pub const NEARLY_PARALLEL: f64 = 1.0 / 64.0;
+
+/// Sines below 2⁻¹⁵⁰ are none: of axes that are parallel.
+const PARALLEL: f64 = 7e-46;
+
+/// A joint's axis in the frame of the link before it.
+pub(super) struct Axis {
+    /// Its direction.
+    pub(super) along: Vector<Wide>,
+    /// A point of it: the origin of the link's own frame.
+    pub(super) through: Vector<Wide>,
+    /// The link's own frame at q = 0.
+    pub(super) link: Columns<Wide>,
+}
+
+/// A row, and the frame that it leads to.
+pub(super) struct Row {
+    pub(super) theta: Angle,
+    pub(super) d: Wide,
+    pub(super) a: Wide,
+    pub(super) alpha: Angle,
+    pub(super) beta: Angle,
+    pub(super) frame: Columns<Wide>,
+}
+
+/// Frame 0: on the first axis, next to the origin, its x as near to the base's
+/// as it can be, or to the base's y where the axis is along x.
+pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
+    let z = &first.along;
+    let back = dot(&first.through, z).neg();
+    let base = Columns::identity();
+    // Along x: within 26°.
+    let near_x = z[0].magnitude() > 0.9;
+    let start: &Vector<Wide> = &base.axes[usize::from(near_x)];
+    let across = along(start, &dot(start, z).neg(), z);
+    let x = unit(&across).unwrap_or_else(|| start.clone());
+    Columns {
+        axes: [x.clone(), cross(z, &x), z.clone()],
+        origin: along(&first.through, &back, z),
+    }
+}
+
+/// From a frame on its axis to one on the next axis.
+pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row {
+    let u = &here.axes[2];
+    // Beside the link's own origin, where nothing says how far along the axis.
+    let beside = dot(&here.origin, u).neg();
+    let normal = cross(u, &next.along);
+    let sine = length(&normal).magnitude();
+    if sine < PARALLEL {
+        return parallel(here, next, beside, size);
+    }
+    let origin = along(&here.origin, &beside, u);
+    let p = difference(&next.through, &origin);
+    // Where the next axis passes the plane beside the link's origin.
+    let drop = dot(&p, u).over(&dot(&next.along, u));
+    let passes = drop.map(|drop| along(&p, &drop.neg(), &next.along));
+    match passes {
+        Some(passes) if sine < NEARLY_PARALLEL && !is_nothing(&length(&passes), size) => {
+            nearly_parallel(here, next, beside, &passes)
+        }
+        _ => askew(here, next, &normal),
+    }
+}
+
+/// To the last link: the row only turns and slides, to the link's own axes where
+/// these are quarter turns away.
+pub(super) fn to_link(here: &Columns<Wide>) -> Row {
+    let u = &here.axes[2];
+    let d = dot(&opposite(&here.origin), u);
+    let own = Columns::identity();
+    let theta = turn(here, &own.axes[0]);
+    let along_own = Angle::recovered(&length(&cross(u, &own.axes[2])), &dot(u, &own.axes[2]));
+    let keeps =
+        along_own.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
+    let theta = if keeps { theta } else { Angle::default() };
+    let x = match keeps {
+        true => own.axes[0].clone(),
+        false => here.axes[0].clone(),
+    };
+    Row {
+        theta,
+        a: Wide::zero(),
+        alpha: Angle::default(),
+        beta: Angle::default(),
+        frame: Columns {
+            axes: [x.clone(), cross(u, &x), u.clone()],
+            origin: along(&here.origin, &d, u),
+        },
+        d,
+    }
+}
+
+/// One common normal.
+fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
+    let (u, w) = (&here.axes[2], &next.along);
+    let p = difference(&next.through, &here.origin);
+    let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0].clone()));
+    // p = d u + a x − s w
+    let square = dot(normal, normal);
+    let d = dot(&cross(&p, w), normal).over(&square);
+    let d = d.unwrap_or_else(Wide::zero);
+    let a = dot(&p, &x);
+    let foot = along(&along(&here.origin, &d, u), &a, &x);
+    Row {
+        theta: turn(here, &x),
+        alpha: Angle::recovered(&dot(&cross(u, w), &x), &dot(u, w)),
+        beta: Angle::default(),
+        frame: Columns {
+            axes: [x.clone(), cross(w, &x), w.clone()],
+            origin: foot,
+        },
+        d,
+        a,
+    }
+}
+
+/// Many common normals: the one beside the link's own origin.
+fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row {
+    let u = &here.axes[2];
+    let origin = along(&here.origin, &d, u);
+    let p = difference(&next.through, &origin);
+    let across = along(&p, &dot(&p, u).neg(), u);
+    let distance = length(&across);
+    let apart = !is_nothing(&distance, size);
+    let x = match unit(&across) {
+        Some(x) if apart => near(here, x),
+        _ => here.axes[0].clone(),
+    };
+    let a = if apart { dot(&p, &x) } else { Wide::zero() };
+    let against = dot(u, &next.along).is_negative();
+    let z = if against { opposite(u) } else { u.clone() };
+    Row {
+        theta: turn(here, &x),
+        d,
+        alpha: Angle::right_angles(if against { 2 } else { 0 }),
+        beta: Angle::default(),
+        frame: Columns {
+            axes: [x.clone(), cross(&z, &x), z],
+            origin: along(&origin, &a, &x),
+        },
+        a,
+    }
+}
+
+/// A common normal that may be far away: the frame stays beside the link's own
+/// origin, and turns about y too. z = Rx(α) Ry(β) z_0 is
+/// (sin β, −sin α cos β, cos α cos β) in the axes turned by θ.
+fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<Wide>) -> Row {
+    let (u, w) = (&here.axes[2], &next.along);
+    let origin = along(&here.origin, &d, u);
+    let x = near(here, unit(passes).unwrap_or_else(|| here.axes[0].clone()));
+    let y = cross(u, &x);
+    let a = dot(passes, &x);
+    let [wx, wy, wz] = [dot(w, &x), dot(w, &y), dot(w, u)];
+    let level = length(&[Wide::zero(), wy.clone(), wz.clone()]);
+    // x of the new frame is (cos β, sin α sin β, −cos α sin β); with cos β = level.
+    let back = wx.over(&level).unwrap_or_else(Wide::zero);
+    let tilt = along(&scaled(&wy, &y), &wz, u);
+    let new_x = along(&scaled(&level, &x), &back.neg(), &tilt);
+    Row {
+        theta: turn(here, &x),
+        d,
+        alpha: Angle::recovered(&wy.neg(), &wz),
+        beta: Angle::recovered(&wx, &level),
+        frame: Columns {
+            axes: [new_x.clone(), cross(w, &new_x), w.clone()],
+            origin: along(&origin, &a, &x),
+        },
+        a,
+    }
+}
+
+/// Of both directions of a normal, the one nearer to the frame's own x; to its
+/// y where it is across.
+fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
+    let Rotor { sin, cos } = components(here, &x);
+    let one = Rational::from_integer(1.into());
+    let backward = match is_nothing(&cos, &one) {
+        true => sin.is_negative(),
+        false => cos.is_negative(),
+    };
+    if backward { opposite(&x) } else { x }
+}
+
+/// θ: how far a vector across the axis is turned from the frame's x.
+fn turn(here: &Columns<Wide>, x: &Vector<Wide>) -> Angle {
+    let Rotor { sin, cos } = components(here, x);
+    Angle::recovered(&sin, &cos)
+}
+
+fn components(here: &Columns<Wide>, x: &Vector<Wide>) -> Rotor<Wide> {
+    Rotor {
+        sin: dot(&here.axes[1], x),
+        cos: dot(&here.axes[0], x),
+    }
+}

@@ -1,0 +1,223 @@
+//! Joints by placements: the same arm as by its DH rows, whatever the frames;
+//! and the same torques and poses as a recursion that knows nothing of DH.
+
+mod placed_support;
+
+use dalembert_model::number::Angle;
+use dalembert_model::read::{Options, Reading, parse};
+use dalembert_model::robot::{Robot, write};
+use num_traits::{Signed, ToPrimitive};
+use placed_support::{Drawn, compare, file};
+
+fn reading(text: &str) -> Reading {
+    parse(text, &Options::default()).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
+}
+
+fn data(name: &str) -> String {
+    let path = format!("{}/tests/data/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn checked_in(name: &str) -> String {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
+    std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap()
+}
+
+/// Right angles and decimals: the rows come out as somebody wrote them, to the
+/// last digit of every inertia; so proofs, plans and counts are the same.
+#[test]
+fn the_same_arm_is_the_same_robot() {
+    let puma = reading(&data("puma560_placed")).robot;
+    assert_eq!(puma, reading(&checked_in("puma560")).robot);
+    assert_eq!(
+        puma.short_hash(),
+        reading(&checked_in("puma560")).robot.short_hash()
+    );
+    let scara = reading(&data("scara_placed")).robot;
+    assert_eq!(scara, reading(&data("scara")).robot);
+}
+
+/// Arms of any kind, at any state: torques, gravity's among them, and the pose
+/// of the tool.
+#[test]
+fn torques_and_poses_are_those_of_the_frames() {
+    for seed in 0..60 {
+        let mut drawn = Drawn::new(seed);
+        let arm = drawn.arm(1 + seed as usize % 7);
+        let robot = reading(&file(&arm)).robot;
+        let worst = compare(&arm, &robot, &mut drawn);
+        assert!(worst < 1e-12, "seed {seed}: {worst:e}\n{}", file(&arm));
+    }
+}
+
+/// The text of what was derived says the same robot.
+#[test]
+fn written_back() {
+    for seed in [3, 4, 5] {
+        let robot = reading(&file(&Drawn::new(seed).arm(5))).robot;
+        let text = write(&robot);
+        assert!(text.contains("convention = \"standard\""));
+        assert_eq!(reading(&text).robot, robot);
+    }
+}
+
+/// What a scene's hand carries is given in the last link's own frame too.
+#[test]
+fn payloads_move_with_the_frame() {
+    for seed in 0..8 {
+        let mut drawn = Drawn::new(seed);
+        let mut arm = drawn.arm(3);
+        let body =
+            "{ mass = 2.5, com = [0.1, -0.2, 0.05], inertia = [0.02, 0.03, 0.04, 0.001, 0, 0] }";
+        let text = format!("{}\n[scene.pick]\npayload = {body}\n", file(&arm));
+        let reading = reading(&text);
+        let robot = reading.scenes[0].apply(&reading.robot);
+        arm.payload();
+        let worst = compare(&arm, &robot, &mut drawn);
+        assert!(worst < 1e-12, "seed {seed}: {worst:e}");
+    }
+}
+
+/// Two axes 0.4 m apart, the second tilted towards the first by an angle in
+/// the plane of both, or across.
+fn tilted(radians: &str, about: usize) -> Robot {
+    let mut rpy = ["0", "0", "0"];
+    rpy[about] = radians;
+    let rpy = rpy.join(", ");
+    let body = "axis = [0, 0, 1]\nmass = 2\ncom = [0.2, 0.01, 0.03]\n\
+                inertia = [0.02, 0.03, 0.04, 0, 0, 0]\nkind = \"revolute\"\n";
+    let placed = |xyz: &str, rpy: &str| {
+        format!("[[joint]]\nplacement = {{ xyz = {xyz}, rpy = [{rpy}] }}\n{body}")
+    };
+    let text = format!(
+        "name = \"tilted\"\ngravity = [0, 0.5, -9.81]\n{}{}{}",
+        placed("[0, 0, 0.3]", "0, 0, 0"),
+        placed("[0.4, 0, 0.1]", &rpy),
+        placed("[0.3, 0.1, 0.05]", "0.4, 0.2, 0.1"),
+    );
+    reading(&text).robot
+}
+
+/// The common normal of nearly parallel axes is far away; the lengths are not.
+#[test]
+fn nearly_parallel_axes_stay_near() {
+    let largest = |robot: &Robot| {
+        let lengths = robot.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
+        lengths
+            .map(|x| x.abs().to_f64().unwrap())
+            .fold(0.0, f64::max)
+    };
+    for radians in [
+        "1e-2", "1e-3", "1e-4", "1e-8", "1e-16", "1e-30", "-1e-3", "-1e-12",
+    ] {
+        for about in [0, 1] {
+            let robot = tilted(radians, about);
+            assert!(!robot.joints[0].beta.is_zero() || about == 0);
+            let length = largest(&robot);
+            assert!(length < 0.6, "{radians}: {length} m");
+            let apart = robot.joints[0].a.to_f64().unwrap();
+            assert!((apart - 0.4).abs() < 0.002, "{apart}");
+        }
+    }
+    // Beyond the threshold of 1/64 the common normal is taken, and no more than
+    // 64 times as far away as the axes are apart.
+    let robot = tilted("0.016", 1);
+    assert!(robot.joints[0].beta.is_zero());
+    let far = largest(&robot);
+    assert!((20.0..30.0).contains(&far), "{far} m");
+    // Closer than any digit: parallel.
+    let robot = tilted("1e-60", 1);
+    assert_eq!(robot.joints[0].alpha, Angle::default());
+    assert!(robot.joints[0].beta.is_zero());
+}
+
+/// And the torques are right on both sides of the threshold, down to angles
+/// that a double's digits cannot tell from none.
+#[test]
+fn nearly_parallel_axes_have_the_torques_of_the_frames() {
+    for exponent in 0..20 {
+        let mut drawn = Drawn::new(900 + exponent);
+        let arm = drawn.nearly_parallel(5, 0.03 * 10f64.powi(-(exponent as i32)));
+        let robot = reading(&file(&arm)).robot;
+        let worst = compare(&arm, &robot, &mut drawn);
+        assert!(worst < 1e-12, "1e-{exponent}: {worst:e}");
+    }
+}
+
+#[test]
+fn errors_say_where_and_what() {
+    let placed = data("scara_placed");
+    for (from, to, line, message, help) in [
+        (
+            "axis = [0, 0, 1]",
+            "",
+            6,
+            "has no `axis`",
+            "axis = [0, 0, 1]",
+        ),
+        (
+            "axis = [0, 0, 1]",
+            "axis = [0, 0, 0]",
+            9,
+            "no direction",
+            "axis = [0, 0, 1]",
+        ),
+        (
+            "axis = [0, 0, 1]",
+            "axis = [0, 0, 1]\nalpha = 1",
+            10,
+            "`alpha` of a joint that is placed",
+            "the one or the other",
+        ),
+        (
+            "axis = [0, 0, 1]",
+            "axis = [0, 0, 1]\noffset = 0",
+            10,
+            "`offset` of a joint that is placed",
+            "leave",
+        ),
+        (
+            "placement = { xyz = [0, 0, 0.387], rpy = [0, 0, \"pi/2\"] }\naxis = [0, 0, 1]",
+            "a = 1",
+            6,
+            "joint 1 is not placed",
+            "give all joints",
+        ),
+        (
+            "gravity",
+            "convention = \"modified\"\ngravity",
+            4,
+            "rows of the standard convention",
+            "leave `convention` out",
+        ),
+        (
+            "xyz = [0, 0, 0.387]",
+            "xyz = [0, 0, 387]",
+            8,
+            "d is 387 m",
+            "millimetres",
+        ),
+        (
+            "xyz = [0, 0, 0.387]",
+            "xzy = [0, 0, 0.387]",
+            8,
+            "unknown key `xzy`",
+            "did you mean `xyz`?",
+        ),
+    ] {
+        let text = placed.replacen(from, to, 1);
+        assert_ne!(text, placed, "{from}");
+        let found = match parse(&text, &Options::default()) {
+            Ok(reading) => reading.notes,
+            Err(errors) => errors.0,
+        };
+        let found = found.iter().find(|d| d.message.contains(message));
+        let found = found.unwrap_or_else(|| panic!("{to}: nothing says {message}"));
+        assert_eq!(found.line, line, "{to}");
+        let said = found.help.as_deref().unwrap_or_default();
+        assert!(said.contains(help), "{to}: {said}");
+    }
+    // A convention that says what there is does no harm.
+    let said = placed.replacen("gravity", "convention = \"standard\"\ngravity", 1);
+    assert_eq!(reading(&said).robot, reading(&placed).robot);
+}

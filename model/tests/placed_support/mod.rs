@@ -1,0 +1,279 @@
+//! Arms by frames, and their torques by the recursion in base axes over these
+//! frames: nothing of DH, nothing of the model's equations.
+
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::Robot;
+use nalgebra::{DVector, Matrix3, Vector3};
+
+pub struct Body {
+    mass: f64,
+    com: Vector3<f64>,
+    inertia: Matrix3<f64>,
+}
+
+pub struct Joint {
+    xyz: [f64; 3],
+    rpy: [f64; 3],
+    axis: [f64; 3],
+    slides: bool,
+    body: Body,
+    viscous: f64,
+    armature: f64,
+}
+
+pub struct Arm {
+    gravity: Vector3<f64>,
+    base: ([f64; 3], [f64; 3]),
+    tool: ([f64; 3], [f64; 3]),
+    joints: Vec<Joint>,
+    payload: Option<Body>,
+}
+
+/// A generator of its own: xorshift.
+pub struct Drawn(u64);
+
+impl Drawn {
+    pub fn new(seed: u64) -> Drawn {
+        Drawn(0x9e37_79b9_7f4a_7c15 ^ (seed + 1).wrapping_mul(0xbf58_476d_1ce4_e5b9))
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, n: u64) -> u64 {
+        (self.next() >> 20) % n
+    }
+
+    /// A decimal of three digits within ±most.
+    fn number(&mut self, most: f64) -> f64 {
+        let steps = (most * 1000.0) as u64;
+        (self.below(2 * steps + 1) as f64 - steps as f64) / 1000.0
+    }
+
+    fn triple(&mut self, most: f64) -> [f64; 3] {
+        [self.number(most), self.number(most), self.number(most)]
+    }
+
+    /// Zero, a right angle to the last digit of a double, or anything.
+    fn angles(&mut self) -> [f64; 3] {
+        std::array::from_fn(|_| match self.below(4) {
+            0 | 1 => 0.0,
+            2 => (self.below(4) as f64 - 1.0) * std::f64::consts::FRAC_PI_2,
+            _ => self.number(3.0),
+        })
+    }
+
+    fn body(&mut self) -> Body {
+        let [a, b, c] = self.triple(0.004);
+        let [x, y, z] = self.triple(0.01).map(|x| 0.05 + x);
+        Body {
+            mass: 1.0 + self.number(0.8),
+            com: Vector3::from(self.triple(0.3)),
+            inertia: Matrix3::new(x, a, b, a, y, c, b, c, z),
+        }
+    }
+
+    pub fn arm(&mut self, n: usize) -> Arm {
+        let joint = |_| {
+            let along = self.below(6) as usize;
+            let mut axis = [0.0; 3];
+            axis[along % 3] = if along < 3 { 1.0 } else { -1.0 };
+            let lengths = [0.0, 0.0, 0.4].map(|most: f64| self.number(most));
+            Joint {
+                xyz: match self.below(3) {
+                    0 => lengths,
+                    1 => [0.0; 3],
+                    _ => self.triple(0.5),
+                },
+                rpy: self.angles(),
+                axis: match self.below(4) {
+                    0 => self.triple(2.0).map(|x| x + 0.0005),
+                    _ => axis,
+                },
+                slides: self.below(4) == 0,
+                body: self.body(),
+                viscous: self.number(0.5).abs(),
+                armature: self.number(0.5).abs(),
+            }
+        };
+        let joints = (0..n).map(joint).collect();
+        let mut end = || match self.below(3) {
+            0 => ([0.0; 3], [0.0; 3]),
+            _ => (self.triple(1.0), self.angles()),
+        };
+        let (base, tool) = (end(), end());
+        Arm {
+            gravity: Vector3::from(self.triple(10.0)),
+            base,
+            tool,
+            joints,
+            payload: None,
+        }
+    }
+
+    /// Every axis tilted from the one before by about this angle.
+    pub fn nearly_parallel(&mut self, n: usize, angle: f64) -> Arm {
+        let mut arm = self.arm(n);
+        for joint in &mut arm.joints {
+            joint.xyz = self.triple(0.5);
+            joint.axis = [0.0, 0.0, 1.0];
+            joint.rpy = [
+                angle * self.number(1.0),
+                angle * self.number(1.0),
+                self.number(3.0),
+            ];
+        }
+        arm
+    }
+}
+
+impl Arm {
+    /// A load on the last link: that of the tests.
+    pub fn payload(&mut self) {
+        self.payload = Some(Body {
+            mass: 2.5,
+            com: Vector3::new(0.1, -0.2, 0.05),
+            inertia: Matrix3::new(0.02, 0.001, 0.0, 0.001, 0.03, 0.0, 0.0, 0.0, 0.04),
+        });
+    }
+}
+
+/// The robot file.
+pub fn file(arm: &Arm) -> String {
+    let placement =
+        |(xyz, rpy): &([f64; 3], [f64; 3])| format!("{{ xyz = {xyz:?}, rpy = {rpy:?} }}");
+    let mut text = format!(
+        "name = \"arm\"\ngravity = {:?}\nbase = {}\ntool = {}\n",
+        arm.gravity.as_slice(),
+        placement(&arm.base),
+        placement(&arm.tool)
+    );
+    for joint in &arm.joints {
+        let i = &joint.body.inertia;
+        let kind = if joint.slides {
+            "prismatic"
+        } else {
+            "revolute"
+        };
+        text += &format!(
+            "[[joint]]\nkind = \"{kind}\"\nplacement = {}\naxis = {:?}\nmass = {:?}\ncom = {:?}\n\
+             inertia = {:?}\nviscous = {:?}\narmature = {:?}\n",
+            placement(&(joint.xyz, joint.rpy)),
+            joint.axis,
+            joint.body.mass,
+            joint.body.com.as_slice(),
+            [
+                i[(0, 0)],
+                i[(1, 1)],
+                i[(2, 2)],
+                i[(0, 1)],
+                i[(1, 2)],
+                i[(0, 2)]
+            ],
+            joint.viscous,
+            joint.armature
+        );
+    }
+    text
+}
+
+/// The turn about an axis: 1 + sin K + (1 − cos) K², K v = axis × v.
+fn about(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
+    let k = axis.cross_matrix();
+    Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
+}
+
+fn rotation([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
+    about(Vector3::z(), yaw) * about(Vector3::y(), pitch) * about(Vector3::x(), roll)
+}
+
+type Pose = (Matrix3<f64>, Vector3<f64>);
+
+fn then(a: &Pose, b: &Pose) -> Pose {
+    (a.0 * b.0, a.1 + a.0 * b.1)
+}
+
+/// Torques and the pose of the tool.
+fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) {
+    let mut at: Pose = (rotation(arm.base.1), Vector3::from(arm.base.0));
+    let (mut omega, mut turning, mut moving) = (Vector3::zeros(), Vector3::zeros(), -arm.gravity);
+    let mut axes = Vec::new();
+    let mut loads: Vec<[Vector3<f64>; 3]> = Vec::new();
+    for (i, joint) in arm.joints.iter().enumerate() {
+        let before = at.1;
+        let placed = (rotation(joint.rpy), Vector3::from(joint.xyz));
+        let own = Vector3::from(joint.axis);
+        let own = own / own.dot(&own).sqrt();
+        at = then(&at, &placed);
+        let axis = at.0 * own;
+        let step = match joint.slides {
+            true => (Matrix3::identity(), own * q[i]),
+            false => (about(own, q[i]), Vector3::zeros()),
+        };
+        at = then(&at, &step);
+        // The origin as a point of the link before, then the joint's own motion.
+        let lever = at.1 - before;
+        moving += turning.cross(&lever) + omega.cross(&omega.cross(&lever));
+        if joint.slides {
+            moving += axis * qdd[i] + 2.0 * omega.cross(&(axis * qd[i]));
+        } else {
+            turning += axis * qdd[i] + omega.cross(&(axis * qd[i]));
+            omega += axis * qd[i];
+        }
+        let carried = arm.payload.iter().filter(|_| i + 1 == arm.joints.len());
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for body in std::iter::once(&joint.body).chain(carried) {
+            let com = at.0 * body.com;
+            let tensor = at.0 * body.inertia * at.0.transpose();
+            let pull = body.mass * (moving + turning.cross(&com) + omega.cross(&omega.cross(&com)));
+            force += pull;
+            moment += com.cross(&pull) + tensor * turning + omega.cross(&(tensor * omega));
+        }
+        axes.push(axis);
+        loads.push([at.1, force, moment]);
+    }
+    let n = arm.joints.len();
+    let torque = |i: usize| {
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for [point, own, turn] in &loads[i..] {
+            force += own;
+            moment += turn + (point - loads[i][0]).cross(own);
+        }
+        let joint = &arm.joints[i];
+        let load = if joint.slides { force } else { moment };
+        axes[i].dot(&load) + joint.viscous * qd[i] + joint.armature * qdd[i]
+    };
+    let tool = (rotation(arm.tool.1), Vector3::from(arm.tool.0));
+    ((0..n).map(torque).collect(), then(&at, &tool))
+}
+
+/// The worst difference at some states, relative to the largest torque; of
+/// poses, in metres.
+pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
+    let runtime = Reference::<f64>::from_robot(robot);
+    let mut worst: f64 = 0.0;
+    for _ in 0..4 {
+        let mut draw =
+            |most| -> Vec<f64> { arm.joints.iter().map(|_| drawn.number(most)).collect() };
+        let (q, qd, qdd) = (draw(3.0), draw(2.0), draw(5.0));
+        let (torques, hand) = by_frames(arm, &q, &qd, &qdd);
+        let vector = |x: &[f64]| DVector::from_column_slice(x);
+        let found = runtime
+            .inverse_dynamics(&vector(&q), &vector(&qd), &vector(&qdd))
+            .unwrap();
+        let largest = torques.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (a, b) in found.iter().zip(&torques) {
+            worst = worst.max((a - b).abs() / largest);
+        }
+        let pose = runtime.hand(&vector(&q)).unwrap();
+        for k in 0..3 {
+            worst = worst.max((Vector3::from(pose.axes[k]) - hand.0.column(k)).amax());
+        }
+        worst = worst.max((Vector3::from(pose.origin) - hand.1).amax());
+    }
+    worst
+}
