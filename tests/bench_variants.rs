@@ -49,7 +49,7 @@ fn the_bench_of_sines_is_up_to_date() {
         .map(|(scale, bound)| scale * (TOLERANCE - 2.0 * bound.rounding))
         .collect();
     let sensitivity = Sensitivity::of(program, &limits, fineness);
-    let sines = within(program, scalar, &limits, &allowances, &sensitivity).unwrap();
+    let sines = within(program, scalar, &limits.position, &allowances, &sensitivity).unwrap();
     let certificate = libm.with_sines(&Setting::whole(&robot), &sines, &sensitivity);
     for bound in &certificate.bounds {
         assert!(bound.total() <= TOLERANCE, "{bound:?}");

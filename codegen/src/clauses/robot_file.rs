@@ -78,6 +78,7 @@ fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
 
 /// Why there is no robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum RobotFileError {
     /// There is no such file.
     Missing {

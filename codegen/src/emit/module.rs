@@ -29,6 +29,7 @@ pub struct ModuleOptions<'a> {
 
 /// What a generated file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Layout {
     /// A module for each scalar, for `include!` or a `pub use`.
     #[default]

@@ -11,6 +11,7 @@ use crate::verify::exact::Disproof;
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,

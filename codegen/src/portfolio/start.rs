@@ -13,6 +13,7 @@ use crate::watch::Vigil;
 
 /// Which formulation a function starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Start {
     /// The cheapest, with the others' values at hand.
     #[default]

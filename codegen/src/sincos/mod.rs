@@ -32,6 +32,7 @@ use proof::Errors;
 
 /// How emitted code gets sines and cosines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum SinCos {
     /// By polynomials where a scene's tolerance admits them, else from libm.
     #[default]
