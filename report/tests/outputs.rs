@@ -4,7 +4,7 @@
 #[path = "../../codegen/tests/support/mod.rs"]
 mod support;
 
-use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::function::{Argument, Function, Quantity};
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan::{Entry, Plan, input_hash};
 use dalembert_codegen::portfolio::Start;
@@ -187,7 +187,7 @@ fn runtime_gives_what_is_known() {
         for GivenState { state, known } in given(name) {
             let condition = conditions.granted(Function::ForwardDynamics, &state);
             let vector = |values: &[f64]| DVector::from_row_slice(values);
-            let at = JointVectors::new(|argument| vector(state.of(argument)));
+            let at = JointVectors::new(Argument::ALL.map(|argument| vector(state.of(argument))));
             assert_eq!(known.len(), 12);
             for (quantity, expected) in known {
                 let found = quantity.runtime(&runtime, &at).unwrap();
