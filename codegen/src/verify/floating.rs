@@ -90,7 +90,9 @@ impl Runtime {
     }
 
     /// How many times more than others a function's results may err at a state:
-    /// what inverts D as many as the condition of D over the joints that move.
+    /// what inverts D as many as the condition of D over the joints that move,
+    /// with a unit diagonal: what units and sizes of the joints make of it is
+    /// no excuse.
     pub fn granted(&self, function: Function, state: &JointState) -> f64 {
         if !function.inverts_inertia() {
             return 1.0;
@@ -98,7 +100,7 @@ impl Runtime {
         let motion = self.motion(state);
         let d = Formulation::NewtonEulerLink.inertia(&self.arm, &self.arm.at(&motion.q));
         let d = among(&d, &free(&motion.moves)).concat();
-        Condition::of(&d, f64::EPSILON / 2.0).raw.max(1.0)
+        Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0)
     }
 
     fn motion(&self, state: &JointState) -> Motion<f64> {
