@@ -38,7 +38,7 @@ pub fn trace_in(setting: &Setting, function: Function, formulation: Formulation)
     let outputs: Vec<_> = setting
         .select(function, setting.joints(), outputs)
         .iter()
-        .map(Symbol::value)
+        .map(|output| output.value(&mut builder.borrow_mut()))
         .collect();
     drop(motion);
     let traced = builder.borrow().asked();

@@ -29,6 +29,25 @@ fn inverse_dynamics() {
     assert!(sums <= 263, "{sums}");
 }
 
+/// Divisions count as one.
+#[test]
+fn forward_dynamics_and_derivatives() {
+    for (name, forward, derivatives) in [
+        ("planar2r", 28, 27),
+        ("planar3r", 74, 87),
+        ("stanford", 412, 923),
+        ("puma560", 459, 1100),
+    ] {
+        for (function, most) in [
+            (Function::ForwardDynamics, forward),
+            (Function::InverseDynamicsDerivatives, derivatives),
+        ] {
+            let found = operations(name, function, Start::Auto);
+            assert!(found <= most, "{name} {function}: {found}");
+        }
+    }
+}
+
 #[test]
 fn lagrange_euler_alone() {
     let lagrange = Start::Only(Formulation::LagrangeEuler);

@@ -7,7 +7,10 @@ use dalembert_codegen::certify::certificate::format;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::program::{Operand, Operation, Program};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::exact::prove;
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Scale, Scene, Tolerance};
@@ -143,6 +146,35 @@ fn a_tolerance_is_refused_with_what_can_be_certified() {
             text.contains("give the tolerance to `inverse_dynamics`"),
             "{text}"
         );
+    }
+}
+
+/// Locked joints, no velocity, rows in another order, both scalars: the rest of
+/// the arm moves as the whole one does whose locked joints are held.
+#[test]
+fn scenes_hold_what_is_locked() {
+    let robot = support::robot("planar3r");
+    let half = Rational::new(1.into(), 2.into());
+    let scene = Scene {
+        name: "held".into(),
+        joints: Some(vec![2, 0]),
+        lock: vec![(1, Position::Angle(Angle::Radians(half)))],
+        velocity_zero: true,
+        ..Scene::default()
+    };
+    let request = Request {
+        functions: INVERTING.to_vec(),
+        scene: Some(scene.clone()),
+        ..Request::default()
+    };
+    let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
+    let runtime = Runtime::in_setting(Setting::new(&robot, &scene).unwrap());
+    let states = seeded(&robot, 100, SEED);
+    assert_eq!(generated.emitted.len(), 2 * INVERTING.len());
+    for emitted in &generated.emitted {
+        for measure in emitted.against_runtime(&runtime, &states) {
+            assert!(measure.in_units() <= BOUND, "{measure:?}");
+        }
     }
 }
 

@@ -21,7 +21,6 @@ use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor, from_torques};
 use crate::number::{Exact, Rounded};
-use crate::outputs::Argument;
 use crate::robot::{JointKind, Robot};
 use crate::scalar::{Divide, Scalar};
 
@@ -94,9 +93,9 @@ pub struct JointVectors<T> {
 }
 
 impl<T> JointVectors<T> {
-    /// From the entries of each argument; of those that nothing reads none.
-    pub fn new(entries: impl FnMut(Argument) -> DVector<T>) -> Self {
-        let [q, qd, qdd, tau, v, a] = Argument::ALL.map(entries);
+    /// From the entries of each argument, in the order of signatures: q, q̇, q̈,
+    /// τ, v and a; of those that nothing reads none.
+    pub fn new([q, qd, qdd, tau, v, a]: [DVector<T>; 6]) -> Self {
         JointVectors {
             q,
             qd,

@@ -6,6 +6,7 @@ use std::path::Path;
 use dalembert_codegen::function::Quantity;
 use dalembert_codegen::generate::{Generated, Request};
 use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::verify::floating::Runtime;
 use dalembert_model::robot::Robot;
 use dalembert_report::states::compare::{Compared, compare, quantities};
 use dalembert_report::states::diagnose::{Diagnosis, diagnose};
@@ -65,11 +66,11 @@ impl<'a> Given<'a> {
 
     /// Runs the code at them; only double precision, since a state rounded to
     /// f32 is another state.
-    pub fn compare(&mut self, robot: &Robot, generated: &Generated) {
+    pub fn compare(&mut self, robot: &Robot, runtime: &Runtime, generated: &Generated) {
         let double = generated.emitted.iter();
         let double = double.filter(|emitted| emitted.scalar == ScalarType::F64);
         self.compared = double
-            .flat_map(|emitted| compare(emitted, &self.states))
+            .flat_map(|emitted| compare(emitted, runtime, &self.states))
             .collect();
         if !self.compared.iter().all(Compared::agrees) {
             self.diagnosis = Some(diagnose(robot, &self.states));

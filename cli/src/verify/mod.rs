@@ -83,7 +83,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
         }
     }
     if let Some(given) = &mut given {
-        given.compare(&robot, &generated);
+        given.compare(&robot, &runtime, &generated);
     }
     let sines = sines::checks(&generated, &states);
     let found = Found {

@@ -17,6 +17,9 @@ use crate::program::Input;
 pub enum Symbol {
     /// An exact constant.
     Constant(Exact),
+    /// A quotient of constants whose divisor is not zero, and no rational
+    /// number, or it would be a constant.
+    Quotient(Exact, Exact),
     /// A node with its builder.
     Node(Rc<RefCell<Builder>>, Value),
 }
@@ -28,10 +31,14 @@ impl Symbol {
         Symbol::wrap(builder, value)
     }
 
-    /// The value without its builder.
-    pub fn value(&self) -> Value {
+    /// The value in a builder, which is that of its nodes if it has any.
+    pub fn value(&self, builder: &mut Builder) -> Value {
         match self {
             Symbol::Constant(constant) => Value::Constant(constant.clone()),
+            Symbol::Quotient(a, b) => {
+                let [a, b] = [a, b].map(|x| Value::Constant(x.clone()));
+                builder.div(&a, &b)
+            }
             Symbol::Node(_, value) => value.clone(),
         }
     }
@@ -43,19 +50,58 @@ impl Symbol {
         }
     }
 
+    /// a/b; by zero: zero, which no formula asks for.
+    fn quotient(a: Exact, b: Exact) -> Symbol {
+        match b.as_rational() {
+            Some(divisor) => Symbol::Constant(a.divide(divisor).unwrap_or_else(Exact::zero)),
+            None if a.is_zero() => Symbol::zero(),
+            None => Symbol::Quotient(a, b),
+        }
+    }
+
+    /// Dividend and divisor of a value without nodes.
+    fn fraction(&self) -> Option<[Exact; 2]> {
+        match self {
+            Symbol::Constant(constant) => Some([constant.clone(), Exact::one()]),
+            Symbol::Quotient(a, b) => Some([a.clone(), b.clone()]),
+            Symbol::Node(..) => None,
+        }
+    }
+
     fn combine(
         &self,
         other: &Symbol,
-        constants: impl Fn(&Exact, &Exact) -> Exact,
+        constants: impl Fn(&Exact, &Exact) -> Option<Exact>,
+        fractions: impl Fn([Exact; 2], [Exact; 2]) -> [Exact; 2],
         nodes: impl Fn(&mut Builder, &Value, &Value) -> Value,
     ) -> Symbol {
-        match (self, other) {
-            (Symbol::Constant(a), Symbol::Constant(b)) => Symbol::Constant(constants(a, b)),
-            (Symbol::Node(builder, _), _) | (_, Symbol::Node(builder, _)) => {
-                let value = nodes(&mut builder.borrow_mut(), &self.value(), &other.value());
-                Symbol::wrap(builder, value)
+        let builder = match (self, other) {
+            (Symbol::Node(builder, _), _) | (_, Symbol::Node(builder, _)) => builder,
+            _ => {
+                if let (Symbol::Constant(a), Symbol::Constant(b)) = (self, other)
+                    && let Some(constant) = constants(a, b)
+                {
+                    return Symbol::Constant(constant);
+                }
+                let both = self.fraction().zip(other.fraction());
+                let result = both.map(|(x, y)| fractions(x, y));
+                return result.map_or_else(Symbol::zero, |[a, b]| Symbol::quotient(a, b));
             }
-        }
+        };
+        let value = {
+            let mut builder = builder.borrow_mut();
+            let operands = [self, other].map(|symbol| symbol.value(&mut builder));
+            nodes(&mut builder, &operands[0], &operands[1])
+        };
+        Symbol::wrap(builder, value)
+    }
+}
+
+/// a/b ± c/d; whole numbers stay whole.
+fn sum([a, b]: [Exact; 2], [c, d]: [Exact; 2], of: fn(&Exact, &Exact) -> Exact) -> [Exact; 2] {
+    match b == d {
+        true => [of(&a, &c), b],
+        false => [of(&a.mul(&d), &c.mul(&b)), b.mul(&d)],
     }
 }
 
@@ -66,18 +112,10 @@ impl From<Exact> for Symbol {
 }
 
 impl Divide for Symbol {
-    /// Of constants: their quotient if the divisor is rational; by zero: zero,
-    /// which no formula asks for.
     fn div(&self, other: &Self) -> Self {
-        let builder = match (self, other) {
-            (Symbol::Node(builder, _), _) | (_, Symbol::Node(builder, _)) => builder,
-            (Symbol::Constant(a), Symbol::Constant(b)) => {
-                let quotient = b.as_rational().and_then(|b| a.divide(b));
-                return Symbol::Constant(quotient.unwrap_or_else(Exact::zero));
-            }
-        };
-        let value = builder.borrow_mut().div(&self.value(), &other.value());
-        Symbol::wrap(builder, value)
+        let upside_down = |[a, b]: [Exact; 2], [c, d]: [Exact; 2]| [a.mul(&d), b.mul(&c)];
+        let constants = |a: &Exact, b: &Exact| b.as_rational().and_then(|b| a.divide(b));
+        self.combine(other, constants, upside_down, Builder::div)
     }
 }
 
@@ -89,17 +127,29 @@ impl Scalar for Symbol {
         Symbol::Constant(Exact::one())
     }
     fn add(&self, other: &Self) -> Self {
-        self.combine(other, Exact::add, Builder::add)
+        self.combine(
+            other,
+            |a, b| Some(a.add(b)),
+            |x, y| sum(x, y, Exact::add),
+            Builder::add,
+        )
     }
     fn sub(&self, other: &Self) -> Self {
-        self.combine(other, Exact::sub, Builder::sub)
+        self.combine(
+            other,
+            |a, b| Some(a.sub(b)),
+            |x, y| sum(x, y, Exact::sub),
+            Builder::sub,
+        )
     }
     fn mul(&self, other: &Self) -> Self {
-        self.combine(other, Exact::mul, Builder::mul)
+        let product = |[a, b]: [Exact; 2], [c, d]: [Exact; 2]| [a.mul(&c), b.mul(&d)];
+        self.combine(other, |a, b| Some(a.mul(b)), product, Builder::mul)
     }
     fn neg(&self) -> Self {
         match self {
             Symbol::Constant(constant) => Symbol::Constant(constant.neg()),
+            Symbol::Quotient(a, b) => Symbol::Quotient(a.neg(), b.clone()),
             Symbol::Node(builder, value) => {
                 let negated = builder.borrow_mut().negate_if(value, true);
                 Symbol::Node(builder.clone(), negated)
@@ -117,5 +167,38 @@ impl Scalar for Symbol {
     }
     fn is_one(&self) -> bool {
         matches!(self, Symbol::Constant(constant) if constant.is_one())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::function::Argument;
+    use crate::graph::{Folding, Points, Print};
+    use dalembert_model::number::Angle;
+
+    /// (1/c)·x with c the cosine of an odd angle: constants without a builder
+    /// keep their quotient until they meet one.
+    #[test]
+    fn quotients_of_constants_wait_for_a_builder() {
+        let angle = Angle::Radians(Rational::new(1.into(), 3.into()));
+        let cosine = Exact::rotor(&angle).cos;
+        let inverse = Symbol::one().div(&Symbol::from(cosine.clone()));
+        assert!(matches!(inverse, Symbol::Quotient(..)));
+        let twice = inverse
+            .add(&inverse)
+            .sub(&inverse.neg().neg().half().double());
+        let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
+        let x = Symbol::input(&builder, Input::Entry(Argument::Velocity, 0));
+        let product = twice.mul(&x).value(&mut builder.borrow_mut());
+        let print = builder.borrow_mut().print(&product);
+        let points = Points::SEARCH;
+        let known = |print: Option<Print>| print.unwrap_or_else(Print::zero);
+        let expected = points
+            .input(Input::Entry(Argument::Velocity, 0))
+            .div(&known(points.constant(&cosine)));
+        assert_eq!(print, expected);
+        let half = Symbol::one().div(&Symbol::one().double());
+        assert!(matches!(half, Symbol::Constant(x) if x.as_rational().is_some()));
     }
 }

@@ -81,7 +81,8 @@ pub fn trace_chain(
                 written(setting, quantity, &whole),
             ),
         };
-        outputs.extend(selected.iter().map(Symbol::value));
+        let mut builder = builder.borrow_mut();
+        outputs.extend(selected.iter().map(|output| output.value(&mut builder)));
     }
     let traced = builder.borrow().asked();
     let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(folding));
@@ -406,10 +407,13 @@ pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
                     None => turn,
                     Some(before) => {
                         let both = before.compose(&turn);
-                        outputs.extend([both.sin.value(), both.cos.value()]);
+                        let mut shared = builder.borrow_mut();
+                        outputs.extend([&both.sin, &both.cos].map(|x| x.value(&mut shared)));
+                        drop(shared);
                         if let (Sums::Inputs, Some(sum)) = (sums, input) {
                             for input in [Input::Sin(sum), Input::Cos(sum)] {
-                                outputs.push(Symbol::input(&builder, input).value());
+                                let symbol = Symbol::input(&builder, input);
+                                outputs.push(symbol.value(&mut builder.borrow_mut()));
                             }
                         }
                         both

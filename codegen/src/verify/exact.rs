@@ -238,8 +238,8 @@ impl<'a, S: Divide> Formula<'a, S> {
 
 impl Formula<'_, Residue> {
     /// The results over the setting's rows, which solve the equations that
-    /// they are to solve: D q̈ + h + c + b∘q̇ = τ, or D D⁻¹ = 1, with D and the
-    /// loads as written. None where they have no values.
+    /// they are to solve: D q̈ + h + c + b∘q̇ = τ, D D⁻¹ = 1, or their slopes,
+    /// with D and the loads as written. None where they have no values.
     fn checked(&self, program: &Program, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
         let outputs = self.evaluate(program);
         let function = program.function;

@@ -89,12 +89,18 @@ impl Runtime {
         }
     }
 
-    /// The condition of D over the joints that move, at a state; at least one.
-    fn condition(&self, state: &JointState) -> f64 {
+    /// How many times more than others a function's results may err at a state:
+    /// what inverts D as many as the condition of D over the joints that move,
+    /// with a unit diagonal: what units and sizes of the joints make of it is
+    /// no excuse.
+    pub fn granted(&self, function: Function, state: &JointState) -> f64 {
+        if !function.inverts_inertia() {
+            return 1.0;
+        }
         let motion = self.motion(state);
         let d = Formulation::NewtonEulerLink.inertia(&self.arm, &self.arm.at(&motion.q));
         let d = among(&d, &free(&motion.moves)).concat();
-        Condition::of(&d, f64::EPSILON / 2.0).raw.max(1.0)
+        Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0)
     }
 
     fn motion(&self, state: &JointState) -> Motion<f64> {
@@ -160,10 +166,7 @@ impl Emitted {
                     *value = 0.0;
                 }
             }
-            let granted = match self.function.inverts_inertia() {
-                true => runtime.condition(&state),
-                false => 1.0,
-            };
+            let granted = runtime.granted(self.function, &state);
             cases.push((own.run(&state), reference, granted));
         }
         let mut measures = Vec::new();

@@ -80,7 +80,7 @@ pub fn forward_dynamics<S: Divide>(
         let (step, link) = (&steps[i], &arm.links[i]);
         let (own, own_bias) = Articulated::of(link, &velocities[i]);
         let (whole, whole_bias) = (body.plus(&own), add(&bias, &own_bias));
-        let (whole, whole_bias) = step.to_joint(whole, whole_bias);
+        let (whole, whole_bias) = step.at_joint(whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
         let pivot = plus(&step.feels(&push), &link.armature);
         let damped = minus(&tau[i], &times(&link.viscous, &qd[i]));
@@ -92,7 +92,7 @@ pub fn forward_dynamics<S: Divide>(
         let given = whole.without(&push, &inverse);
         let moved = add(&whole_bias, &given.times(&drift));
         let given_bias = add(&moved, &by(&times(&left, &inverse), &push));
-        (body, bias) = step.from_joint(given, given_bias);
+        (body, bias) = step.before_joint(given, given_bias);
         joints.push(Joint {
             push,
             rest: left,
@@ -191,7 +191,7 @@ impl<'a, S: Divide> Step<'a, S> {
     }
 
     /// From frame i to the joint's frame.
-    fn to_joint(&self, body: Articulated<S>, bias: Wrench<S>) -> (Articulated<S>, Wrench<S>) {
+    fn at_joint(&self, body: Articulated<S>, bias: Wrench<S>) -> (Articulated<S>, Wrench<S>) {
         match self.arm.convention {
             Convention::Standard => self.back(&body, &bias),
             Convention::Modified => (body, bias),
@@ -199,7 +199,7 @@ impl<'a, S: Divide> Step<'a, S> {
     }
 
     /// From the joint's frame to frame i−1.
-    fn from_joint(&self, body: Articulated<S>, bias: Wrench<S>) -> (Articulated<S>, Wrench<S>) {
+    fn before_joint(&self, body: Articulated<S>, bias: Wrench<S>) -> (Articulated<S>, Wrench<S>) {
         match self.arm.convention {
             Convention::Standard => (body, bias),
             Convention::Modified => self.back(&body, &bias),

@@ -4,7 +4,7 @@
 use alloc::vec::Vec;
 
 use super::energy::moving;
-use super::matrix::zeros;
+use super::matrix::{plus, twice, zeros};
 use super::{Arm, DhVariables, Formulation};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
@@ -28,13 +28,22 @@ impl Formulation {
     }
 
     /// ∂τ/∂q̇, n×n, damping on its diagonal. What q̈ and gravity add to the
-    /// torques does not depend on q̇ and is left out.
+    /// torques does not depend on q̇ and is left out. Lagrange–Euler has it from
+    /// the symbols: Σ_m (h_ikm + h_imk) q̇_m = 2 C_ik.
     pub fn torque_by_velocity<S: Scalar>(
         self,
         arm: &Arm<S>,
         at: &[DhVariables<S>],
         qd: &[S],
     ) -> Vec<Vec<S>> {
+        if self == Self::LagrangeEuler {
+            let mut rows = self.coriolis_matrix(arm, at, qd);
+            for (i, (row, link)) in rows.iter_mut().zip(&arm.links).enumerate() {
+                row.iter_mut().for_each(|c| *c = twice(c));
+                row[i] = plus(&row[i], &link.viscous);
+            }
+            return rows;
+        }
         by_velocity(|arm, at, qd| self.velocity_terms(arm, at, qd), arm, at, qd)
     }
 }
@@ -79,7 +88,7 @@ pub fn by_velocity<S: Scalar>(
         velocity_terms(&moving_arm, &at, &qd)
     });
     for (i, link) in arm.links.iter().enumerate() {
-        rows[i][i] = super::matrix::plus(&rows[i][i], &link.viscous);
+        rows[i][i] = plus(&rows[i][i], &link.viscous);
     }
     rows
 }

@@ -33,6 +33,12 @@ impl Formulation {
         Self::NewtonEulerLink,
     ];
 
+    /// Whether it has D and h by formulas of their own, not as torques of chosen
+    /// motions.
+    pub(super) fn has_closed_form(self) -> bool {
+        matches!(self, Self::LagrangeEuler | Self::Dalembert)
+    }
+
     /// τ = D q̈ + h + c + b∘q̇, length n.
     pub fn inverse_dynamics<S: Scalar>(
         self,

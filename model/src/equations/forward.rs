@@ -51,10 +51,6 @@ pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> 
 }
 
 impl Formulation {
-    fn has_closed_form(self) -> bool {
-        matches!(self, Self::LagrangeEuler | Self::Dalembert)
-    }
-
     /// q̈ of the joints that move under τ, zero of the others, which are held
     /// where they are.
     pub fn forward_dynamics<S: Divide>(

@@ -11,7 +11,7 @@ use super::inertia_inverse::InertiaInverse;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, Index};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
-use crate::equations::forward::{against, inverted, solved};
+use crate::equations::forward::{against, free, inverted, solved};
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -67,6 +67,20 @@ fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
     slopes.map(flat)
 }
 
+/// D X + S over the joints that move, for the slopes X of q̈ and S of τ.
+fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
+    let d = at.formulation.inertia(at.arm, at.at);
+    let (free, n) = (free(&at.motion.moves), d.len());
+    let entry = |i: usize, k: usize| {
+        let products = free.iter().map(|&j| d[i][j].mul(&x[j * n + k]));
+        products.fold(slopes[i][k].clone(), |sum, product| sum.add(&product))
+    };
+    let rows = free.iter();
+    rows.flat_map(|&i| (0..n).map(move |k| (i, k)))
+        .map(|(i, k)| entry(i, k))
+        .collect()
+}
+
 impl Formula for AccelerationByPosition {
     const FACTS: Facts = Facts {
         field: "dqdd_dq",
@@ -95,6 +109,14 @@ impl Formula for AccelerationByPosition {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let [position, _] = written(at);
         position
+    }
+
+    /// D ∂q̈/∂q + ∂τ/∂q at the motion that τ brings about.
+    fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        let (form, motion) = (at.formulation, at.motion);
+        let qdd = form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
+        let slopes = form.torque_by_position(at.arm, at.at, &motion.qd, &qdd);
+        defect(at, values, &slopes)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -132,6 +154,13 @@ impl Formula for AccelerationByVelocity {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let [_, velocity] = written(at);
         velocity
+    }
+
+    /// D ∂q̈/∂q̇ + ∂τ/∂q̇
+    fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        let form = at.formulation;
+        let slopes = form.torque_by_velocity(at.arm, at.at, &at.motion.qd);
+        defect(at, values, &slopes)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use dalembert_codegen::function::{Function, Quantity};
-use dalembert_codegen::verify::floating::Emitted;
+use dalembert_codegen::verify::floating::{Emitted, Runtime};
 use dalembert_model::robot::Robot;
 
 use super::{BOUND, GivenState, worst};
@@ -34,7 +34,8 @@ pub struct Difference {
     pub given: f64,
     /// What the code returns.
     pub found: f64,
-    /// The error relative to the largest entry given at that state.
+    /// The error relative to the largest entry given at that state, over the
+    /// condition of D there where the quantity inverts it.
     pub error: f64,
 }
 
@@ -78,8 +79,8 @@ pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
     all.map(|quantity| quantity.as_given(&[], &[]).0)
 }
 
-/// Runs the code at every state; sines are libm's.
-pub fn compare(emitted: &Emitted, states: &[GivenState]) -> Vec<Compared> {
+/// Runs the code of a runtime's robot at every state; sines are libm's.
+pub fn compare(emitted: &Emitted, runtime: &Runtime, states: &[GivenState]) -> Vec<Compared> {
     let own = emitted.with_libm();
     let function = emitted.function;
     let mut all: BTreeMap<Quantity, Compared> = BTreeMap::new();
@@ -91,6 +92,7 @@ pub fn compare(emitted: &Emitted, states: &[GivenState]) -> Vec<Compared> {
             continue;
         }
         let results = own.run(&given.state);
+        let granted = runtime.granted(function, &given.state);
         let mut start = 0;
         for &returned in function.quantities() {
             let values = &results[start..start + returned.len(n)];
@@ -100,6 +102,7 @@ pub fn compare(emitted: &Emitted, states: &[GivenState]) -> Vec<Compared> {
                 continue;
             };
             let (entry, error) = worst(&values, known);
+            let error = error / granted;
             let found = Difference {
                 state: index,
                 entry,

@@ -6,7 +6,7 @@ use dalembert_model::reference::{Float, JointVectors, Reference, WrongLength};
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::JointState;
@@ -90,7 +90,7 @@ fn run<T: Float>(
 ) -> Result<Vec<f64>, WrongLength> {
     let vector =
         |values: &[f64]| DVector::from_iterator(values.len(), values.iter().map(|x| narrow(*x)));
-    let at = JointVectors::new(|argument| vector(state.of(argument)));
+    let at = JointVectors::new(Argument::ALL.map(|argument| vector(state.of(argument))));
     let mut results = Vec::new();
     for quantity in function.quantities() {
         results.extend(quantity.runtime(runtime, &at)?);

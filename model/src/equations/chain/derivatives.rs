@@ -111,9 +111,9 @@ impl<S: Scalar> Composite<'_, S> {
     /// Twists of the joints before i, and how they change, go out to frame i.
     fn outward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
         let own = &joints[i];
-        for j in 0..i {
+        for (j, joint) in joints.iter().enumerate().take(i) {
             let twist = self.twist(j, i);
-            let [first, second] = joints[j].drift.each_ref().map(|drift| {
+            let [first, second] = joint.drift.each_ref().map(|drift| {
                 let chain = self.chain;
                 let out = |seen: Twist<S>, m: usize| seen.outward(&chain.links[m], &self.at[m]);
                 (j + 1..=i).fold(drift.clone(), out)
