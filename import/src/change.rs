@@ -128,7 +128,7 @@ impl Change {
         let parts = torques.iter().zip(self.efforts.as_ref()?);
         Some(
             parts
-                .map(|(off, effort)| (off / effort).next_up())
+                .map(|(off, effort)| (off / effort).next_up_unless_zero())
                 .fold(0.0, f64::max),
         )
     }
