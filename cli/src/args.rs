@@ -31,6 +31,8 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Make a robot file of a chain of a URDF
     Import(ImportArgs),
+    /// Draw the arm in two views, with frames, axes, masses and its table (SVG)
+    Show(ShowArgs),
     /// Count the operations of the generated functions
     Count(CountArgs),
     /// Prove the functions and measure what rounding costs
@@ -141,6 +143,25 @@ pub struct ImportArgs {
     /// Take every digit as it stands
     #[arg(long)]
     pub exact: bool,
+}
+
+/// Arguments of `show`.
+#[derive(Debug, clap::Args)]
+pub struct ShowArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// The position of every joint, in rad or m, pi/2 or 90deg, separated by
+    /// commas [default: zeros]
+    #[arg(
+        long,
+        value_name = "Q",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub at: Vec<String>,
+    /// Write the drawing here [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// Arguments of `generate`.

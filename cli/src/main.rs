@@ -3,6 +3,7 @@
 //! - [`args`]: the command line
 //! - [`generate`]: Rust source, written, printed or compared
 //! - [`import`]: a robot file of a URDF
+//! - [`show`]: the arm in two views
 //! - [`count`]: operation counts
 //! - [`verify`]: the exact proof and what rounding costs
 //! - [`couplings`]: which coefficients vanish or repeat, and why
@@ -32,6 +33,7 @@ mod outcome;
 mod output;
 mod plot;
 mod progress;
+mod show;
 mod sines;
 mod stress;
 mod table3;
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
     let outcome = match Args::parse().command {
         Command::Generate(args) => generate::run(&args),
         Command::Import(args) => import::run(&args),
+        Command::Show(args) => show::run(&args),
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Couplings(args) => couplings::run(&args),

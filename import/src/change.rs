@@ -6,7 +6,9 @@
 //! |a₂||b₂ − b₁| + |a₂ − a₁||b₁|. A turn keeps lengths, and two turns move a vector
 //! apart by its length times the distance of the turns. So every position of the
 //! joints is covered, and with upward rounding the result is a bound, not a
-//! measurement. The triangle inequality makes it a few times too large.
+//! measurement. The triangle inequality makes it fifty to a hundred and fifty times
+//! what 25 states of real arms show. What is computed for the file, bodies that are
+//! merged and rows that are derived, is rounded to 20 digits beside it.
 
 use std::fmt;
 
@@ -128,7 +130,7 @@ impl Change {
         let parts = torques.iter().zip(self.efforts.as_ref()?);
         Some(
             parts
-                .map(|(off, effort)| (off / effort).next_up())
+                .map(|(off, effort)| (off / effort).next_up_unless_zero())
                 .fold(0.0, f64::max),
         )
     }
@@ -288,13 +290,18 @@ impl Pair {
     }
 }
 
+/// a + b, not below.
+fn upward_sum(a: f64, b: f64) -> f64 {
+    (a + b).next_up_unless_zero()
+}
+
 impl std::ops::Add for Pair {
     type Output = Pair;
 
     fn add(self, other: Pair) -> Pair {
         Pair {
-            size: (self.size + other.size).next_up_unless_zero(),
-            off: (self.off + other.off).next_up_unless_zero(),
+            size: upward_sum(self.size, other.size),
+            off: upward_sum(self.off, other.off),
         }
     }
 }
@@ -308,10 +315,10 @@ impl std::ops::Mul for Pair {
             // Never zero where neither factor is.
             false => (a * b).next_up(),
         };
-        let off = product(self.size, other.off) + product(self.off, other.size);
+        let [of_other, of_own] = [product(self.size, other.off), product(self.off, other.size)];
         Pair {
             size: product(self.size, other.size),
-            off: off.next_up_unless_zero(),
+            off: upward_sum(of_other, of_own),
         }
     }
 }

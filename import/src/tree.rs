@@ -353,7 +353,13 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
                 ends.push((moving, link));
             }
         }
-        let most = ends.iter().map(|(moving, _)| *moving).max()?;
+        let Some(most) = ends.iter().map(|(moving, _)| *moving).max() else {
+            let message = "links hang on each other in a circle".to_owned();
+            let help = "every chain ends somewhere: closed loops are not read";
+            self.problems
+                .error(&self.urdf.links[base].span, message, help);
+            return None;
+        };
         ends.retain(|(moving, _)| *moving == most);
         ends.sort_by_key(|(_, link)| *link);
         let names = |ends: &[(usize, usize)]| {

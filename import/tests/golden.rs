@@ -118,7 +118,7 @@ fn the_bound_is_the_size_of_the_change() {
         velocity: vec![0.0],
         acceleration: vec![0.0],
     };
-    let delta = 1.5708 - std::f64::consts::FRAC_PI_2;
+    let delta = "1.5708".parse::<f64>().unwrap() - std::f64::consts::FRAC_PI_2;
     let [bound] = change.torques(&still)[..] else {
         panic!("one joint");
     };

@@ -4,11 +4,13 @@
 //! - [`couplings`]: which coefficients vanish or repeat, and why
 //! - [`stress`]: stability at the extremes, against a big float
 //! - [`explain`]: what each step brought, and why
+//! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code, and why they disagree
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
 
 pub mod couplings;
+pub mod drawing;
 pub mod explain;
 pub mod states;
 pub mod stress;

@@ -172,6 +172,9 @@ fn wrenches_by_poses<S: Scalar>(
     wrenches
 }
 
+/// A value with its first and second rates.
+type Twice<S> = Dual<Dual<S>>;
+
 /// The arm and its position as they move at these velocities and
 /// accelerations, with first and second rates.
 fn accelerated<S: Scalar>(
@@ -179,7 +182,7 @@ fn accelerated<S: Scalar>(
     at: &[DhVariables<S>],
     qd: &[S],
     qdd: &[S],
-) -> (Arm<Dual<Dual<S>>>, Vec<DhVariables<Dual<Dual<S>>>>) {
+) -> (Arm<Twice<S>>, Vec<DhVariables<Twice<S>>>) {
     let (arm, at) = moving(arm, at, qd);
     let rates = qd.iter().zip(qdd);
     let rates = rates.map(|(value, rate)| Dual {

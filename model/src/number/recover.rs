@@ -23,7 +23,8 @@ const SIMPLE: u64 = 90;
 /// The digits that everything else is rounded to.
 const DIGITS: i64 = 20;
 
-/// 2^−[`NEAR`].
+/// 2⁻²⁰⁰: what is closer to a number than this, in units of the size of what it was
+/// computed from, is that number.
 pub fn near() -> Rational {
     Rational::new(BigInt::one(), BigInt::one() << NEAR)
 }

@@ -85,7 +85,7 @@ pub fn moved(body: &Body, pose: &Columns<Wide>) -> Body {
     }
 }
 
-/// The turn by an angle about a unit vector: c 1 + s [u]× + (1 − c) u uᵀ.
+/// The turn by an angle about a unit vector: v → c v + s u × v + (1 − c) u (u·v).
 pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
     let Rotor { sin, cos } = Wide::rotor(angle);
     let rest = Wide::one().sub(&cos);

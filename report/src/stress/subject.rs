@@ -39,9 +39,9 @@ impl fmt::Display for Subject {
 #[derive(Clone, Debug)]
 pub enum Code {
     /// The runtime in f64.
-    Double(Reference<f64>),
+    Double(Box<Reference<f64>>),
     /// The runtime in f32.
-    Single(Reference<f32>),
+    Single(Box<Reference<f32>>),
     /// Emitted functions.
     Emitted(Vec<Emitted>),
 }
@@ -50,8 +50,8 @@ impl Code {
     /// The generic runtime.
     pub fn runtime(robot: &Robot, scalar: ScalarType) -> Code {
         match scalar {
-            ScalarType::F64 => Code::Double(Reference::from_robot(robot)),
-            ScalarType::F32 => Code::Single(Reference::from_robot(robot)),
+            ScalarType::F64 => Code::Double(Box::new(Reference::from_robot(robot))),
+            ScalarType::F32 => Code::Single(Box::new(Reference::from_robot(robot))),
         }
     }
 

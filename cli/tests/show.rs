@@ -1,0 +1,64 @@
+//! `dalembert show`: the drawing of an arm.
+
+mod support;
+
+use std::fs;
+
+use support::{robot, run, temporary};
+
+#[test]
+fn the_same_drawing_twice() {
+    let folder = temporary("show");
+    for name in ["puma560", "stanford", "panda", "planar2r"] {
+        let file = folder.join(format!("{name}.svg"));
+        let ran = run(&["show", &robot(name), "-o", file.to_str().unwrap()]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let svg = fs::read_to_string(&file).unwrap();
+        assert_eq!(run(&["show", &robot(name)]).out, svg);
+        assert!(svg.starts_with("<svg xmlns=") && svg.ends_with("</svg>\n"));
+        assert!(svg.contains(&format!("<title>{name}</title>")));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        // Every element ends where it begins, or is closed.
+        assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count());
+    }
+    let svg = fs::read_to_string(folder.join("puma560.svg")).unwrap();
+    // Two views of five links with mass; no body has the elbow's inertia, and in
+    // one view that is seen.
+    assert_eq!(svg.matches("class=\"m\"").count(), 10);
+    assert_eq!(svg.matches("<ellipse").count(), 9);
+    assert!(svg.contains("one principal moment exceeds the sum"));
+    for part in [
+        "from the front: x to the right, z up",
+        "from above: x to the right, y up",
+        "standard DH, gravity (0, 0, -9.81)",
+        "1 waist",
+        "(-0.3638, 0.006, 0.2275)",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn at_a_position() {
+    let puma = robot("puma560");
+    let drawn = |at: &str| run(&["show", &puma, "--at", at]);
+    let still = run(&["show", &puma]).out;
+    assert_eq!(drawn("0,0,0,0,0,0").out, still);
+    let bent = drawn("0,-pi/2,90deg,0,0.1,-0.2");
+    assert_eq!(bent.code, 0, "{}", bent.err);
+    assert_ne!(bent.out, still);
+    for (at, part) in [
+        ("0,0", "`q` has 2 values, the arm has 6 joints"),
+        ("0,0,0,0,0,x", "--at: `x` is not a decimal number"),
+    ] {
+        let ran = drawn(at);
+        assert_eq!(ran.code, 2);
+        assert!(ran.err.contains(part), "{}", ran.err);
+    }
+    let ran = run(&["show", &puma, "-o", &puma]);
+    assert!(
+        ran.err.contains("would be written over the robot file"),
+        "{}",
+        ran.err
+    );
+}

@@ -1,0 +1,146 @@
+//! Whatever the bytes are: an answer, never a panic, and the same one twice; and
+//! a robot file that was made reads.
+
+mod support;
+
+use dalembert_import::{Options, import};
+use dalembert_model::read;
+use support::{NAMES, snapped, source};
+
+/// xorshift.
+struct Draw(u64);
+
+impl Draw {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 16) as usize % n.max(1)
+    }
+}
+
+/// What attributes may turn into.
+const WORDS: [&str; 16] = [
+    "",
+    "0",
+    "-1",
+    "1e400",
+    "1e-320",
+    "nan",
+    "inf",
+    "0x10",
+    ".5",
+    "5.",
+    "${pi/2}",
+    "1,5",
+    "\u{2212}1",
+    "1.5708",
+    "é\u{0}",
+    "revolute",
+];
+
+/// The URDF with some of it deleted, doubled, exchanged or replaced.
+fn mutated(source: &str, draw: &mut Draw) -> String {
+    let mut text: Vec<char> = source.chars().collect();
+    for _ in 0..1 + draw.below(4) {
+        let at = draw.below(text.len());
+        let end = (at + draw.below(60)).min(text.len());
+        match draw.below(5) {
+            0 => drop(text.drain(at..end)),
+            1 => {
+                let copy = text[at..end].to_vec();
+                text.splice(at..at, copy);
+            }
+            2 => {
+                let other = draw.below(text.len());
+                text.swap(at, other);
+            }
+            3 => {
+                let word = WORDS[draw.below(WORDS.len())];
+                text.splice(at..end.min(at + 3), word.chars());
+            }
+            _ => {
+                // A whole attribute's value.
+                let quote = text[at..].iter().position(|c| *c == '"').map(|q| at + q);
+                let Some(open) = quote else { continue };
+                let close = text[open + 1..].iter().position(|c| *c == '"');
+                let Some(close) = close.map(|q| open + 1 + q) else {
+                    continue;
+                };
+                let word = WORDS[draw.below(WORDS.len())];
+                text.splice(open + 1..close, word.chars());
+            }
+        }
+        if text.is_empty() {
+            break;
+        }
+    }
+    text.into_iter().collect()
+}
+
+#[test]
+fn an_answer_for_every_text() {
+    let mut draw = Draw(0x9e37_79b9_7f4a_7c15);
+    let (mut made, mut refused) = (0, 0);
+    for round in 0..60 {
+        for name in NAMES {
+            let source = mutated(&source(name), &mut draw);
+            let options = Options {
+                exact: round % 3 == 0,
+                ..snapped(name)
+            };
+            match import(&source, &options) {
+                Ok(imported) => {
+                    made += 1;
+                    assert_eq!(import(&source, &options).unwrap().text, imported.text);
+                    let again = read::parse(&imported.text, &read::Options::default()).unwrap();
+                    assert_eq!(again.robot, imported.robot);
+                    assert!(
+                        imported
+                            .change
+                            .is_none_or(|c| !c.to_string().contains("NaN"))
+                    );
+                }
+                Err(errors) => {
+                    refused += 1;
+                    assert!(!errors.0.is_empty());
+                    assert!(errors.0.iter().all(|error| !error.message.is_empty()));
+                    errors.render(name, &source);
+                }
+            }
+        }
+    }
+    assert!(made > 30 && refused > 30, "{made} made, {refused} refused");
+}
+
+/// What grows without end: entities, circles, depth, links without number.
+#[test]
+fn hostile_files_are_refused_at_once() {
+    let entities = "<!DOCTYPE r [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">]><robot name=\"&b;\"/>";
+    let links: String = (0..5000)
+        .map(|i| format!("<link name=\"l{i}\"/>"))
+        .collect();
+    let circle = "<link name=\"a\"/><link name=\"b\"/>\
+        <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
+        <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>";
+    let robot = |inside: &str| format!("<robot name=\"r\">{inside}</robot>");
+    for (text, base) in [
+        (entities.to_owned(), None),
+        (robot(&links), None),
+        (robot(circle), None),
+        (robot(circle), Some("a")),
+        (robot(""), None),
+        (String::new(), None),
+    ] {
+        let options = Options {
+            base: base.map(str::to_owned),
+            ..Options::default()
+        };
+        let errors = import(&text, &options).expect_err("no robot");
+        assert!(
+            !errors.0.is_empty(),
+            "{base:?}: {}",
+            &text[..text.len().min(80)]
+        );
+    }
+}

@@ -1,0 +1,122 @@
+//! The DH rows, masses and centres of mass as lines of text.
+
+use dalembert_model::number::parse::write_decimal;
+use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
+
+use super::page::{Page, ROW};
+
+/// The room that the table takes.
+pub(super) fn height(robot: &Robot) -> f64 {
+    ROW * (rows(robot).len() as f64 + 1.5)
+}
+
+/// Writes it below the views.
+pub(super) fn write(robot: &Robot, page: &mut Page) {
+    for (index, row) in rows(robot).iter().enumerate() {
+        page.row(index, row);
+    }
+}
+
+fn rows(robot: &Robot) -> Vec<String> {
+    let convention = match robot.convention {
+        Convention::Standard => "standard DH",
+        Convention::Modified => "modified DH (Craig)",
+    };
+    let gravity = robot.gravity.each_ref().map(number).join(", ");
+    let mut rows = vec![format!(
+        "{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"
+    )];
+    for (what, end) in [("base", &robot.base), ("tool", &robot.tool)] {
+        rows.extend(end.as_ref().map(|end| placement(what, end)));
+    }
+    let head = [
+        "joint",
+        "theta",
+        "d",
+        "a",
+        "alpha",
+        "mass",
+        "centre of mass",
+        "",
+    ];
+    let mut cells = vec![head.map(str::to_owned)];
+    cells.extend(
+        robot
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(i, joint)| row(i, joint)),
+    );
+    let width = |column: usize| {
+        let lengths = cells.iter().map(|row| row[column].chars().count());
+        lengths.max().unwrap_or(0)
+    };
+    let widths: [usize; 8] = core::array::from_fn(width);
+    rows.extend(cells.iter().map(|row| {
+        let cells = row.iter().zip(widths);
+        let padded = cells.map(|(cell, width)| format!("{cell:width$}"));
+        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    }));
+    rows
+}
+
+fn row(index: usize, joint: &Joint) -> [String; 8] {
+    let plus = |constant: String| match constant.as_str() {
+        "0" => format!("q{}", index + 1),
+        constant => format!("q{} + {constant}", index + 1),
+    };
+    let (theta, d) = match joint.kind {
+        JointKind::Revolute => (plus(angle(&joint.theta)), number(&joint.d)),
+        JointKind::Prismatic => (angle(&joint.theta), plus(number(&joint.d))),
+    };
+    let name = joint.name.as_deref().unwrap_or_default();
+    let twist = match joint.beta.is_zero() {
+        true => angle(&joint.alpha),
+        false => format!("{}, beta {}", angle(&joint.alpha), angle(&joint.beta)),
+    };
+    let body = joint.inertia.impossible(&joint.mass).unwrap_or_default();
+    [
+        format!("{} {name}", index + 1).trim_end().to_owned(),
+        theta,
+        d,
+        number(&joint.a),
+        twist,
+        number(&joint.mass),
+        format!("({})", joint.com.each_ref().map(number).join(", ")),
+        body.to_owned(),
+    ]
+}
+
+fn placement(what: &str, placement: &Placement) -> String {
+    let xyz = placement.xyz.each_ref().map(number).join(", ");
+    let rpy = placement.rpy.each_ref().map(angle).join(", ");
+    format!("{what}: xyz ({xyz}), rpy ({rpy})")
+}
+
+/// As the file has it, if that is short; six digits otherwise.
+fn number(value: &Rational) -> String {
+    match write_decimal(value) {
+        Some(text) if text.len() <= 10 => text,
+        _ => six(f64::nearest_rational(value)),
+    }
+}
+
+fn angle(value: &Angle) -> String {
+    match value.to_string() {
+        text if text.len() <= 10 => text,
+        _ => six(value.to_f64()),
+    }
+}
+
+/// Six digits, without zeros at the end.
+fn six(value: f64) -> String {
+    let text = format!("{value:.5e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    match exponent {
+        "0" => digits.to_owned(),
+        "-1" | "-2" | "-3" | "1" | "2" | "3" => format!("{value:.6}"),
+        _ => format!("{digits}e{exponent}"),
+    }
+}
