@@ -206,6 +206,7 @@ pub use dalembert_macros::dynamics;
 pub mod __private {
     /// What bodies call, by one name whichever library it is from.
     pub mod math {
+        pub use dalembert_sines as together;
         pub use libm::{cos, cosf, sin, sincos, sincosf, sinf};
     }
 }

@@ -65,7 +65,7 @@ fn the_bench_of_sines_is_up_to_date() {
         ("std_sines", "crate::std_math", &[][..]),
         ("polynomials", "", sines.as_slice()),
     ] {
-        let math = MathPath(math.into());
+        let math = MathPath::libm(math);
         let code = function::with_sines(program, scalar, &math, sines, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
