@@ -7,7 +7,7 @@
 //! sines 1.24 (x86-64, medians of three runs).
 //!
 //! Then six angles' sines and cosines by `dalembert_sines`, of libm's time for
-//! the same: f64 0.29 and f32 0.20 in a plain build, 0.21 and 0.19 with
+//! the same: f64 0.29 and f32 0.20 in a plain build, 0.22 and 0.19 with
 //! `-C target-cpu=native` (AVX-512).
 
 use std::hint::black_box;

@@ -6,7 +6,7 @@
 //! the cosine, absolute, below 2⁻⁶⁴·¹⁸ (`tests/polynomials.rs`).
 
 use crate::angle::Angle;
-use crate::lanes::Lanes;
+use crate::lanes::Number;
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f64; 6] = [
@@ -31,7 +31,7 @@ pub(crate) const COSINE: [f64; 6] = [
 /// The polynomial of degree 5, in halves: shorter than one product after the
 /// other.
 #[inline(always)]
-fn polynomial(c: [f64; 6], z: Lanes<f64>, w: Lanes<f64>) -> Lanes<f64> {
+fn polynomial<V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {
     (z * c[1] + c[0]) + w * ((z * c[3] + c[2]) + w * (z * c[5] + c[4]))
 }
 
@@ -48,7 +48,7 @@ impl Angle for f64 {
     const ONE: f64 = 1.0;
 
     #[inline(always)]
-    fn polynomials(z: Lanes<f64>, w: Lanes<f64>) -> (Lanes<f64>, Lanes<f64>) {
+    fn polynomials<V: Number<f64>>(z: V, w: V) -> (V, V) {
         (polynomial(SINE, z, w), polynomial(COSINE, z, w))
     }
 

@@ -6,7 +6,7 @@
 //! cosine, absolute, below 2⁻³³·¹ (`tests/polynomials.rs`).
 
 use crate::angle::Angle;
-use crate::lanes::Lanes;
+use crate::lanes::Number;
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f32; 3] = [0.16666655, -0.008332189, 0.00019518287];
@@ -15,7 +15,7 @@ pub(crate) const SINE: [f32; 3] = [0.16666655, -0.008332189, 0.00019518287];
 pub(crate) const COSINE: [f32; 3] = [0.041666646, -0.0013887301, 2.443067e-5];
 
 #[inline(always)]
-fn polynomial(c: [f32; 3], z: Lanes<f32>) -> Lanes<f32> {
+fn polynomial<V: Number<f32>>(c: [f32; 3], z: V) -> V {
     (z * c[2] + c[1]) * z + c[0]
 }
 
@@ -28,7 +28,7 @@ impl Angle for f32 {
     const ONE: f32 = 1.0;
 
     #[inline(always)]
-    fn polynomials(z: Lanes<f32>, _: Lanes<f32>) -> (Lanes<f32>, Lanes<f32>) {
+    fn polynomials<V: Number<f32>>(z: V, _: V) -> (V, V) {
         (polynomial(SINE, z), polynomial(COSINE, z))
     }
 

@@ -7,7 +7,7 @@ extern crate std;
 use dalembert_model::number::{Angle as Turn, Rational, Rounded};
 use std::vec::Vec;
 
-use crate::angle::Angle;
+use crate::angle::{Angle, singly, together};
 use crate::{double, single};
 
 fn exact(x: f64) -> Rational {
@@ -149,4 +149,31 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
     });
     assert!((-60.49..-60.48).contains(&double), "{double}");
     assert!((-26.33..-26.32).contains(&single), "{single}");
+}
+
+/// Which of the two is taken is a matter of time alone: whole vectors, a rest,
+/// unusual angles among others.
+#[test]
+fn lanes_and_single_angles_have_the_same_bits() {
+    let mut bits = 1u64;
+    for round in 0..500 {
+        let angles: [f64; 21] = core::array::from_fn(|_| {
+            bits = bits
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            let unit = (bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
+            match round % 4 {
+                0 => f64::from_bits(bits),
+                1 => unit * 4.0 * f64::LARGEST,
+                _ => unit * 7.0,
+            }
+        });
+        let singles = angles.map(|x| x as f32);
+        let (a, b) = (singly(&angles), together(&angles));
+        assert_eq!(a.0.map(f64::to_bits), b.0.map(f64::to_bits), "{angles:?}");
+        assert_eq!(a.1.map(f64::to_bits), b.1.map(f64::to_bits), "{angles:?}");
+        let (a, b) = (singly(&singles), together(&singles));
+        assert_eq!(a.0.map(f32::to_bits), b.0.map(f32::to_bits), "{singles:?}");
+        assert_eq!(a.1.map(f32::to_bits), b.1.map(f32::to_bits), "{singles:?}");
+    }
 }
