@@ -1,5 +1,5 @@
-//! One program with three kinds of sines in one run: libm's, std's, and
-//! polynomials that a certificate admits at 1e-6 of the actuators' limits.
+//! One program with four kinds of sines in one run: libm's, std's, those of all
+//! angles together, and polynomials that a certificate admits at 1e-6 of the actuators' limits.
 //! Read the ratios, the times are this machine's. The first line has those of
 //! rounds in turn, which hold on a busy machine too.
 //!
@@ -69,7 +69,7 @@ const ROUNDS: usize = 301;
 /// Each variant's time over that of libm's sines in the same round, the median:
 /// what slows the machine down for a while slows all of them down.
 fn ratios(states: &[State]) {
-    let mut rounds = vec![Vec::new(); 2];
+    let mut rounds = vec![Vec::new(); 3];
     for _ in 0..ROUNDS {
         macro_rules! time {
             ($name:ident) => {{
@@ -82,13 +82,14 @@ fn ratios(states: &[State]) {
         }
         let libm = time!(libm_sines);
         rounds[0].push(time!(std_sines) / libm);
-        rounds[1].push(time!(polynomials) / libm);
+        rounds[1].push(time!(together) / libm);
+        rounds[2].push(time!(polynomials) / libm);
     }
-    let [std, polynomials] = [0, 1].map(|variant| {
+    let [std, together, polynomials] = [0, 1, 2].map(|variant| {
         rounds[variant].sort_by(f64::total_cmp);
         rounds[variant][ROUNDS / 2]
     });
-    println!("of libm's time: std {std:.3}, polynomials {polynomials:.3}");
+    println!("of libm's time: std {std:.3}, together {together:.3}, polynomials {polynomials:.3}");
 }
 
 /// Six sines and cosines together, of libm's time: f64 and f32.
@@ -152,6 +153,7 @@ fn sines(criterion: &mut Criterion) {
     }
     variant!(libm_sines);
     variant!(std_sines);
+    variant!(together);
     variant!(polynomials);
     group.finish();
 }
