@@ -1,6 +1,7 @@
 //! The functions that the bench of sines compares are what the generator
 //! writes: one program, certified with polynomials to stay within 1e-6 of the
-//! actuators' limits, printed with them, with libm's sines and with std's.
+//! actuators' limits, printed with them, with libm's sines, with std's, and with
+//! those of all angles together.
 //!
 //! What differs is written anew before the test fails.
 
@@ -61,11 +62,11 @@ fn the_bench_of_sines_is_up_to_date() {
         robot.short_hash()
     );
     for (name, math, sines) in [
-        ("libm_sines", "libm", &[][..]),
-        ("std_sines", "crate::std_math", &[][..]),
-        ("polynomials", "", sines.as_slice()),
+        ("libm_sines", MathPath::libm("libm"), &[][..]),
+        ("std_sines", MathPath::libm("crate::std_math"), &[][..]),
+        ("together", MathPath::together("dalembert_sines"), &[][..]),
+        ("polynomials", MathPath::libm(""), sines.as_slice()),
     ] {
-        let math = MathPath(math.into());
         let code = function::with_sines(program, scalar, &math, sines, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");

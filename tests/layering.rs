@@ -12,7 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use source::Crate;
 
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
+    "sines",
     "model",
     "codegen",
     "macros",

@@ -11,6 +11,12 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
+    mod alone = "generated/robots/planar2r.toml";
+    outputs: inverse_dynamics;
+    sincos: libm;
+}
+
+dalembert::dynamics! {
     mod planar2r {
         convention: standard;
         gravity: [0, -9.81, 0];
@@ -46,6 +52,8 @@ fn one_robot_by_every_way() {
             planar2r::inverse_dynamics(&q, &qd, &qdd),
             dalembert_generated::planar2r::inverse_dynamics(&q, &qd, &qdd),
         ];
+        // What is checked in calls libm, too.
+        assert_eq!(alone::inverse_dynamics(&q, &qd, &qdd), others[1]);
         let [q, qd, qdd] = [q, qd, qdd].map(|x| DVector::from_row_slice(&x));
         let reference = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
         for (i, &torque) in tau.iter().enumerate() {

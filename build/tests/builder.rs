@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use dalembert_build::{BuildError, Generator, Layout, Output, Scalar};
+use dalembert_build::{BuildError, Generator, Layout, Output, Scalar, SinCos};
 use dalembert_codegen::clauses::RobotFile;
 use dalembert_codegen::generate::{Request, generate};
 
@@ -85,6 +85,33 @@ fn writes_again_only_if_something_changed() {
     generator(&folder).write_to(&path).unwrap();
     assert_ne!(modified(&path), past);
     assert!(fs::read_to_string(&path).unwrap().contains("1.62"));
+}
+
+/// The words of the choice are the paths of its crate, or who chooses says
+/// where it is.
+#[test]
+fn sines_are_called_where_they_are() {
+    let folder = folder("sines");
+    let path = folder.join("arm.rs");
+    for (sincos, math, call) in [
+        (SinCos::Auto, None, "libm::"),
+        (SinCos::Libm, Some("crate::sines"), "crate::sines::"),
+        (SinCos::Together, None, "dalembert_sines::sincosf(&["),
+        (
+            SinCos::Together,
+            Some("crate::own"),
+            "crate::own::sincosf(&[",
+        ),
+    ] {
+        let generator = generator(&folder).sincos(sincos);
+        let generator = match math {
+            Some(math) => generator.math(math),
+            None => generator,
+        };
+        generator.write_to(&path).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(&format!(" = {call}")), "{sincos:?} {text}");
+    }
 }
 
 #[test]

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
+use dalembert_codegen::backend::MathPath;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Prefer, Request};
 use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_model::number::Rational;
@@ -78,8 +79,10 @@ pub struct Choice {
     /// Search anew even if a plan is kept beside the robot file
     #[arg(long)]
     pub no_plan: bool,
-    /// Where sines come from; `polynomial` holds over the joints' limits,
-    /// `auto` takes it where a scene's tolerance admits it
+    /// Where sines come from: `libm` an angle a call, `together` all of a
+    /// function's in one call of the crate dalembert-sines, in a third of the
+    /// time; `polynomial` holds over the joints' limits. `auto` takes that where
+    /// a scene's tolerance admits it, else libm
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = sincos_parser())]
     pub sincos: SinCos,
     /// The largest error of each sine and cosine by polynomials [default: 1e-6,
@@ -109,6 +112,7 @@ impl Choice {
             },
             other => other,
         };
+        request.math = MathPath::of(self.sincos.library(Library::Libm));
         request
     }
 }

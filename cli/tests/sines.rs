@@ -93,6 +93,9 @@ fn a_tolerance_and_polynomials_by_name() {
         "{}",
         ran.err
     );
+    let ran = in_scene("fine", &["together"]);
+    let called = ran.out.contains(" = dalembert_sines::sincosf(&[q[0]");
+    assert!(ran.code == 0 && called, "{}", ran.err);
     let ran = in_scene("fine", &["auto"]);
     assert!(
         ran.code == 0 && ran.out.contains("libm::sincosf"),

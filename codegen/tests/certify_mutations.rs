@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use dalembert_codegen::certify::certificate::{Certificate, format};
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::plan::{Edited, Entry, Plan, input_hash};
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::random::Random;
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::SinCos;
@@ -82,11 +82,13 @@ fn certificate(generated: &Generated) -> &Certificate {
     &admitted.certificates[0]
 }
 
-/// Certificates to change: libm's sines with edits, and polynomials.
+/// Certificates to change: libm's sines with edits, those of all angles
+/// together, and polynomials.
 fn honest() -> Vec<Certificate> {
     let all = [SinCos::Libm, SinCos::Polynomial { error: None }];
-    all.map(|sincos| certificate(&generated(sincos).1).clone())
-        .to_vec()
+    let all = all.map(|sincos| certificate(&generated(sincos).1).clone());
+    let together = all[0].calling(Library::Together);
+    all.into_iter().chain([together]).collect()
 }
 
 /// A float's value by an operation in the scalar.
@@ -154,6 +156,19 @@ fn execute(text: &str, state: &JointState, scalar: ScalarType) -> Option<Vec<f64
                 _ => return None,
             };
             names.extend(targets.into_iter().zip(results));
+            continue;
+        }
+        if let Some(call) = right.strip_prefix("dalembert_sines::sincos") {
+            let angles = call.trim_start_matches('f').strip_prefix("(&[")?;
+            let mut pairs = Vec::new();
+            for angle in angles.strip_suffix("])")?.split(", ") {
+                let x = value(angle, &names)?;
+                pairs.push(libm::sincos(x));
+            }
+            let results = pairs.iter().map(|p| p.0).chain(pairs.iter().map(|p| p.1));
+            let results = results.map(|x| round(x, scalar));
+            let targets = targets.iter().map(|name| name.trim_matches(['[', ']']));
+            names.extend(targets.map(str::to_owned).zip(results));
             continue;
         }
         let words: Vec<&str> = right.split(' ').collect();

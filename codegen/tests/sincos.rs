@@ -6,7 +6,7 @@ mod support;
 use dalembert_codegen::bound::Split;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::program::{Lowered, ScalarType};
+use dalembert_codegen::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::seeded;
@@ -72,7 +72,7 @@ fn a_text_with_other_sines_is_not_the_function() {
     let (function, scalar) = (&generated.functions[0], ScalarType::F64);
     let matches = |text: &str| {
         let read = Lowered::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
-        read.matches(&function.program, function.sines(scalar))
+        read.matches(&function.program, Library::Libm, function.sines(scalar))
     };
     assert_eq!(matches(&generated.text), Ok(()));
     let block = generated.text.find("let (s1, c1) = {").unwrap();
@@ -95,8 +95,13 @@ fn a_text_with_other_sines_is_not_the_function() {
     assert!(matches(&text).is_err());
     // Nor is it one of libm's sines.
     let read = Lowered::parse(&generated.text, FUNCTION, scalar).unwrap();
-    assert!(read.matches(&function.program, &[]).is_err());
-    assert!(read.with_libm().matches(&function.program, &[]).is_ok());
+    assert!(read.matches(&function.program, Library::Libm, &[]).is_err());
+    let called = read.with_libm();
+    assert!(
+        called
+            .matches(&function.program, Library::Libm, &[])
+            .is_ok()
+    );
 }
 
 /// A joint without limits of position may have turned often.

@@ -3,9 +3,10 @@
 
 mod support;
 
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::{Lowered, ScalarType};
+use dalembert_codegen::program::run::State;
+use dalembert_codegen::program::{Library, Lowered, ScalarType};
 
 const TEXT: &str = "\
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
@@ -99,6 +100,103 @@ fn what_was_not_is_refused() {
         ("}\n", "", 1, "`gravity` does not end"),
     ] {
         let text = TEXT.replacen(from, to, 1);
+        let error = read(&text).unwrap_err();
+        assert_eq!(error, (line, why.to_owned()), "{from} -> {to}");
+    }
+}
+
+/// The same function with all its angles in one call.
+fn together() -> String {
+    let alone = "    let (s1, c1) = libm::sincos(q[0]);\n    let a1p2 = q[0] + q[1];\n    \
+                 let c1p2 = libm::cos(a1p2);\n";
+    let called = "    let a1p2 = q[0] + q[1];\n    \
+                  let ([s1, _], [c1, c1p2]) = dalembert_sines::sincos(&[q[0], a1p2]);\n";
+    assert!(TEXT.contains(alone));
+    TEXT.replacen(alone, called, 1)
+}
+
+/// One call for all angles is the same program but for the library, and its
+/// sines are the library's to the last bit.
+#[test]
+fn all_angles_together_are_read() {
+    let (alone, together) = (read(TEXT).unwrap(), read(&together()).unwrap());
+    assert_eq!(together, alone.clone().calling(Library::Together));
+    let differ = alone.difference(&together);
+    assert_eq!(differ.as_deref(), Some("the libraries of sines differ"));
+    assert_eq!(together.counts(), alone.counts());
+    let q = [0.3f64, 1.1];
+    let ([s1, _], [c1, c1p2]) = dalembert_sines::sincos(&[q[0], q[0] + q[1]]);
+    let t2 = c1 * 0.5 - s1;
+    let state = State::of(|argument| match argument {
+        Argument::Position => &q,
+        _ => &[],
+    });
+    assert_eq!(together.run(state), [c1p2 * t2, -t2]);
+}
+
+#[test]
+fn what_is_no_call_for_all_angles_is_refused() {
+    for (from, to, line, why) in [
+        ("([s1, _]", "([c1, _]", 3, "`s1` or `_` expected, not `c1`"),
+        (
+            "[c1, c1p2]",
+            "[c1p2, c1]",
+            3,
+            "`c1` or `_` expected, not `c1p2`",
+        ),
+        (
+            "[c1, c1p2]",
+            "[c1, _]",
+            3,
+            "neither sine nor cosine of `a1p2` is taken",
+        ),
+        (
+            "[q[0], a1p2]",
+            "[q[0]]",
+            3,
+            "as many sines, cosines and angles are expected",
+        ),
+        ("[q[0], a1p2]", "[q[0], a1m2]", 3, "`a1m2` is no angle"),
+        (
+            "[q[0], a1p2]",
+            "[q[0], q[1]]",
+            3,
+            "`c2` or `_` expected, not `c1p2`",
+        ),
+        (
+            "sincos(&",
+            "sincosf(&",
+            3,
+            "`dalembert_sines::sincosf` is not `sincos` of this scalar",
+        ),
+        (
+            "sincos(&",
+            "cos(&",
+            3,
+            "`dalembert_sines::cos` is not `sincos` of this scalar",
+        ),
+        ("a1p2]);", "a1p2);", 3, "no `])`"),
+        (
+            "    let t1",
+            "    let s2 = libm::sin(q[1]);\n    let t1",
+            4,
+            "a call after that of all angles together",
+        ),
+        (
+            "    let t1",
+            "    let a1m2 = q[0] - q[1];\n    let t1",
+            9,
+            "nothing reads `a1m2`",
+        ),
+        (
+            "    let ([",
+            "    let a1m2 = q[0] - q[1];\n    let ([",
+            4,
+            "the sine of `a1m2` is not called",
+        ),
+    ] {
+        let text = together().replacen(from, to, 1);
+        assert_ne!(text, together(), "{from}");
         let error = read(&text).unwrap_err();
         assert_eq!(error, (line, why.to_owned()), "{from} -> {to}");
     }

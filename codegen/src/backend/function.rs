@@ -8,9 +8,9 @@
 use std::fmt::Write;
 
 use crate::backend::statement::{last_uses, operand, statement};
-use crate::backend::{MathPath, parts, sines};
+use crate::backend::{MathPath, parts, trig};
 use crate::function::{Argument, Function, Quantity};
-use crate::program::{Operand, Output, Program, ScalarType, Trig};
+use crate::program::{Operand, Output, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
 /// A function of more operations than this is printed in blocks.
@@ -23,7 +23,7 @@ pub const FLAT: usize = 1000;
 /// compiler's stack. A block closes its scopes.
 pub const BLOCK: usize = 500;
 
-/// Prints the function with libm's sines; `doc` stands above it, one line an
+/// Prints the function with the library's sines; `doc` stands above it, one line an
 /// item.
 pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[String]) -> String {
     with_sines(program, scalar, math, &[], doc)
@@ -44,9 +44,7 @@ pub fn with_sines(
     }
     push(&mut text, format_args!("#[must_use]"));
     push(&mut text, format_args!("{} {{", signature(program, scalar)));
-    for trig in &program.trig {
-        write_trig(&mut text, trig, scalar, math, sines);
-    }
+    trig::write(&mut text, program, scalar, math, sines);
     write_steps(&mut text, program, scalar);
     write_result(&mut text, program, scalar);
     text.push_str("}\n");
@@ -140,48 +138,6 @@ fn reads(program: &Program, argument: Argument) -> bool {
     (argument == Argument::Position && !program.trig.is_empty())
         || program.steps.iter().any(|s| is(&s.left) || is(&s.right))
         || program.outputs.iter().any(|output| is(&output.value))
-}
-
-fn write_trig(
-    text: &mut String,
-    trig: &Trig,
-    scalar: ScalarType,
-    math: &MathPath,
-    sines: &[AngleKernel],
-) {
-    let angle = trig.angle;
-    let mut terms = angle.terms();
-    let argument = if angle.additions() == 0 {
-        terms.next().map(|(joint, _)| format!("q[{joint}]"))
-    } else {
-        let mut sum = String::new();
-        for (index, (joint, negative)) in terms.enumerate() {
-            let sign = match (index, negative) {
-                (0, false) => "",
-                (0, true) => "-",
-                (_, false) => " + ",
-                (_, true) => " - ",
-            };
-            let _ = write!(sum, "{sign}q[{joint}]");
-        }
-        push(text, format_args!("    let a{angle} = {sum};"));
-        Some(format!("a{angle}"))
-    }
-    .unwrap_or_default();
-    let (names, call) = match (trig.sin, trig.cos) {
-        (true, false) => (format!("s{angle}"), "sin"),
-        (false, true) => (format!("c{angle}"), "cos"),
-        _ => (format!("(s{angle}, c{angle})"), "sincos"),
-    };
-    if let Some(own) = sines.iter().find(|sine| sine.angle == angle) {
-        sines::write(text, &names, &argument, &own.kernel, scalar);
-        return;
-    }
-    let (path, suffix) = (&math.0, scalar.math_suffix());
-    push(
-        text,
-        format_args!("    let {names} = {path}::{call}{suffix}({argument});"),
-    );
 }
 
 fn result_item(output: &Output, scalar: ScalarType) -> String {

@@ -2,6 +2,7 @@
 //!
 //! - [`function`]: one program as one function
 //! - `statement`: one operation as one line
+//! - `trig`: sines and cosines that are called
 //! - `sines`: sines and cosines as polynomials
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`read`]: the printed text, and whether it is the program
@@ -11,14 +12,49 @@ pub mod parts;
 pub mod read;
 mod sines;
 mod statement;
+mod trig;
 
-/// Where emitted code finds `sincos`, `sin` and `cos` (and with an `f` for
-/// f32), by path.
+use crate::program::Library;
+
+/// Whose sines emitted code calls, and the path where it finds them: `sincos`,
+/// `sin` and `cos` of libm's kind, `sincos` of all angles together; each with
+/// an `f` for f32.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MathPath(pub String);
+pub struct MathPath {
+    /// How they are called.
+    pub library: Library,
+    /// Where they are.
+    pub path: String,
+}
+
+impl MathPath {
+    /// Functions of libm's names and arguments.
+    pub fn libm(path: impl Into<String>) -> MathPath {
+        MathPath {
+            library: Library::Libm,
+            path: path.into(),
+        }
+    }
+
+    /// A function of all angles together.
+    pub fn together(path: impl Into<String>) -> MathPath {
+        MathPath {
+            library: Library::Together,
+            path: path.into(),
+        }
+    }
+
+    /// The library by the name of its crate.
+    pub fn of(library: Library) -> MathPath {
+        match library {
+            Library::Libm => MathPath::libm("libm"),
+            Library::Together => MathPath::together("dalembert_sines"),
+        }
+    }
+}
 
 impl Default for MathPath {
     fn default() -> Self {
-        MathPath("libm".into())
+        MathPath::of(Library::default())
     }
 }

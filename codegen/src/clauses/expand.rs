@@ -14,7 +14,6 @@ use super::errors::Errors;
 use super::invocation::{self, Invocation, RobotSource};
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
-use crate::backend::MathPath;
 use crate::generate::in_scene::find;
 use crate::generate::{GenerateError, Generated, Request, generate};
 use crate::plan::{self, Plan};
@@ -178,7 +177,7 @@ fn functions(
         prefer: invocation.prefer,
         plan: source.plan.clone(),
         sincos: invocation.sincos,
-        math: MathPath(module::MATH.into()),
+        math: module::math(invocation.sincos),
         module: Some(invocation.name.to_string()),
         work: Request::work_while_compiling(invocation.effort),
         ..Request::default()

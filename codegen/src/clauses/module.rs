@@ -10,10 +10,22 @@ use syn::Attribute;
 
 use super::invocation::Invocation;
 use super::warnings::{self, Warning};
+use crate::backend::MathPath;
+use crate::program::Library;
+use crate::sincos::SinCos;
 
 /// Where the bodies find sine and cosine: an import of the module, so that a
 /// wrong path to the facade is one error and not one a call.
-pub(super) const MATH: &str = "__math";
+const MATH: &str = "__math";
+
+/// Whose sines the bodies call: by default those of all angles together, which
+/// the facade has with it.
+pub(super) fn math(sincos: SinCos) -> MathPath {
+    match sincos.library(Library::Together) {
+        Library::Together => MathPath::together(format!("{MATH}::together")),
+        Library::Libm => MathPath::libm(MATH),
+    }
+}
 
 /// Dresses every module of the text; the warnings end its documentation, and
 /// the compiler gives those of the first module.

@@ -54,6 +54,7 @@ pub(super) fn check(
                 let bounds = running::errors(
                     &generated.program,
                     emitted.scalar,
+                    emitted.text.library,
                     generated.sines(emitted.scalar),
                     state,
                 );

@@ -28,7 +28,7 @@ use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::Function;
 use crate::plan;
-use crate::program::{Lowered, ScalarType};
+use crate::program::{Library, Lowered, ScalarType};
 use crate::scene::Setting;
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
@@ -113,7 +113,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
                 Layout::Contents => Some(text.as_str()),
                 Layout::Modules => module::section(&text, &module::name(&name, scalar, &scalars)),
             };
-            emitted.push(read_back(section, generated, scalar)?);
+            emitted.push(read_back(section, generated, scalar, request.math.library)?);
         }
     }
     contradiction::check(&setting, &functions, &emitted)?;
@@ -227,12 +227,13 @@ fn read_back(
     section: Option<&str>,
     generated: &GeneratedFunction,
     scalar: ScalarType,
+    library: Library,
 ) -> Result<Emitted, GenerateError> {
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
     let section = section.ok_or_else(|| fail("its module is not in the text".into()))?;
     let read = Lowered::parse(section, generated.function, scalar)
         .map_err(|error: TextError| fail(error.to_string()))?;
-    read.matches(&generated.program, generated.sines(scalar))
+    read.matches(&generated.program, library, generated.sines(scalar))
         .map_err(fail)?;
     if read.counts() != generated.counts_in(scalar) {
         return Err(fail("the counts of the text differ".into()));

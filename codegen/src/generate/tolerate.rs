@@ -174,15 +174,15 @@ fn one(
     let all = |admitted: &Admitted| -> Result<Vec<Certificate>, NoPolynomials> {
         admitted.certificates.iter().map(with).collect()
     };
-    match request.sincos {
-        SinCos::Libm => Ok(admitted),
+    let mut admitted = match request.sincos {
+        SinCos::Libm | SinCos::Together => admitted,
         SinCos::Auto => {
-            let or_libm = |c: &Certificate| with(c).unwrap_or_else(|_| c.clone());
-            let certificates = admitted.certificates.iter().map(or_libm).collect();
-            Ok(Admitted {
+            let or_called = |c: &Certificate| with(c).unwrap_or_else(|_| c.clone());
+            let certificates = admitted.certificates.iter().map(or_called).collect();
+            Admitted {
                 certificates,
                 ..admitted
-            })
+            }
         }
         SinCos::Polynomial { .. } => {
             // What was left out may have used up what polynomials need.
@@ -195,12 +195,16 @@ fn one(
                 let why = format!("no polynomials for its sines within the tolerance: {why}");
                 GenerateError::SinCos(function, why)
             })?;
-            Ok(Admitted {
+            Admitted {
                 certificates,
                 ..admitted
-            })
+            }
         }
+    };
+    for certificate in &mut admitted.certificates {
+        *certificate = certificate.calling(request.math.library);
     }
+    Ok(admitted)
 }
 
 /// Another gauge may be looked for only where the start may be any.

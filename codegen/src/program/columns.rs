@@ -78,7 +78,7 @@ impl Lowered {
                 for (q, column) in q.iter_mut().zip(positions) {
                     *q = column[state];
                 }
-                let (sin, cos) = trig.pair(&q);
+                let (sin, cos) = trig.pair(self.library, &q);
                 sines.push(sin);
                 cosines.push(cos);
             }

@@ -1,7 +1,9 @@
 //! Straight-line code over literals: what is printed, read back and run.
 
 use super::kernel::Kernel;
-use super::{AngleSum, Counts, Literal, Operand, Operation, Output, Program, ScalarType, Step};
+use super::{
+    AngleSum, Counts, Library, Literal, Operand, Operation, Output, Program, ScalarType, Step,
+};
 
 /// A program lowered to a scalar: every constant rounded once, and how each
 /// angle's sine and cosine are computed.
@@ -9,6 +11,8 @@ use super::{AngleSum, Counts, Literal, Operand, Operation, Output, Program, Scal
 pub struct Lowered {
     /// The scalar.
     pub scalar: ScalarType,
+    /// Who computes the sines that are called; libm where none is.
+    pub library: Library,
     /// Sines and cosines.
     pub trig: Vec<LoweredTrig>,
     /// The arithmetic.
@@ -31,7 +35,7 @@ pub struct LoweredTrig {
 }
 
 impl Program {
-    /// The program in a scalar; an angle without a kernel calls a library.
+    /// The program in a scalar; an angle without a kernel calls libm.
     pub fn lower<'k>(
         &self,
         scalar: ScalarType,
@@ -59,6 +63,7 @@ impl Program {
         });
         Lowered {
             scalar,
+            library: Library::Libm,
             trig: trig.collect(),
             steps: steps.collect(),
             outputs: outputs.collect(),
@@ -75,6 +80,7 @@ impl Lowered {
         match self == other {
             true => None,
             false if self.scalar != other.scalar => Some("the scalars differ".into()),
+            false if self.library != other.library => Some("the libraries of sines differ".into()),
             false if self.trig != other.trig => Some("the sines and cosines differ".into()),
             false if self.steps.len() != other.steps.len() => {
                 Some("the number of operations differs".into())
@@ -92,11 +98,26 @@ impl Lowered {
         }
     }
 
-    /// The same with a library's sines instead of polynomials: what rounding
-    /// costs the rest.
+    /// The same with another library for the angles that call one. One that
+    /// takes all angles together is called after what is computed alone.
+    #[must_use]
+    pub fn calling(mut self, library: Library) -> Lowered {
+        let calls = |trig: &LoweredTrig| trig.kernel.is_none();
+        if self.trig.iter().any(calls) {
+            self.library = library;
+        }
+        if self.library == Library::Together {
+            self.trig.sort_by_key(calls);
+        }
+        self
+    }
+
+    /// The same with libm's sines instead of all others: what rounding costs
+    /// the rest.
     #[must_use]
     pub fn with_libm(&self) -> Lowered {
         let mut other = self.clone();
+        other.library = Library::Libm;
         for trig in &mut other.trig {
             trig.kernel = None;
         }
@@ -138,6 +159,7 @@ mod tests {
         };
         Lowered {
             scalar: ScalarType::F64,
+            library: Library::Libm,
             trig: Vec::new(),
             steps: vec![
                 step(
@@ -160,8 +182,12 @@ mod tests {
     #[test]
     fn another_program_differs() {
         type Change = (fn(&mut Lowered), &'static str);
-        let changes: [Change; 6] = [
+        let changes: [Change; 7] = [
             (|c| c.scalar = ScalarType::F32, "the scalars differ"),
+            (
+                |c| c.library = Library::Together,
+                "the libraries of sines differ",
+            ),
             (
                 |c| c.steps[0].right = Operand::Constant(Literal(-0.0)),
                 "operation t1 differs",

@@ -14,10 +14,13 @@ pub trait Machine: Divide + Copy {
     fn cos(self) -> Self;
     /// Both at once.
     fn sincos(self) -> (Self, Self);
+    /// Both, where the code calls for all angles together: an angle's bits do
+    /// not depend on the others.
+    fn together(self) -> (Self, Self);
 }
 
 macro_rules! machine {
-    ($t:ty, $sin:path, $cos:path, $sincos:path) => {
+    ($t:ty, $sin:path, $cos:path, $sincos:path, $together:path) => {
         impl Machine for $t {
             fn literal(value: f64) -> Self {
                 value as $t
@@ -34,8 +37,24 @@ macro_rules! machine {
             fn sincos(self) -> (Self, Self) {
                 $sincos(self)
             }
+            fn together(self) -> (Self, Self) {
+                let ([sin], [cos]) = $together(&[self]);
+                (sin, cos)
+            }
         }
     };
 }
-machine!(f64, libm::sin, libm::cos, libm::sincos);
-machine!(f32, libm::sinf, libm::cosf, libm::sincosf);
+machine!(
+    f64,
+    libm::sin,
+    libm::cos,
+    libm::sincos,
+    dalembert_sines::sincos
+);
+machine!(
+    f32,
+    libm::sinf,
+    libm::cosf,
+    libm::sincosf,
+    dalembert_sines::sincosf
+);

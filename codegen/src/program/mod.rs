@@ -6,6 +6,7 @@
 //! - [`counts`]: what a program costs
 //! - `lowered`: the same over literals: each constant rounded once, sines by a
 //!   library or by the polynomials of a [`kernel`]
+//! - [`library`]: who computes the sines that are called
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
 //! - [`text`]: operands and steps as plans and certificates write them
@@ -16,6 +17,7 @@ pub mod counts;
 mod evaluate;
 pub mod input;
 pub mod kernel;
+pub mod library;
 mod literal;
 mod lowered;
 pub mod machine;
@@ -31,6 +33,7 @@ use crate::function::{Argument, Function};
 pub use counts::Counts;
 pub use evaluate::evaluate;
 pub use input::{AngleSum, Input};
+pub use library::Library;
 pub use literal::Literal;
 pub use lowered::{Lowered, LoweredTrig};
 pub use scalar_type::ScalarType;

@@ -1,9 +1,9 @@
 //! Runs lowered code bit for bit: no contraction to fused
-//! multiply-add, libm's sine and cosine or the code's polynomials, the scalar's
+//! multiply-add, the library's sine and cosine or the code's polynomials, the scalar's
 //! own rounding.
 
 use super::machine::Machine;
-use super::{AngleSum, Input, Literal, Lowered, LoweredTrig, ScalarType, evaluate};
+use super::{AngleSum, Input, Library, Literal, Lowered, LoweredTrig, ScalarType, evaluate};
 use crate::function::Argument;
 use crate::states::JointState;
 
@@ -34,7 +34,7 @@ impl Lowered {
     pub fn run<T: Machine>(&self, state: State<'_, T>) -> Vec<T> {
         let mut trig = std::collections::BTreeMap::new();
         for t in &self.trig {
-            let (sin, cos) = t.pair(state.argument(Argument::Position));
+            let (sin, cos) = t.pair(self.library, state.argument(Argument::Position));
             trig.insert(Input::Sin(t.angle), sin);
             trig.insert(Input::Cos(t.angle), cos);
         }
@@ -69,13 +69,11 @@ impl Lowered {
 impl LoweredTrig {
     /// Sine and cosine as the code computes them; of one that it does not
     /// need, whatever.
-    pub(super) fn pair<T: Machine>(&self, q: &[T]) -> (T, T) {
+    pub(super) fn pair<T: Machine>(&self, library: Library, q: &[T]) -> (T, T) {
         let angle = angle_value(self.angle, q);
-        match (&self.kernel, self.sin, self.cos) {
-            (Some(kernel), ..) => kernel.run(angle),
-            (None, true, false) => (angle.sin(), angle),
-            (None, false, true) => (angle, angle.cos()),
-            (None, ..) => angle.sincos(),
+        match &self.kernel {
+            Some(kernel) => kernel.run(angle),
+            None => library.pair(angle, self.sin, self.cos),
         }
     }
 }

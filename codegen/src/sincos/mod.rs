@@ -1,4 +1,4 @@
-//! Sine and cosine by polynomials with proved errors, instead of libm.
+//! Sine and cosine by polynomials with proved errors, instead of a library.
 //!
 //! - this file: [`SinCos`], the choice; [`Sines`], the code of each angle
 //! - [`proof`]: how far a kernel is from sine and cosine
@@ -23,7 +23,7 @@ use std::fmt;
 
 use crate::bound::interval::Interval;
 use crate::program::kernel::Kernel;
-use crate::program::{AngleSum, Program, ScalarType, Trig};
+use crate::program::{AngleSum, Library, Program, ScalarType, Trig};
 use choose::Candidates;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::{JointKind, Position, Robot};
@@ -34,9 +34,13 @@ use proof::Errors;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum SinCos {
-    /// By polynomials where a scene's tolerance admits them, else from libm.
+    /// By polynomials where a scene's tolerance admits them, else from the
+    /// library of the way in.
     #[default]
     Auto,
+    /// All angles of a function together, by `dalembert-sines`: good for every
+    /// angle, and vectors of them at a time up to 8192 rad (f32: 100).
+    Together,
     /// From libm, good for every angle.
     Libm,
     /// By polynomials over the joints' ranges. The code needs no libm then,
@@ -54,12 +58,23 @@ impl SinCos {
     pub const ERROR: f64 = 1e-6;
 
     /// The words that users have for it.
-    pub const NAMES: [&str; 3] = ["auto", "libm", "polynomial"];
+    pub const NAMES: [&str; 4] = ["auto", "together", "libm", "polynomial"];
+
+    /// The library of what is called, where `auto` is this one.
+    pub fn library(self, auto: Library) -> Library {
+        match self {
+            SinCos::Auto => auto,
+            SinCos::Together => Library::Together,
+            // Polynomials call nothing.
+            SinCos::Libm | SinCos::Polynomial { .. } => Library::Libm,
+        }
+    }
 
     /// By its word; the error is left open.
     pub fn from_name(name: &str) -> Option<SinCos> {
         match name {
             "auto" => Some(SinCos::Auto),
+            "together" => Some(SinCos::Together),
             "libm" => Some(SinCos::Libm),
             "polynomial" => Some(SinCos::Polynomial { error: None }),
             _ => None,
@@ -83,7 +98,7 @@ pub struct AngleKernel {
 }
 
 /// The code of a program's angles, one each, in the order of
-/// [`Program::trig`]; none if they are libm's.
+/// [`Program::trig`]; none if they are a library's.
 pub type Sines = Vec<AngleKernel>;
 
 /// A wanted error that no polynomial reaches.
@@ -247,7 +262,7 @@ fn one(
     }
 }
 
-/// The polynomials of one scalar; none if its sines are libm's.
+/// The polynomials of one scalar; none if its sines are a library's.
 pub fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
     let found = all.iter().find(|(known, _)| *known == scalar);
     found.map_or(&[], |(_, sines)| sines)

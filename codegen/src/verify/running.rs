@@ -7,7 +7,7 @@
 //! - of x ± y: e_x + e_y + u·|x ± y|
 //! - of x·y: |x|·e_y + |y|·e_x + e_x·e_y + u·|x·y| + η
 //! - of x/y: (e_x + |x/y|·e_y)/(|y| − e_y) + u·|x/y| + η, nothing if e_y ≥ |y|
-//! - of a constant: u·|c| + η, once; of libm's sine 2u·|s|, and what its angle
+//! - of a constant: u·|c| + η, once; of a library's sine 2u·|s|, and what its angle
 //!   is off where that is a sum
 //! - of a polynomial's sine: the error that was proved
 //!
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use crate::program::ScalarType;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
-use crate::program::{AngleSum, Input};
+use crate::program::{AngleSum, Input, Library};
 use crate::program::{Operand, Operation, Program};
 use crate::sincos::AngleKernel;
 use crate::states::JointState;
@@ -36,26 +36,29 @@ struct Bounded<T> {
 pub fn errors(
     program: &Program,
     scalar: ScalarType,
+    library: Library,
     sines: &[AngleKernel],
     state: &JointState,
 ) -> Vec<f64> {
     match scalar {
-        ScalarType::F64 => Run::<f64>::new(scalar, state).errors(program, sines),
-        ScalarType::F32 => Run::<f32>::new(scalar, state).errors(program, sines),
+        ScalarType::F64 => Run::<f64>::new(scalar, library, state).errors(program, sines),
+        ScalarType::F32 => Run::<f32>::new(scalar, library, state).errors(program, sines),
     }
 }
 
 struct Run<'s, T> {
     scalar: ScalarType,
+    library: Library,
     state: &'s JointState,
     q: Vec<T>,
     trig: BTreeMap<Input, Bounded<T>>,
 }
 
 impl<'s, T: Machine> Run<'s, T> {
-    fn new(scalar: ScalarType, state: &'s JointState) -> Self {
+    fn new(scalar: ScalarType, library: Library, state: &'s JointState) -> Self {
         Run {
             scalar,
+            library,
             state,
             q: state.q.iter().map(|&x| T::literal(x)).collect(),
             trig: BTreeMap::new(),
@@ -95,7 +98,7 @@ impl<'s, T: Machine> Run<'s, T> {
         let moved = 1.01 * angle.additions() as f64 * u * reach;
         let ((sin, cos), [sin_error, cos_error]) = match own {
             None => {
-                let pair = computed.sincos();
+                let pair = self.library.pair(computed, true, true);
                 // Within one ulp, and twice that to be generous.
                 (
                     pair,

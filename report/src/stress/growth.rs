@@ -40,7 +40,7 @@ pub fn measure(n: usize, request: &Request) -> Result<Growth, GenerateError> {
     let request = Request {
         functions: vec![Function::InverseDynamics],
         scalars: vec![ScalarType::F64],
-        math: MathPath("super::math".into()),
+        math: MathPath::libm("super::math"),
         ..request.clone()
     };
     let begin = Instant::now();

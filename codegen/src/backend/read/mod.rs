@@ -3,6 +3,7 @@
 //! - this file: what a text says, and whether it is the program
 //! - `reader`: the statements, line by line
 //! - `sines`: sines and cosines as polynomials
+//! - `together`: sines and cosines that one call gives
 //! - `part`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
 
@@ -10,11 +11,12 @@ mod part;
 mod reader;
 mod result;
 mod sines;
+mod together;
 
 use std::fmt;
 
 use crate::function::Function;
-use crate::program::{Lowered, Program, ScalarType};
+use crate::program::{Library, Lowered, Program, ScalarType};
 use crate::sincos::AngleKernel;
 use reader::Reader;
 
@@ -88,15 +90,29 @@ impl Lowered {
 
     /// Compares with the program and its sines, in the text's scalar: every
     /// operation, every literal with its exact value rounded once, polynomials
-    /// literal by literal; angles that are not among `sines` are libm's.
-    pub fn matches(&self, program: &Program, sines: &[AngleKernel]) -> Result<(), String> {
+    /// literal by literal; angles that are not among `sines` are the library's.
+    pub fn matches(
+        &self,
+        program: &Program,
+        library: Library,
+        sines: &[AngleKernel],
+    ) -> Result<(), String> {
         let kernel = |angle| {
             let found = sines.iter().find(|sine| sine.angle == angle);
             found.map(|sine| &sine.kernel)
         };
-        match self.difference(&program.lower(self.scalar, kernel)) {
+        match self.difference(&program.lower(self.scalar, kernel).calling(library)) {
             None => Ok(()),
             Some(difference) => Err(difference),
         }
     }
+}
+
+/// i of `name[i]`.
+fn index_of(word: &str, name: &str) -> Option<usize> {
+    word.strip_prefix(name)?
+        .strip_prefix('[')?
+        .strip_suffix(']')?
+        .parse()
+        .ok()
 }

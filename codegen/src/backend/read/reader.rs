@@ -1,19 +1,22 @@
 //! The statements of an emitted function, line by line.
 
+use crate::backend::read::index_of;
 use crate::backend::read::part::Wrap;
 use crate::backend::read::sines::Block;
+use crate::backend::read::together;
 use crate::function::Argument;
 use crate::program::text::input_name;
 use crate::program::{
-    AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, Operation, Output, ScalarType, Step,
+    AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output,
+    ScalarType, Step,
 };
 
 /// Reads one function.
 pub(super) struct Reader {
     scalar: ScalarType,
     program: Lowered,
-    /// The sum of angles that the line before formed.
-    sum: Option<AngleSum>,
+    /// The sums of angles that lines before formed, and that none has read.
+    sums: Vec<AngleSum>,
     /// The block or part that is open.
     wrap: Wrap,
     /// The polynomials of an angle that are open.
@@ -26,11 +29,12 @@ impl Reader {
             scalar,
             program: Lowered {
                 scalar,
+                library: Library::Libm,
                 trig: Vec::new(),
                 steps: Vec::new(),
                 outputs: Vec::new(),
             },
-            sum: None,
+            sums: Vec::new(),
             wrap: Wrap::default(),
             sines: None,
         }
@@ -45,7 +49,7 @@ impl Reader {
             }
             return Ok(true);
         }
-        self.sines = Block::begin(line, &mut self.sum);
+        self.sines = Block::begin(line, &mut self.sums);
         if self.sines.is_some() {
             return Ok(true);
         }
@@ -99,18 +103,27 @@ impl Reader {
         if sum.to_string() != name {
             return Err(format!("`a{name}` is the sum {sum}"));
         }
-        self.sum = Some(sum);
+        self.sums.push(sum);
         Ok(())
     }
 
     fn trig(&mut self, name: &str, value: &str) -> Result<(), String> {
+        if self.program.library == Library::Together {
+            return Err("a call after that of all angles together".into());
+        }
+        let together = together::read(name, value, self.scalar, &mut self.sums);
+        if let Some(called) = together {
+            self.program.trig.extend(called?);
+            self.program.library = Library::Together;
+            return Ok(());
+        }
         let (path, argument) = value.split_once('(').ok_or("no call")?;
         let argument = argument.strip_suffix(')').ok_or("no `)`")?;
         let angle = match index_of(argument, "q") {
             Some(joint) => AngleSum::joint(joint),
             None => self
-                .sum
-                .take()
+                .sums
+                .pop()
                 .filter(|sum| argument == format!("a{sum}"))
                 .ok_or_else(|| format!("`{argument}` is no angle"))?,
         };
@@ -172,6 +185,9 @@ impl Reader {
         if !self.wrap.is_none() || self.sines.is_some() {
             return Err("a block does not end".into());
         }
+        if let Some(sum) = self.sums.first() {
+            return Err(format!("nothing reads `a{sum}`"));
+        }
         for word in items {
             // A negative literal is a literal; a negated value is negated.
             let output = match word.strip_prefix('-') {
@@ -185,13 +201,4 @@ impl Reader {
         }
         Ok(self.program)
     }
-}
-
-/// i of `name[i]`.
-fn index_of(word: &str, name: &str) -> Option<usize> {
-    word.strip_prefix(name)?
-        .strip_prefix('[')?
-        .strip_suffix(']')?
-        .parse()
-        .ok()
 }

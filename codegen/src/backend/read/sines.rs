@@ -18,7 +18,7 @@ pub(super) struct Block {
 impl Block {
     /// The block that a line opens, if it is one: `let (s1, c1) = {`. A sum
     /// of angles is the one that the line before formed.
-    pub(super) fn begin(line: &str, sum: &mut Option<AngleSum>) -> Option<Block> {
+    pub(super) fn begin(line: &str, sums: &mut Vec<AngleSum>) -> Option<Block> {
         let names = line.strip_prefix("let ")?.strip_suffix(" = {")?;
         let pair = names.strip_prefix('(').and_then(|n| n.strip_suffix(')'));
         let (sin, cos) = match pair {
@@ -37,7 +37,7 @@ impl Block {
             let (joint, _) = angle.terms().next()?;
             format!("q[{joint}]")
         } else {
-            sum.take().filter(|sum| *sum == angle)?;
+            sums.pop_if(|sum| *sum == angle)?;
             format!("a{angle}")
         };
         Some(Block {

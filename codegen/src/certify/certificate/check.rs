@@ -108,7 +108,7 @@ impl Certificate {
 
     /// The text is what the one function that prints makes of the claim.
     fn check_text(&self) -> Result<(), Refuted> {
-        let expected = printed(&self.emitted, self.scalar, &self.sines);
+        let expected = printed(&self.emitted, self.scalar, self.library, &self.sines);
         if self.text == expected {
             return Ok(());
         }

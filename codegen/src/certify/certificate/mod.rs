@@ -56,20 +56,18 @@ use crate::bound::Split;
 use crate::bound::interval::Interval;
 use crate::certify::sensitivity::Fineness;
 use crate::plan::SceneKey;
-use crate::program::{Program, ScalarType};
+use crate::program::{Library, Program, ScalarType};
 use crate::scene::Setting;
 use crate::sincos::{AngleKernel, Sines};
 use crate::verify::exact::Proof;
 pub use refuted::{Refuted, WrongInput};
 pub use run::Ran;
-use subject::Subject;
+use subject::{Subject, printed};
 pub use work::TooMuch;
 
-/// What a bound rests on besides arithmetic. The second is none where sines are
-/// polynomials: their errors are proved.
-pub const ASSUMPTIONS: [&str; 4] = [
+/// What every bound rests on besides arithmetic.
+const ASSUMPTIONS: [&str; 3] = [
     "every operation is rounded to nearest: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products",
-    "sin and cos are libm's, within one ulp",
     "no operation is contracted to a fused multiply-add",
     "positions, velocities and accelerations are the scalar's numbers inside the box",
 ];
@@ -105,8 +103,10 @@ pub struct Certificate {
     pub emitted: Program,
     /// The function as printed.
     pub text: String,
+    /// Who computes its sines, unless polynomials do.
+    pub library: Library,
     /// The polynomials for its sines, with what is claimed of each; none if
-    /// they are libm's.
+    /// they are the library's.
     pub sines: Sines,
     /// E of each output.
     pub bounds: Vec<Split>,
@@ -207,6 +207,30 @@ impl Certificate {
             lambda_min: subject.least_eigenvalue(self.scalar),
             ..subject.claim(self.scalar, bounds)
         }
+    }
+
+    /// The same claim about the text that calls this library: every bound takes
+    /// its sines to be within one ulp, and whose they are is all the same.
+    #[must_use]
+    pub fn calling(&self, library: Library) -> Certificate {
+        if !self.sines.is_empty() {
+            return self.clone();
+        }
+        Certificate {
+            library,
+            text: printed(&self.emitted, self.scalar, library, &self.sines),
+            ..self.clone()
+        }
+    }
+
+    /// What its bounds rest on besides arithmetic. Where sines are polynomials,
+    /// nothing is taken for granted of them: their errors are proved.
+    pub fn assumptions(&self) -> Vec<&'static str> {
+        let mut all = ASSUMPTIONS.to_vec();
+        if self.sines.is_empty() {
+            all.insert(1, self.library.assumption());
+        }
+        all
     }
 
     fn subject<'a>(

@@ -11,7 +11,7 @@ use crate::certify::definite::least_eigenvalue_with;
 use crate::certify::input_box::InputBox;
 use crate::certify::sensitivity::{Fineness, Sensitivity};
 use crate::plan::{SceneKey, input_hash};
-use crate::program::{Program, ScalarType, has_inertia};
+use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::Setting;
 use crate::sincos::{self, AngleKernel, Sines};
 
@@ -93,7 +93,8 @@ impl Subject<'_> {
                 stages => stages.to_vec(),
             },
             emitted: self.emitted.clone(),
-            text: printed(self.emitted, scalar, self.sines(scalar)),
+            text: printed(self.emitted, scalar, Library::Libm, self.sines(scalar)),
+            library: Library::Libm,
             sines: self.sines(scalar).to_vec(),
             bounds,
             lambda_min: None,
@@ -113,6 +114,11 @@ pub(super) fn changes_inertia(stages: &[Stage], emitted: &Program, sines: &[Angl
 }
 
 /// The text of a claim: a program and its sines, printed by themselves.
-pub(super) fn printed(program: &Program, scalar: ScalarType, sines: &[AngleKernel]) -> String {
-    function::with_sines(program, scalar, &MathPath::default(), sines, &[])
+pub(super) fn printed(
+    program: &Program,
+    scalar: ScalarType,
+    library: Library,
+    sines: &[AngleKernel],
+) -> String {
+    function::with_sines(program, scalar, &MathPath::of(library), sines, &[])
 }

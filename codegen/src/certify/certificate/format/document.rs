@@ -8,12 +8,11 @@ use super::program::{Listing, StageListing};
 use super::{Ends, VERSION};
 use crate::bound::Split;
 use crate::bound::interval::Interval;
-use crate::certify::certificate::{ASSUMPTIONS, Certificate, METHOD};
+use crate::certify::certificate::{Certificate, METHOD};
 use crate::certify::input_box::InputBox;
 use crate::function::{Argument, Function};
 use crate::plan::SceneKey;
-use crate::program::Program;
-use crate::program::ScalarType;
+use crate::program::{Library, Program, ScalarType};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
@@ -84,8 +83,7 @@ impl Document {
             bounds.map(|bound| Number(part(bound))).collect()
         };
         let scene = certificate.scene.as_ref();
-        let libm = certificate.sines.is_empty();
-        let assumptions = ASSUMPTIONS.iter().enumerate();
+        let assumptions = certificate.assumptions();
         Document {
             certificate: VERSION,
             robot: certificate.robot.clone(),
@@ -97,10 +95,7 @@ impl Document {
             arguments: emitted.arguments.iter().map(|a| a.name().into()).collect(),
             scalar: certificate.scalar.name().into(),
             method: METHOD.into(),
-            assumptions: assumptions
-                .filter(|(index, _)| *index != 1 || libm)
-                .map(|(_, text)| (*text).into())
-                .collect(),
+            assumptions: assumptions.into_iter().map(String::from).collect(),
             position: ends(&limits.position),
             velocity: ends(&limits.velocity),
             acceleration: ends(&limits.acceleration),
@@ -173,10 +168,20 @@ impl Document {
             stages,
             emitted,
             text: self.text.clone(),
+            library: self.library(),
             sines: sines.collect::<Result<_, String>>()?,
             bounds: self.bounds()?,
             lambda_min: self.lambda_min,
         })
+    }
+
+    /// The library whose assumption is stated.
+    fn library(&self) -> Library {
+        let stated = |library: &Library| {
+            let words = library.assumption();
+            self.assumptions.iter().any(|stated| stated == words)
+        };
+        Library::ALL.into_iter().find(stated).unwrap_or_default()
     }
 
     /// A program of this function, with nothing in it.

@@ -1,0 +1,39 @@
+//! Who computes the sines and cosines that code calls.
+
+use super::machine::Machine;
+
+/// Who computes the sines and cosines that emitted code calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Library {
+    /// libm, an angle a call.
+    #[default]
+    Libm,
+    /// `dalembert-sines`, all angles of a function in one call.
+    Together,
+}
+
+impl Library {
+    /// Both.
+    pub const ALL: [Library; 2] = [Library::Libm, Library::Together];
+
+    /// What bounds rest on where its sines are called.
+    pub fn assumption(self) -> &'static str {
+        match self {
+            Library::Libm => "sin and cos are libm's, within one ulp",
+            Library::Together => {
+                "sin and cos are dalembert-sines', within one ulp: proved up to 8192 rad (f32: 100), \
+                 libm's beyond"
+            }
+        }
+    }
+
+    /// Sine and cosine as it computes them, to the last bit.
+    pub fn pair<T: Machine>(self, angle: T, sin: bool, cos: bool) -> (T, T) {
+        match (self, sin, cos) {
+            (Library::Together, ..) => angle.together(),
+            (Library::Libm, true, false) => (angle.sin(), angle),
+            (Library::Libm, false, true) => (angle, angle.cos()),
+            (Library::Libm, ..) => angle.sincos(),
+        }
+    }
+}

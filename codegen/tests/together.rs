@@ -1,0 +1,104 @@
+//! Generated functions that call for all their angles at once: the same
+//! program, one line of text apart, and certified with the same bounds.
+
+mod support;
+
+use dalembert_codegen::backend::MathPath;
+use dalembert_codegen::certify::certificate::{Refuted, format};
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::program::Library;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::states::seeded;
+use dalembert_model::robot::Robot;
+
+fn with(robot: &Robot, library: Library, sincos: SinCos) -> Generated {
+    let request = Request {
+        functions: vec![Function::InverseDynamics, Function::Inertia],
+        sincos,
+        math: MathPath::of(library),
+        ..Request::default()
+    };
+    generate(robot, &request).unwrap()
+}
+
+/// Lines that are in one text only.
+fn different<'a>(text: &'a str, other: &str) -> Vec<&'a str> {
+    let others: Vec<&str> = other.lines().collect();
+    let lines = text.lines();
+    lines.filter(|line| !others.contains(line)).collect()
+}
+
+/// Planar arms add angles, the Stanford arm slides. But for the lines that
+/// call, the text is the same; results differ by what an ulp of a sine brings.
+#[test]
+fn only_the_calls_differ() {
+    for name in ["planar3r", "stanford"] {
+        let robot = support::robot(name);
+        let alone = with(&robot, Library::Libm, SinCos::Libm);
+        let together = with(&robot, Library::Together, SinCos::Together);
+        assert!(!together.text.contains("libm"));
+        let calls = different(&together.text, &alone.text);
+        assert!(
+            calls
+                .iter()
+                .all(|line| line.contains(") = dalembert_sines::sincos"))
+        );
+        // Two functions in two scalars.
+        assert_eq!(together.text.matches("dalembert_sines::sincos").count(), 4);
+        let others = different(&alone.text, &together.text);
+        assert!(others.iter().all(|line| line.contains(" = libm::")));
+        for (text, other) in alone.emitted.iter().zip(&together.emitted) {
+            assert_eq!(text.text.counts(), other.text.counts());
+            assert_eq!(other.text.library, Library::Together);
+            for state in seeded(&robot, 50, 5) {
+                let (a, b) = (text.run(&state), other.run(&state));
+                let size = a.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+                let u = text.scalar.unit_roundoff();
+                let off = a.iter().zip(&b).map(|(a, b)| (a - b).abs());
+                assert!(off.fold(0.0, f64::max) <= 200.0 * u * size, "{name}");
+            }
+        }
+    }
+}
+
+/// A certificate says whose sines it is about, and the file of one is not that
+/// of the other.
+#[test]
+fn certificates_name_the_library() {
+    let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\
+                 tolerance = { value = 1e-9, relative_to = \"range\" }\nscalar = \"f64\"\n";
+    let reading = support::reading_with("planar2r", scene);
+    let setting = Setting::new(&reading.robot, &reading.scenes[0]).unwrap();
+    let request = Request {
+        sincos: SinCos::Together,
+        math: MathPath::of(Library::Together),
+        ..Request::default().in_scene(&reading.scenes[0])
+    };
+    let generated = generate(&reading.robot, &request).unwrap();
+    assert!(generated.text.contains("dalembert_sines::sincos(&["));
+    let admitted = generated.functions[0].admitted.as_ref().unwrap();
+    let certificate = &admitted.certificates[0];
+    assert_eq!(certificate.library, Library::Together);
+    certificate.check_in(&setting).unwrap();
+    let json = certificate.to_json();
+    assert!(json.contains("dalembert-sines") && !json.contains("libm's, within"));
+    assert_eq!(
+        format::read(&json).unwrap(),
+        std::slice::from_ref(certificate)
+    );
+
+    let alone = certificate.calling(Library::Libm);
+    alone.check_in(&setting).unwrap();
+    assert_eq!(alone.bounds, certificate.bounds);
+    let mixed = dalembert_codegen::certify::certificate::Certificate {
+        text: alone.text.clone(),
+        ..certificate.clone()
+    };
+    let refused = mixed.check_in(&setting);
+    assert!(
+        matches!(refused, Err(Refuted::Text { line: 3, .. })),
+        "{refused:?}"
+    );
+}

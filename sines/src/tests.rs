@@ -1,0 +1,179 @@
+//! The numbers that the proof in the crate's documentation takes, from exact
+//! arithmetic: constants, the polynomials' errors, and how near angles come to
+//! multiples of π/2.
+
+extern crate std;
+
+use dalembert_model::number::{Angle as Turn, Rational, Rounded};
+use std::vec::Vec;
+
+use crate::angle::{Angle, singly, together};
+use crate::{double, single};
+
+fn exact(x: f64) -> Rational {
+    Rational::from_float(x).unwrap()
+}
+
+fn whole(n: u64) -> Rational {
+    Rational::from_integer(n.into())
+}
+
+fn magnitude(x: Rational) -> Rational {
+    if x < whole(0) { -x } else { x }
+}
+
+/// log₂ of a positive number.
+fn bits(x: &Rational) -> f64 {
+    f64::nearest_rational(x).log2()
+}
+
+fn quarter() -> Rational {
+    Turn::right_angles(1).radians()
+}
+
+/// An upper bound of |Σ c_k z^k| over 0 ≤ z ≤ top: the polynomial is written
+/// about the middle of each of many pieces, where the sum of its coefficients'
+/// magnitudes is next to its largest value.
+fn largest(coefficients: &[Rational], top: &Rational, pieces: u64) -> Rational {
+    let radius = top / whole(2 * pieces);
+    let piece = |index: u64| {
+        let centre = &radius * whole(2 * index + 1);
+        let mut shifted = coefficients.to_vec();
+        for from in 0..shifted.len() {
+            for k in (from..shifted.len() - 1).rev() {
+                shifted[k] = &shifted[k] + &shifted[k + 1] * &centre;
+            }
+        }
+        let terms = shifted.into_iter().rev();
+        terms.fold(whole(0), |sum, c| sum * &radius + magnitude(c))
+    };
+    (0..pieces).map(piece).max().unwrap()
+}
+
+/// Taylor's coefficients 1/first!, −1/(first + 2)!, …, and a bound of what the
+/// others add where r² ≤ 1.
+fn taylor(first: u64, terms: u64) -> (Vec<Rational>, Rational) {
+    let factorial = |n: u64| (1..=n).fold(whole(1), |product, k| product * whole(k));
+    let term = |k: u64| {
+        let size = whole(1) / factorial(first + 2 * k);
+        if k.is_multiple_of(2) { size } else { -size }
+    };
+    let rest = whole(1) / factorial(first + 2 * terms);
+    ((0..terms).map(term).collect(), rest)
+}
+
+/// The error of a polynomial p against (r − sin r)/r³ = 1/3! − r²/5! + … or
+/// (cos r − 1 + r²/2)/r⁴ = 1/4! − r²/6! + …, times r^power: a bound in bits.
+fn error(polynomial: &[f64], first: u64, power: usize, reach: f64) -> f64 {
+    let (mut difference, rest) = taylor(first, 11);
+    for (d, c) in difference.iter_mut().zip(polynomial) {
+        *d -= exact(*c);
+    }
+    // Over z = r²: times z^(power/2).
+    let zeros = std::vec![whole(0); power / 2];
+    let difference: Vec<Rational> = zeros.into_iter().chain(difference).collect();
+    let top = exact(reach) * exact(reach);
+    bits(&(largest(&difference, &top, 64) + rest))
+}
+
+/// Of the sine, r²·Δp over sin r/r ≥ 0.9003 is the relative error; of the cosine
+/// r⁴·Δp is the absolute one.
+#[test]
+fn polynomials_are_as_near_as_stated() {
+    let single_sine = single::SINE.map(f64::from);
+    let single_cosine = single::COSINE.map(f64::from);
+    let least = (0.78545f64.sin() / 0.78545).log2();
+    for (what, found, stated) in [
+        ("sine", error(&double::SINE, 3, 2, 0.78541) - least, -57.6),
+        ("cosine", error(&double::COSINE, 4, 4, 0.78541), -63.9),
+        (
+            "sine of f32",
+            error(&single_sine, 3, 2, 0.78545) - least,
+            -27.6,
+        ),
+        ("cosine of f32", error(&single_cosine, 4, 4, 0.78545), -32.9),
+    ] {
+        std::println!("{what}: 2^{found:.2}");
+        assert!(found < stated, "{what}: 2^{found}");
+        // A bound far below would be one of another polynomial.
+        assert!(found > stated - 0.5, "{what}: 2^{found}");
+    }
+}
+
+/// The largest count of quarter turns.
+fn counts(largest: f64) -> u64 {
+    (largest / core::f64::consts::FRAC_PI_2).round() as u64
+}
+
+/// Significant bits of a number.
+fn width(x: f64) -> u32 {
+    let significand = (x.to_bits() & ((1 << 52) - 1)) | 1 << 52;
+    53 - significand.trailing_zeros()
+}
+
+/// A count times a part of π/2 is exact in the scalar, and the parts are π/2.
+#[test]
+fn the_parts_are_of_a_quarter_turn() {
+    let singles = f32::QUARTER.map(f64::from);
+    let most = [counts(f64::LARGEST), counts(f32::LARGEST.into())];
+    assert_eq!(most, [5215, 64]);
+    for (parts, digits, most, missing) in [
+        (f64::QUARTER, 53, most[0], -134.9),
+        (singles, 24, most[1], -63.3),
+    ] {
+        for part in &parts[..2] {
+            // No part is negative: what is left of -0 is -0.
+            let widest = (1..=most).map(|k| width(k as f64 * part)).max();
+            assert!(*part > 0.0 && widest <= Some(digits), "{part:e}");
+            assert!(width(*part) + most.ilog2() <= 53, "{part:e}");
+        }
+        let sum = parts.iter().fold(whole(0), |sum, part| sum + exact(*part));
+        let found = bits(&magnitude(quarter() - sum));
+        assert!(found < missing && found > missing - 0.5, "2^{found}");
+    }
+}
+
+/// How near floats come to a multiple of π/2, by all multiples.
+#[test]
+fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
+    let nearest = |most: u64, round: fn(&Rational) -> f64| {
+        let distance = |k: u64| {
+            let angle = quarter() * whole(k);
+            magnitude(exact(round(&angle)) - angle)
+        };
+        bits(&(1..=most).map(distance).min().unwrap())
+    };
+    let double = nearest(counts(f64::LARGEST) + 1, f64::nearest_rational);
+    let single = nearest(counts(f32::LARGEST.into()) + 1, |x| {
+        f32::nearest_rational(x).into()
+    });
+    assert!((-60.49..-60.48).contains(&double), "{double}");
+    assert!((-26.33..-26.32).contains(&single), "{single}");
+}
+
+/// Which of the two is taken is a matter of time alone: whole vectors, a rest,
+/// unusual angles among others.
+#[test]
+fn lanes_and_single_angles_have_the_same_bits() {
+    let mut bits = 1u64;
+    for round in 0..500 {
+        let angles: [f64; 21] = core::array::from_fn(|_| {
+            bits = bits
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            let unit = (bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
+            match round % 4 {
+                0 => f64::from_bits(bits),
+                1 => unit * 4.0 * f64::LARGEST,
+                _ => unit * 7.0,
+            }
+        });
+        let singles = angles.map(|x| x as f32);
+        let (a, b) = (singly(&angles), together(&angles));
+        assert_eq!(a.0.map(f64::to_bits), b.0.map(f64::to_bits), "{angles:?}");
+        assert_eq!(a.1.map(f64::to_bits), b.1.map(f64::to_bits), "{angles:?}");
+        let (a, b) = (singly(&singles), together(&singles));
+        assert_eq!(a.0.map(f32::to_bits), b.0.map(f32::to_bits), "{singles:?}");
+        assert_eq!(a.1.map(f32::to_bits), b.1.map(f32::to_bits), "{singles:?}");
+    }
+}

@@ -1,0 +1,175 @@
+//! The error in ulps: of f64 against pairs of doubles, of f32 against libm's
+//! f64, whose error is 2⁻²⁸ ulp of f32.
+//!
+//! Some points always; a hundred million, and every f32, with
+//! `cargo test --release -p dalembert-sines -- --ignored --nocapture`.
+
+mod reference;
+
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+use dalembert_sines::{LARGEST, LARGEST_F32, sincos, sincosf};
+use reference::{Reference, ulp, ulps};
+
+/// The bounds of the documentation, of sines and cosines.
+const PROVED: [f64; 2] = [0.90, 0.85];
+
+/// So many angles are asked for at once.
+const TOGETHER: usize = 8;
+
+/// Numbers in [0, 1), by Vigna's splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// The worst of sines and cosines so far, and where.
+#[derive(Clone, Copy, Default)]
+struct Worst {
+    sin: (f64, f64),
+    cos: (f64, f64),
+    points: u64,
+}
+
+impl Worst {
+    fn add(&mut self, x: f64, sin: f64, cos: f64) {
+        self.points += 1;
+        for (worst, found) in [(&mut self.sin, sin), (&mut self.cos, cos)] {
+            // Nothing is below a NaN.
+            if found > worst.0 || found.is_nan() {
+                *worst = (found, x);
+            }
+        }
+    }
+
+    fn is_as_proved(&self, what: &str) {
+        let ((sin, at), (cos, cos_at)) = (self.sin, self.cos);
+        let points = self.points;
+        println!(
+            "{what}: {points} points, sine {sin:.4} ulp at {at:e}, cosine {cos:.4} at {cos_at:e}"
+        );
+        assert!(sin <= PROVED[0] && cos <= PROVED[1], "{what}");
+    }
+}
+
+/// Measures f64 at these points.
+fn doubles(what: &str, points: impl Iterator<Item = f64>) {
+    let (reference, mut worst) = (Reference::new(), Worst::default());
+    let mut points = points.filter(|x| x.abs() <= LARGEST).peekable();
+    while points.peek().is_some() {
+        let x: [f64; TOGETHER] = std::array::from_fn(|_| points.next().unwrap_or_default());
+        let (sin, cos) = sincos(&x);
+        for (x, (sin, cos)) in x.into_iter().zip(sin.into_iter().zip(cos)) {
+            let (true_sin, true_cos) = reference.sincos(x);
+            worst.add(x, ulps(sin, true_sin), ulps(cos, true_cos));
+        }
+    }
+    worst.is_as_proved(what);
+}
+
+/// So many neighbours of every multiple of π/4 on both sides: where the rest is
+/// small, and where it changes its quarter turn.
+fn near_quarters(neighbours: u64) -> impl Iterator<Item = f64> {
+    (1..=10430u64).flat_map(move |k| {
+        let middle = (k as f64 * core::f64::consts::FRAC_PI_4).to_bits();
+        (middle - neighbours..=middle + neighbours).map(f64::from_bits)
+    })
+}
+
+fn within(reach: f64, points: u64, seed: u64) -> impl Iterator<Item = f64> {
+    let mut random = Random(seed);
+    (0..points).map(move |_| (2.0 * random.unit() - 1.0) * reach)
+}
+
+/// Of every size from 2⁻⁴⁰ on.
+fn of_every_size(points: u64) -> impl Iterator<Item = f64> {
+    let mut random = Random(7);
+    let (least, most) = ((-40f64).exp2().to_bits(), LARGEST.to_bits());
+    (0..points).map(move |_| f64::from_bits(least + random.bits() % (most - least)))
+}
+
+fn measure_doubles(points: u64, neighbours: u64) {
+    doubles("half a turn either way", within(3.2, points, 1));
+    doubles("a quarter of it", within(0.8, points / 4, 2));
+    doubles("the whole range", within(LARGEST, points / 4, 3));
+    doubles("every size", of_every_size(points / 4));
+    doubles("next to multiples of pi/4", near_quarters(neighbours));
+}
+
+/// Measures these f32, by their bits; and that −x has the same bits but for the
+/// sine's sign.
+fn singles(bits: impl Iterator<Item = u32>) {
+    let (mut worst, mut bits) = (Worst::default(), bits.peekable());
+    while bits.peek().is_some() {
+        let x: [f32; TOGETHER] =
+            std::array::from_fn(|_| f32::from_bits(bits.next().unwrap_or_default()));
+        let (sin, cos) = sincosf(&x);
+        let (other_sin, other_cos) = sincosf(&x.map(|x| -x));
+        assert!(sin.map(|s| (-s).to_bits()) == other_sin.map(f32::to_bits));
+        assert!(cos.map(f32::to_bits) == other_cos.map(f32::to_bits));
+        for (x, (sin, cos)) in x.into_iter().zip(sin.into_iter().zip(cos)) {
+            let (true_sin, true_cos) = libm::sincos(x.into());
+            let error = |found: f32, exact: f64| {
+                let near = (exact as f32).abs();
+                let size = f64::from(near.next_up()) - f64::from(near);
+                // Where rounding to f32 reaches the next power of two, an ulp
+                // below it is half as large.
+                let below = f64::from(near) > exact.abs() && near.to_bits().is_multiple_of(1 << 23);
+                let size = if below { size / 2.0 } else { size };
+                (f64::from(found) - exact).abs() / size
+            };
+            worst.add(x.into(), error(sin, true_sin), error(cos, true_cos));
+        }
+    }
+    worst.is_as_proved("f32");
+}
+
+#[test]
+fn some_doubles() {
+    measure_doubles(40_000, 1);
+}
+
+#[test]
+fn some_singles() {
+    singles((0..=LARGEST_F32.to_bits()).step_by(4001));
+}
+
+#[test]
+#[ignore = "a hundred million points: with --release, a minute"]
+fn a_hundred_million_doubles() {
+    measure_doubles(60_000_000, 100);
+}
+
+#[test]
+#[ignore = "a thousand million points: with --release, a minute"]
+fn every_single_in_range() {
+    singles(0..=LARGEST_F32.to_bits());
+}
+
+/// The reference is what it says, also where it is hard.
+#[test]
+fn against_the_big_float() {
+    let reference = Reference::new();
+    let hard = near_quarters(0).step_by(40).chain(within(LARGEST, 300, 4));
+    let hardest = 29.0 * core::f64::consts::FRAC_PI_2;
+    for x in hard.chain(within(1.0, 300, 5)).chain([hardest, 0.0, 1e-20]) {
+        let (sin, cos) = reference.sincos(x);
+        let (true_sin, true_cos) = Big::from_f64(x).unwrap().sin_cos();
+        for (found, exact) in [(sin, true_sin), (cos, true_cos)] {
+            let part = |x: f64| Big::from_f64(x).unwrap();
+            let error = part(found.0).add(&part(found.1)).sub(&exact).abs().to_f64();
+            assert!(error <= ulp(found.0) * (-16f64).exp2(), "{x:e}: {error:e}");
+        }
+    }
+}
