@@ -5,7 +5,7 @@ mod support;
 
 use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::function::Function;
-use dalembert_codegen::program::{Lowered, Operand, Operation, Program, ScalarType};
+use dalembert_codegen::program::{Library, Lowered, Operand, Operation, Program, ScalarType};
 use dalembert_codegen::verify::exact::{Disproof, prove};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
@@ -120,7 +120,7 @@ fn a_missing_output() {
 /// The text of a program, and whether it passes for the program.
 fn passes(program: &Program, scalar: ScalarType, text: &str) -> bool {
     Lowered::parse(text, program.function, scalar)
-        .is_ok_and(|read| read.matches(program, &[]).is_ok())
+        .is_ok_and(|read| read.matches(program, Library::Libm, &[]).is_ok())
 }
 
 #[test]
