@@ -6,12 +6,14 @@ use std::rc::Rc;
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
+use dalembert_model::outputs::Motion;
 use dalembert_model::robot::Robot;
+use dalembert_model::scalar::Scalar;
 
-use crate::function::Function;
+use crate::function::{Argument, Function};
 use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Folding, Graph};
-use crate::program::Counts;
+use crate::program::{Counts, Input};
 use crate::scene::Setting;
 
 /// A traced function.
@@ -28,12 +30,28 @@ pub fn trace(robot: &Robot, function: Function, formulation: Formulation) -> Tra
     trace_in(&Setting::whole(robot), function, formulation)
 }
 
+/// The motion of a setting in symbols. Of the arguments that are no part of a
+/// state only these are inputs: a search pairs whatever a graph has, and what
+/// nothing reads would only be in its way.
+pub fn symbols(
+    setting: &Setting,
+    arguments: &[Argument],
+    builder: &Rc<RefCell<Builder>>,
+) -> Motion<Symbol> {
+    let is_read = |argument| Argument::STATE.contains(&argument) || arguments.contains(&argument);
+    let input = |input: Input| match is_read(input.argument()) {
+        true => Symbol::input(builder, input),
+        false => Symbol::zero(),
+    };
+    setting.motion(input, |constant| Symbol::from(constant.clone()))
+}
+
 /// Runs a formulation with symbols in a setting.
 pub fn trace_in(setting: &Setting, function: Function, formulation: Formulation) -> Trace {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let constant = |constant: &Exact| Symbol::from(constant.clone());
     let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let motion = setting.motion(|input| Symbol::input(&builder, input), constant);
+    let motion = symbols(setting, &function.arguments(), &builder);
     let outputs = function.evaluate(formulation, &arm, &motion);
     let outputs: Vec<_> = setting
         .select(function, setting.joints(), outputs)

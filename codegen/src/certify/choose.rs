@@ -24,7 +24,7 @@ use super::work::Meter;
 use crate::approximate::edits::{Stage, has_edits};
 use crate::bound::Split;
 use crate::certify::sensitivity::Fineness;
-use crate::function::Argument;
+use crate::function::{Argument, Function};
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::scene::Setting;
 use crate::sincos::TooAccurate;
@@ -117,11 +117,19 @@ pub enum Unbounded {
 }
 
 impl Unbounded {
-    fn find(program: &Program) -> Option<Unbounded> {
-        let mut arguments = program.arguments.iter();
+    /// What a function is, whatever its program.
+    pub fn of(function: Function) -> Option<Unbounded> {
+        let mut arguments = function.arguments().into_iter();
         let other = arguments.find(|argument| !Argument::STATE.contains(argument));
+        match function.inverts_inertia() {
+            true => Some(Unbounded::Divides),
+            false => other.map(Unbounded::Reads),
+        }
+    }
+
+    fn find(program: &Program) -> Option<Unbounded> {
         let divides = program.divides().then_some(Unbounded::Divides);
-        divides.or(other.map(|&argument| Unbounded::Reads(argument)))
+        divides.or_else(|| Unbounded::of(program.function))
     }
 }
 

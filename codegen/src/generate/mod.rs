@@ -22,7 +22,7 @@ pub mod tolerate;
 use dalembert_model::robot::Robot;
 
 use crate::backend::read::TextError;
-pub use crate::certify::choose::Refusal;
+pub use crate::certify::choose::{Refusal, Unbounded};
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
@@ -75,6 +75,15 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     {
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });
+    }
+    let tolerance = request.scene.as_ref().and_then(|s| s.tolerance.as_ref());
+    if tolerance.is_some() {
+        // Before anything is searched for, or a limit is asked for in vain.
+        let mut unbounded = request.functions.iter();
+        let refusal = unbounded.find_map(|&f| Some((f, Unbounded::of(f)?)));
+        if let Some((function, why)) = refusal {
+            return Err(GenerateError::Tolerance(function, Refusal::Function(why)));
+        }
     }
     let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let (mut functions, scalars) = all(&setting, request)?;

@@ -23,20 +23,12 @@ use crate::graph::{Builder, Folding, Graph};
 use crate::program::{AngleSum, Counts, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
-use crate::trace::trace_in;
+use crate::trace::{symbols, trace_in};
 use crate::watch::{Part, Vigil};
 pub use start::Start;
 use tune::Tuned;
 
 pub use dalembert_model::equations::chain::Form;
-
-/// The motion of a setting in symbols.
-fn symbols(setting: &Setting, builder: &Rc<RefCell<Builder>>) -> Motion<Symbol> {
-    setting.motion(
-        |input: Input| Symbol::input(builder, input),
-        |constant| Symbol::from(constant.clone()),
-    )
-}
 
 /// A quantity that the chain formulas do not give, by the recursion in link
 /// axes.
@@ -60,7 +52,7 @@ pub fn trace_chain(
 ) -> (Graph, Counts) {
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let whole = symbols(setting, &builder);
+    let whole = symbols(setting, &function.arguments(), &builder);
     let motion = &whole.of_joints(setting.chained());
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
@@ -378,7 +370,7 @@ pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
     let chain = Chain::new(&arm, &Gauge::base(&arm));
     let groups = chain.parallel();
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let motion = symbols(setting, &builder).of_joints(setting.chained());
+    let motion = symbols(setting, &[], &builder).of_joints(setting.chained());
     let (_, at) = chain.posed(&motion.q);
     let mut outputs = Vec::new();
     for group in &groups {

@@ -1,0 +1,207 @@
+//! Motions of a frame, and what a body answers to them.
+
+use crate::equations::Link;
+use crate::equations::matrix::{
+    Vector, cross, difference, dot, opposite, plus, scaled, sum, tensor_times, zero_vector,
+};
+use crate::equations::newton_euler::Wrench;
+use crate::robot::Inertia;
+use crate::scalar::Divide;
+
+/// A velocity or acceleration of a frame: angular, and of its origin.
+#[derive(Clone, Debug)]
+pub(super) struct Motion<S> {
+    pub(super) turn: Vector<S>,
+    pub(super) shift: Vector<S>,
+}
+
+/// Rows of a 3×3 matrix.
+type Block<S> = [Vector<S>; 3];
+
+/// The articulated inertia, symmetric, in blocks: the moment is
+/// `turn`·α + `mixed`·a, the force `mixed`ᵀ·α + `shift`·a.
+#[derive(Clone, Debug)]
+pub(super) struct Articulated<S> {
+    pub(super) turn: Block<S>,
+    pub(super) mixed: Block<S>,
+    pub(super) shift: Block<S>,
+}
+
+impl<S: Divide> Motion<S> {
+    pub(super) fn rest() -> Self {
+        Motion {
+            turn: zero_vector(),
+            shift: zero_vector(),
+        }
+    }
+
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Motion {
+            turn: sum(&self.turn, &other.turn),
+            shift: sum(&self.shift, &other.shift),
+        }
+    }
+
+    /// The spatial cross product of motions.
+    pub(super) fn cross(&self, other: &Self) -> Self {
+        Motion {
+            turn: cross(&self.turn, &other.turn),
+            shift: sum(
+                &cross(&self.turn, &other.shift),
+                &cross(&self.shift, &other.turn),
+            ),
+        }
+    }
+}
+
+impl<S: Divide> Articulated<S> {
+    pub(super) fn zero() -> Self {
+        let zero = || [zero_vector(), zero_vector(), zero_vector()];
+        Articulated {
+            turn: zero(),
+            mixed: zero(),
+            shift: zero(),
+        }
+    }
+
+    /// A rigid link about its frame's origin, and V × (I V) at its velocity.
+    pub(super) fn of(link: &Link<S>, velocity: &Motion<S>) -> (Self, Wrench<S>) {
+        let (mass, com) = (&link.mass, &link.com);
+        let first = scaled(mass, com);
+        let Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        } = &link.inertia;
+        let about_centre: Block<S> =
+            [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| row.map(S::clone));
+        // I + m (s̄·s̄ 1 − s̄ s̄ᵀ) = I − [m s̄]× [s̄]×
+        let steiner = rows_crossed(&columns_crossed(&first, &unit()), com);
+        let negated = steiner.map(|row| opposite(&row));
+        let body = Articulated {
+            turn: block_sum(&about_centre, &negated),
+            mixed: columns_crossed(&first, &unit()),
+            shift: unit().map(|row| scaled(mass, &row)),
+        };
+        let Motion { turn, shift } = velocity;
+        // At the centre of mass: ω × (m v_c), and about it ω × (I ω).
+        let centre = sum(shift, &cross(turn, com));
+        let force = cross(turn, &scaled(mass, &centre));
+        let spin = cross(turn, &tensor_times(&link.inertia, turn));
+        let moment = sum(&spin, &cross(com, &force));
+        (body, Wrench { force, moment })
+    }
+
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Articulated {
+            turn: block_sum(&self.turn, &other.turn),
+            mixed: block_sum(&self.mixed, &other.mixed),
+            shift: block_sum(&self.shift, &other.shift),
+        }
+    }
+
+    pub(super) fn times(&self, motion: &Motion<S>) -> Wrench<S> {
+        let by = |block: &Block<S>, v: &Vector<S>| block.each_ref().map(|row| dot(row, v));
+        Wrench {
+            force: sum(
+                &by(&transposed(&self.mixed), &motion.turn),
+                &by(&self.shift, &motion.shift),
+            ),
+            moment: sum(
+                &by(&self.turn, &motion.turn),
+                &by(&self.mixed, &motion.shift),
+            ),
+        }
+    }
+
+    /// I − w wᵀ/d
+    pub(super) fn without(&self, push: &Wrench<S>, inverse: &S) -> Self {
+        let (force, moment) = (scaled(inverse, &push.force), scaled(inverse, &push.moment));
+        let less = |block: &Block<S>, left: &Vector<S>, right: &Vector<S>| -> Block<S> {
+            core::array::from_fn(|i| difference(&block[i], &scaled(&left[i], right)))
+        };
+        Articulated {
+            turn: less(&self.turn, &moment, &push.moment),
+            mixed: less(&self.mixed, &moment, &push.force),
+            shift: less(&self.shift, &force, &push.force),
+        }
+    }
+
+    /// Seen from axes into which vectors turn like this, about an origin from
+    /// which this one is a lever away: with p the lever
+    /// B′ = B + [p]× M, A′ = A + [p]× Bᵀ − B′ [p]×.
+    pub(super) fn carried(
+        &self,
+        turned: impl Fn(&Vector<S>) -> Vector<S>,
+        lever: &Vector<S>,
+    ) -> Self {
+        let rows = |block: &Block<S>| block.each_ref().map(&turned);
+        let both = |block: &Block<S>| transposed(&rows(&transposed(&rows(block))));
+        let [turn, mixed, shift] = [&self.turn, &self.mixed, &self.shift].map(both);
+        let mixed_there = block_sum(&mixed, &columns_crossed(lever, &shift));
+        let first = columns_crossed(lever, &transposed(&mixed));
+        let second = rows_crossed(&mixed_there, lever);
+        Articulated {
+            turn: core::array::from_fn(|i| difference(&sum(&turn[i], &first[i]), &second[i])),
+            mixed: mixed_there,
+            shift,
+        }
+    }
+}
+
+/// Nothing.
+pub(super) fn no_wrench<S: Divide>() -> Wrench<S> {
+    Wrench {
+        force: zero_vector(),
+        moment: zero_vector(),
+    }
+}
+
+/// Both together.
+pub(super) fn add<S: Divide>(a: &Wrench<S>, b: &Wrench<S>) -> Wrench<S> {
+    Wrench {
+        force: sum(&a.force, &b.force),
+        moment: sum(&a.moment, &b.moment),
+    }
+}
+
+/// A wrench times a factor.
+pub(super) fn by<S: Divide>(factor: &S, wrench: &Wrench<S>) -> Wrench<S> {
+    Wrench {
+        force: scaled(factor, &wrench.force),
+        moment: scaled(factor, &wrench.moment),
+    }
+}
+
+/// The power of a wrench on a motion.
+pub(super) fn power<S: Divide>(wrench: &Wrench<S>, motion: &Motion<S>) -> S {
+    plus(
+        &dot(&wrench.moment, &motion.turn),
+        &dot(&wrench.force, &motion.shift),
+    )
+}
+
+fn unit<S: Divide>() -> Block<S> {
+    core::array::from_fn(|i| core::array::from_fn(|k| if i == k { S::one() } else { S::zero() }))
+}
+
+fn transposed<S: Divide>(block: &Block<S>) -> Block<S> {
+    core::array::from_fn(|i| core::array::from_fn(|k| block[k][i].clone()))
+}
+
+fn block_sum<S: Divide>(a: &Block<S>, b: &Block<S>) -> Block<S> {
+    core::array::from_fn(|i| sum(&a[i], &b[i]))
+}
+
+/// [p]× M: p × each column.
+fn columns_crossed<S: Divide>(p: &Vector<S>, block: &Block<S>) -> Block<S> {
+    transposed(&transposed(block).map(|column| cross(p, &column)))
+}
+
+/// M [p]×: each row r becomes (M [p]×) = (r × p), row by row.
+fn rows_crossed<S: Divide>(block: &Block<S>, p: &Vector<S>) -> Block<S> {
+    block.each_ref().map(|row| cross(row, p))
+}

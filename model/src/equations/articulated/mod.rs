@@ -1,0 +1,106 @@
+//! Forward dynamics by articulated bodies: Featherstone, *Rigid Body Dynamics
+//! Algorithms* (2008), section 7.3, in the axes of each link's own frame, both
+//! DH conventions, rotors' inertia and viscous damping included.
+//!
+//! The articulated body i is link i with all that follows it, each joint free
+//! to move under its own torque. What it answers to an acceleration a of its
+//! frame is I a + p; the joint before gives way along its axis, and takes the
+//! part d = Sᵀ I S + armature along it out of I. Nothing is assembled or
+//! factorised: D does not occur.
+//!
+//! - `body`: motions, and what a body answers to them
+//! - `step`: from one frame to the next, through a joint
+
+mod body;
+mod step;
+
+use alloc::vec::Vec;
+
+use super::matrix::{minus, opposite, over, plus, times, zero_vector};
+use super::newton_euler::Wrench;
+use super::{Arm, DhVariables};
+use crate::scalar::Divide;
+use body::{Articulated, Motion, add, by, no_wrench, power};
+use step::Step;
+
+/// What the way out leaves for the way back.
+struct Joint<S> {
+    /// I S: what an acceleration along the joint takes.
+    push: Wrench<S>,
+    /// What is left of the torque.
+    rest: S,
+    /// 1/d; zero of a joint that is held.
+    inverse: S,
+    /// Velocity product of the joint.
+    drift: Motion<S>,
+}
+
+/// q̈ of the joints that move, zero of the others, which are held where they
+/// are.
+pub fn forward_dynamics<S: Divide>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    tau: &[S],
+    moves: &[bool],
+) -> Vec<S> {
+    let n = arm.links.len();
+    let steps: Vec<Step<'_, S>> = (0..n).map(|i| Step::new(arm, i, at)).collect();
+    // Velocities, outward.
+    let mut velocities: Vec<Motion<S>> = Vec::with_capacity(n);
+    let mut drifts = Vec::with_capacity(n);
+    let rest = Motion::rest();
+    for (i, step) in steps.iter().enumerate() {
+        let before = velocities.last().unwrap_or(&rest);
+        let own = step.along(&qd[i]);
+        let (velocity, drift) = step.outward(before, |frame| (frame.plus(&own), frame.cross(&own)));
+        velocities.push(velocity);
+        drifts.push(drift);
+    }
+    // Articulated bodies, inward.
+    let mut joints: Vec<Joint<S>> = Vec::with_capacity(n);
+    let mut body = Articulated::zero();
+    let mut bias = no_wrench();
+    for (i, drift) in drifts.into_iter().enumerate().rev() {
+        let (step, link) = (&steps[i], &arm.links[i]);
+        let (own, own_bias) = Articulated::of(link, &velocities[i]);
+        let (whole, whole_bias) = (body.plus(&own), add(&bias, &own_bias));
+        let (whole, whole_bias) = step.at_joint(whole, whole_bias);
+        let push = whole.times(&step.along(&S::one()));
+        let pivot = plus(&step.feels(&push), &link.armature);
+        let damped = minus(&tau[i], &times(&link.viscous, &qd[i]));
+        let left = minus(&damped, &step.feels(&whole_bias));
+        let inverse = match moves[i] {
+            true => over(&S::one(), &pivot),
+            false => S::zero(),
+        };
+        let given = whole.without(&push, &inverse);
+        let moved = add(&whole_bias, &given.times(&drift));
+        let given_bias = add(&moved, &by(&times(&left, &inverse), &push));
+        (body, bias) = step.before_joint(given, given_bias);
+        joints.push(Joint {
+            push,
+            rest: left,
+            inverse,
+            drift,
+        });
+    }
+    joints.reverse();
+    // Accelerations, outward: the base rises instead of being pulled down.
+    let mut before = Motion {
+        turn: zero_vector(),
+        shift: opposite(&arm.gravity),
+    };
+    let mut accelerations = Vec::with_capacity(n);
+    for (step, joint) in steps.iter().zip(&joints) {
+        let (next, acceleration) = step.outward(&before, |frame| {
+            let frame = frame.plus(&joint.drift);
+            let left = minus(&joint.rest, &power(&joint.push, &frame));
+            let acceleration = times(&left, &joint.inverse);
+            (frame.plus(&step.along(&acceleration)), acceleration)
+        });
+        accelerations.push(acceleration);
+        before = next;
+    }
+    accelerations
+}
