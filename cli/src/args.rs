@@ -30,6 +30,8 @@ pub struct Args {
 pub enum Command {
     /// Generate Rust source for a robot, proved before it is printed
     Generate(GenerateArgs),
+    /// Make a crate with an arm: robot file, macro, a test against the runtime
+    New(NewArgs),
     /// Make a robot file of a chain of a URDF
     Import(ImportArgs),
     /// Draw the arm in two views, with frames, axes, masses and its table (SVG)
@@ -115,6 +117,20 @@ impl Choice {
         request.math = MathPath::of(self.sincos.library(Library::Libm));
         request
     }
+}
+
+/// Arguments of `new`.
+#[derive(Debug, clap::Args)]
+pub struct NewArgs {
+    /// The folder of the crate, which is called after it
+    pub folder: PathBuf,
+    /// A robot file, or a URDF with one chain [default: two links in a plane]
+    #[arg(long, value_name = "FILE")]
+    pub from: Option<PathBuf>,
+    /// Take dalembert from this checkout [default: the registry's, of this
+    /// version]
+    #[arg(long, value_name = "FOLDER")]
+    pub path: Option<PathBuf>,
 }
 
 /// Arguments of `import`.

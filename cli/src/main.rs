@@ -4,6 +4,7 @@
 //! - [`generate`]: Rust source, written, printed or compared
 //! - [`import`]: a robot file of a URDF
 //! - [`show`]: the arm in two views
+//! - [`new`]: a crate to begin with
 //! - [`count`]: operation counts
 //! - [`verify`]: the exact proof and what rounding costs
 //! - [`couplings`]: which coefficients vanish or repeat, and why
@@ -29,6 +30,7 @@ mod files;
 mod generate;
 mod import;
 mod input;
+mod new;
 mod outcome;
 mod output;
 mod plot;
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
     let outcome = match Args::parse().command {
         Command::Generate(args) => generate::run(&args),
         Command::Import(args) => import::run(&args),
+        Command::New(args) => new::run(&args),
         Command::Show(args) => show::run(&args),
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),

@@ -60,6 +60,9 @@ impl Chain {
     }
 }
 
+/// No robot has more fixed joints behind each other.
+const MOST_STEPS: usize = 100;
+
 /// The links and joints as a tree.
 struct Tree<'u, 'p, 's> {
     urdf: &'u Urdf,
@@ -118,6 +121,12 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         good &= tree.gather(child, &on_path, &mut moving.links);
     }
     tree.beside_the_base(base, &on_path);
+    if tree.above.contains_key(&base) {
+        let link = &urdf.links[base];
+        let message = format!("link `{}` is the base, and not the root", link.name);
+        let help = "gravity is taken to pull against its z: change `gravity` in the robot file if it is tilted";
+        tree.problems.note(&link.span, message, help);
+    }
     good.then_some(Chain {
         base,
         tip,
@@ -392,6 +401,13 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         let mut good = true;
         let mut open = vec![(link, Vec::new())];
         while let Some((link, way)) = open.pop() {
+            if way.len() > MOST_STEPS {
+                let message = format!("more than {MOST_STEPS} joints in a row do not move");
+                let help = "is this a robot? cut out the arm";
+                self.problems
+                    .error(&self.urdf.links[link].span, message, help);
+                return false;
+            }
             for joint in self.below.get(&link).cloned().unwrap_or_default() {
                 let [_, child] = self.ends[joint];
                 if self.without.contains(&child) {

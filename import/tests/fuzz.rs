@@ -123,10 +123,20 @@ fn hostile_files_are_refused_at_once() {
     let circle = "<link name=\"a\"/><link name=\"b\"/>\
         <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
         <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>";
+    let turns =
+        "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"l0\"/></joint>";
+    let deep: String = (0..900)
+        .map(|i| {
+            let joint = format!("<parent link=\"l{i}\"/><child link=\"l{}\"/>", i + 1);
+            format!("<link name=\"l{i}\"/><joint name=\"k{i}\" type=\"fixed\">{joint}</joint>")
+        })
+        .collect();
+    let deep = format!("<link name=\"a\"/>{turns}{deep}<link name=\"l900\"/>");
     let robot = |inside: &str| format!("<robot name=\"r\">{inside}</robot>");
     for (text, base) in [
         (entities.to_owned(), None),
         (robot(&links), None),
+        (robot(&deep), None),
         (robot(circle), None),
         (robot(circle), Some("a")),
         (robot(""), None),

@@ -231,6 +231,25 @@ fn doubtful_inertials_are_named() {
     assert_eq!(warned(ARM), []);
 }
 
+/// Gravity is against the base's z: where the base is not the root, that is said.
+#[test]
+fn a_base_that_is_not_the_root_is_said() {
+    let options = Options {
+        base: Some("foot".into()),
+        ..at_the_hand()
+    };
+    let imported = taken(ARM, &options);
+    let said = |note: &dalembert_model::read::Diagnostic| {
+        note.line == 7 && note.message == "link `foot` is the base, and not the root"
+    };
+    assert!(imported.notes.iter().any(said));
+    assert!(
+        imported
+            .text
+            .contains("placement = { xyz = [0.1, 0, 0.2], rpy = [\"pi/2\", 0, 0] }")
+    );
+}
+
 /// Chains that end in several places, and a chain that has one end.
 #[test]
 fn the_end_is_asked_for_where_there_are_several() {

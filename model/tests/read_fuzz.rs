@@ -187,6 +187,40 @@ fn mutated_robots() {
     }
 }
 
+/// The same with joints that are placed: rows are derived of whatever reads.
+#[test]
+fn mutated_placements() {
+    let folder = format!("{}/tests/data", env!("CARGO_MANIFEST_DIR"));
+    let seeds = ["scara_placed", "puma560_placed"].map(|name| {
+        let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).expect("a file");
+        let ends = "base = { xyz = [1e-3, 0, 12.5], rpy = [0.1, \"pi/2\", 0] }\n\
+                    tool = { xyz = [0.25, 0, 0], rpy = [0, \"-30deg\", 0] }\n";
+        text.replacen("\n[[joint]]", &format!("{ends}\n[[joint]]"), 1)
+    });
+    let mut random = Random(5);
+    for _ in 0..dose(800) {
+        let mut bytes = seeds[random.below(seeds.len())].clone().into_bytes();
+        for _ in 0..=random.below(3) {
+            mutate(&mut bytes, &mut random);
+        }
+        check(&bytes);
+    }
+    // Numbers as large and as small as they may be.
+    for (from, to) in [
+        ("0.387", "1e300"),
+        ("0.387", "1e-300"),
+        ("axis = [0, 0, 1]", "axis = [1e-300, 1e300, 0]"),
+        ("axis = [0, 0, 1]", "axis = [1e-200, 0, 1]"),
+        ("-0.325", "1e-299"),
+        ("\"pi/2\"", "1e300"),
+        ("0.031", "1e300"),
+    ] {
+        let text = seeds[0].replacen(from, to, 1);
+        assert_ne!(text, seeds[0], "{from}");
+        check(text.as_bytes());
+    }
+}
+
 fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
     let at = random.below(bytes.len());
     let to = (at + random.below(40)).min(bytes.len());

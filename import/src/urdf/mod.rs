@@ -21,7 +21,7 @@ pub(crate) use link::Link;
 pub(crate) use number::{Number, Origin, Value};
 
 /// No robot has more links.
-const MOST_LINKS: usize = 4096;
+const MOST_LINKS: usize = 1024;
 
 /// A URDF, every joint with a parent and a child that there are.
 #[derive(Clone, Debug)]

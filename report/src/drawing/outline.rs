@@ -1,14 +1,7 @@
 //! The ellipse that a link's inertia is seen as.
 
+use super::page::Ellipse;
 use super::view::View;
-
-/// Half axes in pixels, and how far the first is turned from the right, in
-/// degrees upward.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ellipse {
-    pub(super) half: [f64; 2],
-    pub(super) turned: f64,
-}
 
 /// The outline of the solid ellipsoid of uniform density with this mass and
 /// inertia; none of a point or of what is no body.

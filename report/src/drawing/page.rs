@@ -2,8 +2,6 @@
 
 use std::fmt::Write;
 
-use super::outline::Ellipse;
-
 /// The side of a view, and the room above both, in pixels.
 pub(super) const SIDE: f64 = 440.0;
 pub(super) const HEAD: f64 = 64.0;
@@ -29,6 +27,14 @@ const LEGEND: [&str; 2] = [
     "frames: x red, y green, z blue; arrows with numbers: axes of joints, dashed where they slide",
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",
 ];
+
+/// Half axes in pixels, and how far the first is turned from the right, in
+/// degrees upward.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ellipse {
+    pub(super) half: [f64; 2],
+    pub(super) turned: f64,
+}
 
 /// A drawing as it grows.
 pub(super) struct Page {

@@ -1,0 +1,145 @@
+//! `dalembert new`: a crate with an arm of its own, which builds and passes.
+//!
+//! - this file: the robot, and the folder, all of it or none
+//! - [`texts`]: what is in the files
+
+mod texts;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use dalembert_import::{MAX_BYTES, Options, import};
+use dalembert_model::read::{self, Reading};
+use dalembert_model::robot::suggested_name;
+
+use crate::args::NewArgs;
+use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
+
+/// Runs the subcommand.
+pub fn run(args: &NewArgs) -> Outcome {
+    let folder = &args.folder;
+    let name = crate_name(folder)?;
+    if fs::symlink_metadata(folder).is_ok() {
+        return Err(Failure::Input(format!(
+            "error: `{}` is there already\n  = help: give the crate another name",
+            folder.display()
+        )));
+    }
+    let robot_file = match &args.from {
+        None => texts::ROBOT.to_owned(),
+        Some(from) => robot_file(from)?,
+    };
+    let reading = reading(&robot_file)?;
+    let robot = &reading.robot.name;
+    let source = texts::source(robot, reading.robot.joints.len());
+    let manifest = texts::manifest(&name, &dependency(args)?);
+    let files = [
+        ("Cargo.toml".to_owned(), manifest),
+        (format!("robots/{robot}.toml"), robot_file),
+        ("src/main.rs".to_owned(), source),
+    ];
+    write(folder, &files).map_err(|error| {
+        Failure::Input(format!(
+            "error: `{}` cannot be written: {error}",
+            folder.display()
+        ))
+    })?;
+    output::note(&format!(
+        "{}: cargo run prints torques, cargo test compares them with the runtime",
+        folder.display()
+    ));
+    Ok(())
+}
+
+/// The crate's name is the folder's.
+fn crate_name(folder: &Path) -> Result<String, Failure> {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    match suggested_name(&name) {
+        Some(good) if good == name => Ok(good),
+        suggested => {
+            let help = suggested.map_or_else(
+                || "lower-case letters, digits and underscores, a letter first".to_owned(),
+                |good| format!("write {good:?}"),
+            );
+            Err(Failure::Input(format!(
+                "error: {name:?} cannot name a crate\n  = help: {help}"
+            )))
+        }
+    }
+}
+
+/// The text of a robot file, or the robot file of a URDF.
+fn robot_file(from: &Path) -> Result<String, Failure> {
+    let name = from.display().to_string();
+    let source = String::from_utf8(input::bytes(from, MAX_BYTES as u64)?)
+        .map_err(|_| Failure::Input(format!("error: `{name}` is not UTF-8 text")))?;
+    if !source
+        .trim_start_matches('\u{feff}')
+        .trim_start()
+        .starts_with('<')
+    {
+        return match read::parse(&source, &read::Options::default()) {
+            Ok(_) => Ok(source),
+            Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
+        };
+    }
+    let file = from.file_name().unwrap_or_default().to_string_lossy();
+    let options = Options {
+        file: file.into_owned(),
+        ..Options::default()
+    };
+    match import(&source, &options) {
+        Ok(imported) => Ok(imported.text),
+        Err(errors) => Err(Failure::Input(format!(
+            "{}\n`dalembert import {name}` has options for these; then --from its robot file",
+            errors.render(&name, &source)
+        ))),
+    }
+}
+
+/// The robot of a text that was read before, or is this command's own.
+fn reading(text: &str) -> Result<Reading, Failure> {
+    read::parse(text, &read::Options::default())
+        .map_err(|errors| Failure::Input(errors.render("the robot file", text)))
+}
+
+/// Where the crate has dalembert from.
+fn dependency(args: &NewArgs) -> Result<String, Failure> {
+    let Some(path) = &args.path else {
+        return Ok(format!("version = {:?}", env!("CARGO_PKG_VERSION")));
+    };
+    let found = path.join("Cargo.toml").is_file();
+    let whole = fs::canonicalize(path).ok().filter(|_| found);
+    let Some(whole) = whole else {
+        return Err(Failure::Input(format!(
+            "error: --path: there is no crate in `{}`\n  = help: the folder of a checkout of dalembert, with its Cargo.toml",
+            path.display()
+        )));
+    };
+    // A debug string is a TOML string for every path that is text.
+    Ok(format!("path = {:?}", whole.display().to_string()))
+}
+
+/// Writes the files into a folder beside, which then gets its name.
+fn write(folder: &Path, files: &[(String, String)]) -> io::Result<()> {
+    let mut name = folder.as_os_str().to_owned();
+    name.push(format!(".unfinished-{}", std::process::id()));
+    let unfinished = PathBuf::from(name);
+    let written = || -> io::Result<()> {
+        fs::create_dir(&unfinished)?;
+        for (name, text) in files {
+            let path = unfinished.join(name);
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent)?;
+            }
+            fs::write(path, text)?;
+        }
+        fs::rename(&unfinished, folder)
+    };
+    written().inspect_err(|_| {
+        // What is left of it is of no use; that it cannot go is no news.
+        let _ = fs::remove_dir_all(&unfinished);
+    })
+}

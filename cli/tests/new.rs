@@ -1,0 +1,97 @@
+//! `dalembert new`: the crate that it makes builds, passes and prints torques.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use support::{robot, run, temporary};
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+
+/// Built as a user would build it, in a target directory of its own.
+#[test]
+fn it_builds_and_passes_at_once() {
+    let folder = temporary("new").join("my_arm");
+    let name = folder.to_str().unwrap();
+    let ran = run(&["new", name, "--path", ROOT]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    // The versions that everything else here is tested with.
+    fs::copy(format!("{ROOT}/Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("new_target");
+    let cargo = |argument: &str| {
+        let output = Command::new(env!("CARGO"))
+            .args([argument, "--offline"])
+            .current_dir(&folder)
+            .env("CARGO_TARGET_DIR", &target)
+            // What this test was built with is none of its.
+            .env_remove("RUSTFLAGS")
+            .env_remove("CARGO_ENCODED_RUSTFLAGS")
+            .output()
+            .unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{argument}:\n{errors}");
+        assert!(!errors.contains("warning"), "{errors}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let tested = cargo("test");
+    assert!(
+        tested.contains("the_code_agrees_with_the_runtime ... ok"),
+        "{tested}"
+    );
+    let printed = cargo("run");
+    assert!(
+        printed.contains("to hold still at q = [0.1, 0.1]: [19.4"),
+        "{printed}"
+    );
+}
+
+#[test]
+fn from_robot_files_and_urdfs() {
+    let folder = temporary("new_from");
+    let made = |name: &str| folder.join(name);
+    let text = |name: &str| made(name).to_str().unwrap().to_owned();
+    let ran = run(&["new", &text("puma"), "--from", &robot("puma560")]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let source = fs::read_to_string(made("puma").join("src/main.rs")).unwrap();
+    assert!(source.contains("pub mod puma560 = \"robots/puma560.toml\";"));
+    assert!(source.contains("[0.1; 6]") && !source.contains("JOINTS"));
+    let manifest = fs::read_to_string(made("puma").join("Cargo.toml")).unwrap();
+    assert!(manifest.contains("name = \"puma\"") && manifest.contains("version = \"0.1.0\" }"));
+
+    let urdf = format!("{ROOT}/import/tests/data/twodofs.urdf");
+    let ran = run(&["new", &text("two"), "--from", &urdf]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let robots = fs::read_dir(made("two").join("robots")).unwrap().count();
+    assert_eq!(robots, 1);
+
+    let panda = format!("{ROOT}/import/tests/data/panda.urdf");
+    for (arguments, part) in [
+        (vec![text("puma")], "is there already"),
+        (vec![text("My-Arm")], "write \"my_arm\""),
+        (vec![text("fn")], "write \"fn_robot\""),
+        (
+            vec![text("hand"), "--from".into(), panda],
+            "`dalembert import",
+        ),
+        (
+            vec![text("far"), "--path".into(), text("nowhere")],
+            "there is no crate",
+        ),
+        (
+            vec![text("lost"), "--from".into(), text("lost.toml")],
+            "cannot be read",
+        ),
+    ] {
+        let arguments: Vec<&str> = ["new"]
+            .into_iter()
+            .chain(arguments.iter().map(String::as_str))
+            .collect();
+        let ran = run(&arguments);
+        assert_eq!(ran.code, 2, "{}", ran.err);
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+    }
+    // Nothing is left of what was refused.
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+}
