@@ -13,7 +13,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use source::Crate;
 
 const CRATES: [&str; 10] = [
-    "sines",
     "model",
     "codegen",
     "macros",
@@ -23,6 +22,7 @@ const CRATES: [&str; 10] = [
     "import",
     "cli",
     ".",
+    "sines",
 ];
 
 /// Who uses whom.

@@ -47,7 +47,7 @@ fn what_was_not_is_refused() {
         ),
         ("let t1 =", "let t1:", 5, "no ` = `"),
         ("let t2", "let t3", 6, "`t2` is next, not `t3`"),
-        ("t1 - s1", "t1 / s1", 6, "`/` is no operation"),
+        ("t1 - s1", "t1 % s1", 6, "`%` is no operation"),
         (
             "t1 - s1",
             "t1 - s1 - s1",
