@@ -12,7 +12,7 @@ use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::scale;
-use dalembert_codegen::certify::sensitivity::{Fineness, Sensitivity};
+use dalembert_codegen::certify::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::certify::sines::within;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
@@ -42,7 +42,7 @@ fn the_bench_of_sines_is_up_to_date() {
 
     let limits = InputBox::of(&robot).unwrap();
     let scales = scale::actuator(&robot, program).unwrap();
-    let (scalar, fineness) = (ScalarType::F64, Fineness::GLANCE);
+    let (scalar, fineness) = (ScalarType::F64, BoundEffort::QUICK);
     let libm = Certificate::make(&robot, &[], program, scalar, &limits, &scales);
     // Rounding has its part of the tolerance, the polynomials have the rest.
     let pairs = scales.iter().zip(&libm.bounds);

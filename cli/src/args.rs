@@ -470,7 +470,7 @@ fn exact_tolerance_parser() -> impl TypedValueParser<Value = Rational> {
 }
 
 fn states_parser() -> impl TypedValueParser<Value = usize> {
-    let most = dalembert_report::explain::errors::MOST_STATES as i64;
+    let most = dalembert_report::explain::errors::MAX_STATES as i64;
     clap::value_parser!(i64)
         .range(1..=most)
         .map(|states| states as usize)

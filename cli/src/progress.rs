@@ -59,10 +59,10 @@ pub fn watch(request: &mut Request) -> Session {
 }
 
 /// The steps of a long run, on a terminal.
-pub struct Steps(Arc<Step>);
+pub struct Steps(Arc<RungObserver>);
 
 /// The step that is done at the moment.
-struct Step {
+struct RungObserver {
     bar: ProgressBar,
     name: Mutex<String>,
 }
@@ -72,7 +72,7 @@ impl Steps {
     pub fn new(steps: usize) -> Steps {
         let bar = bar(steps as u64);
         let name = Mutex::default();
-        Steps(Arc::new(Step { bar, name }))
+        Steps(Arc::new(RungObserver { bar, name }))
     }
 
     /// Shows how far searches within a step have come.
@@ -130,7 +130,7 @@ fn line(rung: &Rung, resumed: bool) -> String {
     format!("tolerance {:e}{kept}: {found}", rung.tolerance)
 }
 
-impl Observer for Step {
+impl Observer for RungObserver {
     fn step(&self, progress: &Progress) {
         let name = self.name.lock().unwrap_or_else(PoisonError::into_inner);
         let Progress {

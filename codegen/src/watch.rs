@@ -15,7 +15,7 @@ use crate::program::Counts;
 /// A part of the search for a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// The formulations are traced and their gauge is tuned.
+    /// The formulations are traced and their regrouping is tuned.
     Formulations,
     /// Equality saturation.
     EGraph,
@@ -87,8 +87,8 @@ impl Watch {
     }
 
     /// The watch over the search for one function.
-    pub fn over(&self, function: Function) -> Vigil<'_> {
-        Vigil {
+    pub fn over(&self, function: Function) -> FunctionWatch<'_> {
+        FunctionWatch {
             observer: self.0.as_deref(),
             function,
         }
@@ -103,12 +103,12 @@ impl fmt::Debug for Watch {
 
 /// The watch over the search for one function.
 #[derive(Clone, Copy)]
-pub struct Vigil<'a> {
+pub struct FunctionWatch<'a> {
     observer: Option<&'a dyn Observer>,
     function: Function,
 }
 
-impl Vigil<'_> {
+impl FunctionWatch<'_> {
     /// Tells the observer.
     pub fn step(&self, part: Part, [round, rounds]: [usize; 2], best: Option<Counts>) {
         if let Some(observer) = self.observer {
@@ -128,8 +128,8 @@ impl Vigil<'_> {
     }
 }
 
-impl fmt::Debug for Vigil<'_> {
+impl fmt::Debug for FunctionWatch<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Vigil({})", self.function)
+        write!(f, "FunctionWatch({})", self.function)
     }
 }

@@ -4,9 +4,9 @@
 
 mod support;
 
-use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::definite::least_eigenvalue;
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::prune::{Settings, prune};
 use dalembert_codegen::certify::scale;
@@ -37,11 +37,11 @@ fn bar(tolerance: f64, operations: usize) {
         &scales,
     );
     certificate.check(&robot).unwrap();
-    let attack = attack(&certificate, 20_000, 4, 7).unwrap();
-    assert_eq!(attack.violation, None);
+    let falsification = falsify(&certificate, 20_000, 4, 7).unwrap();
+    assert_eq!(falsification.violation, None);
     let worst = |values: Vec<f64>| values.into_iter().fold(0.0, f64::max);
     let model = worst(certificate.bounds.iter().map(|b| b.model).collect());
-    let seen = worst(attack.observed);
+    let seen = worst(falsification.observed);
     assert!(model <= tolerance && model <= 3.0 * seen, "{model} {seen}");
 }
 

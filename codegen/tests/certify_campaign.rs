@@ -4,12 +4,12 @@
 
 mod support;
 
-use dalembert_codegen::certify::attack::attack;
-use dalembert_codegen::certify::bound::Budget;
+use dalembert_codegen::certify::bound::BoxEffort;
 use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::Frame;
+use dalembert_codegen::certify::choose::ErrorBudget;
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::prune::Settings;
-use dalembert_codegen::certify::sensitivity::Fineness;
+use dalembert_codegen::certify::sensitivity::BoundEffort;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
@@ -20,21 +20,28 @@ const SAMPLES: usize = 20_000;
 const CLIMBS: usize = 6;
 
 /// Between a glance and a certificate.
-const FINENESS: Fineness = Fineness {
-    budget: Budget::GLANCE,
+const FINENESS: BoundEffort = BoundEffort {
+    budget: BoxEffort::QUICK,
     boxes: 512,
     together: 1 << 18,
-    ..Fineness::GLANCE
+    ..BoundEffort::QUICK
 };
 
 /// The largest E and the largest error that was seen.
-fn attacked(certificate: &Certificate) -> (f64, f64) {
-    let attack = attack(certificate, SAMPLES, CLIMBS, 11).unwrap();
-    assert_eq!(attack.violation, None, "{:?}", attack.observed);
-    assert!(attack.states > SAMPLES);
+fn falsified(certificate: &Certificate) -> (f64, f64) {
+    let falsification = falsify(certificate, SAMPLES, CLIMBS, 11).unwrap();
+    assert_eq!(
+        falsification.violation, None,
+        "{:?}",
+        falsification.observed
+    );
+    assert!(falsification.states > SAMPLES);
     let certified = certificate.bounds.iter().map(|bound| bound.total());
     let certified = certified.fold(0.0, f64::max);
-    (certified, attack.observed.into_iter().fold(0.0, f64::max))
+    (
+        certified,
+        falsification.observed.into_iter().fold(0.0, f64::max),
+    )
 }
 
 /// A robot in the scene of its file, at another tolerance; without guesses
@@ -54,7 +61,7 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
         .remove(0)
         .program;
     let setting = Setting::of(&reading.robot, bare.as_ref()).unwrap();
-    let frame = Frame::new(&setting, &exact, Scale::Range).unwrap();
+    let frame = ErrorBudget::new(&setting, &exact, Scale::Range).unwrap();
     let settings = Settings {
         samples: 24,
         guesses,
@@ -70,14 +77,14 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
     let is_pruned = !admitted.stages.is_empty();
     assert_eq!(is_pruned, guesses > 0);
     for certificate in &admitted.certificates {
-        let (certified, observed) = attacked(certificate);
+        let (certified, observed) = falsified(certificate);
         assert!(certified <= tolerance, "{certified}");
         assert!(
             !is_pruned || certified <= 3.0 * observed,
             "{certified} {observed}"
         );
         if certificate.scalar == ScalarType::F32 {
-            let (certified, observed) = attacked(&certificate.of_rounding());
+            let (certified, observed) = falsified(&certificate.of_rounding());
             assert!(certified <= 12.0 * observed, "{certified} {observed}");
         }
     }

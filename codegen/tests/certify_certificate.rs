@@ -2,11 +2,11 @@
 
 mod support;
 
-use dalembert_codegen::approximate::edits::{Edit, Place, Stage, difference};
+use dalembert_codegen::approximate::edits::{Edit, EditSite, Stage, difference};
 use dalembert_codegen::approximate::text::{read_edit, write_edit};
-use dalembert_codegen::certify::attack::attack;
-use dalembert_codegen::certify::bound::{Budget, magnitudes};
+use dalembert_codegen::certify::bound::{BoxEffort, magnitudes};
 use dalembert_codegen::certify::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
 use dalembert_codegen::certify::ranges::{Finding, ranges};
@@ -37,9 +37,9 @@ fn settings() -> Settings {
         samples: 64,
         guesses: 4,
         retries: 6,
-        budget: Budget {
+        budget: BoxEffort {
             points: 1 << 14,
-            ..Budget::GLANCE
+            ..BoxEffort::QUICK
         },
         ..Settings::default()
     }
@@ -62,7 +62,7 @@ fn case(tolerance: f64) -> Case {
         edits: Vec::new(),
     };
     let graph = whole.edited(Folding::Syntactic);
-    let scales = magnitudes(&graph, &limits, &[1.0; 3], 0.0, Budget::GLANCE);
+    let scales = magnitudes(&graph, &limits, &[1.0; 3], 0.0, BoxEffort::QUICK);
     let allowances: Vec<f64> = scales.iter().map(|t| t * tolerance).collect();
     let pruned = prune(&program, &limits, &allowances, &settings());
     Case {
@@ -97,9 +97,13 @@ fn a_pruned_program_is_cheaper_certified_and_not_refuted() {
     assert!(after.operations() < before.operations(), "{after}");
     let certificate = case.certificate(ScalarType::F64);
     certificate.check(&case.robot).unwrap();
-    let attack = attack(&certificate, 2000, 3, 1).unwrap();
-    assert_eq!(attack.violation, None, "{:?}", attack.observed);
-    for (bound, seen) in certificate.bounds.iter().zip(&attack.observed) {
+    let falsification = falsify(&certificate, 2000, 3, 1).unwrap();
+    assert_eq!(
+        falsification.violation, None,
+        "{:?}",
+        falsification.observed
+    );
+    for (bound, seen) in certificate.bounds.iter().zip(&falsification.observed) {
         assert!(bound.model <= 0.1);
         assert!(bound.model <= 3.0 * seen, "{} {seen}", bound.model);
     }
@@ -118,7 +122,7 @@ fn a_bound_made_too_small_is_caught_by_the_check_and_by_the_sampler() {
     let mut lie = honest.clone();
     lie.bounds[worst].model /= 4.0;
     assert!(matches!(lie.check(&case.robot), Err(Refuted::Bound { .. })));
-    let found = attack(&lie, 2000, 3, 1).unwrap();
+    let found = falsify(&lie, 2000, 3, 1).unwrap();
     assert_eq!(found.violation.map(|v| v.0), Some(worst));
 
     let mut rounding = honest.clone();
@@ -154,7 +158,7 @@ fn every_other_lie_is_caught() {
     let mut edit = honest.clone();
     let last = edit.stages[0].program.steps.len() - 1;
     let (place, value) = (
-        Place::Step(0),
+        EditSite::Step(0),
         dalembert_codegen::program::Operand::Step(last),
     );
     edit.stages[0].edits = vec![Edit {
@@ -207,7 +211,7 @@ fn every_omission_saves_something() {
         &case.limits,
         &[1.0; 3],
     );
-    let seen = attack(&certificate, 500, 2, 3).unwrap().observed;
+    let seen = falsify(&certificate, 500, 2, 3).unwrap().observed;
     for (bound, seen) in first.errors.iter().zip(seen) {
         assert!(seen <= *bound && *bound <= 3.0 * seen + 1e-12);
     }
@@ -226,13 +230,13 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     let case = case(0.1);
     let graph = difference(&case.pruned.stages);
     let bound = |points, limits: &InputBox| {
-        let budget = Budget {
+        let budget = BoxEffort {
             boxes: 40_000,
             points,
         };
         magnitudes(&graph, limits, &case.scales, 0.0, budget)
     };
-    let seen = attack(&case.certificate(ScalarType::F64), 2000, 3, 5).unwrap();
+    let seen = falsify(&case.certificate(ScalarType::F64), 2000, 3, 5).unwrap();
     // The whole circle, and a part of it.
     let mut part = case.limits.clone();
     for q in &mut part.position {
@@ -261,9 +265,9 @@ fn rounding_is_bounded_and_not_wildly() {
     let scales = [20.0, 10.0, 5.0];
     let certificate = Certificate::make(&robot, &[], &program, ScalarType::F32, &limits, &scales);
     certificate.check(&robot).unwrap();
-    let attack = attack(&certificate, 4000, 3, 2).unwrap();
-    assert_eq!(attack.violation, None);
-    for (bound, seen) in certificate.bounds.iter().zip(&attack.observed) {
+    let falsification = falsify(&certificate, 4000, 3, 2).unwrap();
+    assert_eq!(falsification.violation, None);
+    for (bound, seen) in certificate.bounds.iter().zip(&falsification.observed) {
         assert_eq!(bound.model, 0.0);
         let total = bound.total();
         assert!(total <= 30.0 * seen, "{total} {seen}");

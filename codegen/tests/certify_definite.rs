@@ -2,7 +2,7 @@
 
 mod support;
 
-use dalembert_codegen::approximate::edits::{Edit, Place, Stage};
+use dalembert_codegen::approximate::edits::{Edit, EditSite, Stage};
 use dalembert_codegen::certify::certificate::{Certificate, Refuted};
 use dalembert_codegen::certify::definite::{Indefinite, least_eigenvalue};
 use dalembert_codegen::certify::input_box::InputBox;
@@ -172,7 +172,7 @@ fn a_singular_d_gets_no_certificate() {
     for step in 0..program.steps.len() {
         let stage = Stage {
             program: program.clone(),
-            edits: vec![Edit::zero(Place::Step(step))],
+            edits: vec![Edit::zero(EditSite::Step(step))],
         };
         let emitted = stage.program(Folding::Semantic);
         let bound = least_eigenvalue(&emitted, ScalarType::F64, &limits);

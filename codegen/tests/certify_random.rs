@@ -4,9 +4,9 @@
 mod support;
 
 use dalembert_codegen::approximate::edits::Stage;
-use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::Frame;
+use dalembert_codegen::certify::choose::ErrorBudget;
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
 use dalembert_codegen::function::Function;
@@ -67,17 +67,19 @@ fn bounds_hold_and_are_close() {
         let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
         let program = &generated.functions[0].program;
         let setting = Setting::whole(&robot);
-        let scales = Frame::new(&setting, program, Scale::Range).unwrap().scales;
+        let scales = ErrorBudget::new(&setting, program, Scale::Range)
+            .unwrap()
+            .scales;
         let limits = InputBox::of(&robot).unwrap();
         let certify = |stages: &[Stage], program: &Program, scalar| {
             let made = Certificate::make(&robot, stages, program, scalar, &limits, &scales);
             made.check(&robot)
                 .unwrap_or_else(|refuted| panic!("{what}: {refuted}"));
-            let attack = attack(&made, 4000, 3, seed).unwrap();
-            assert_eq!(attack.violation, None, "{what}");
+            let falsification = falsify(&made, 4000, 3, seed).unwrap();
+            assert_eq!(falsification.violation, None, "{what}");
             let certified = made.bounds.iter().map(|bound| bound.total());
             let certified = certified.fold(0.0, f64::max);
-            certified / attack.observed.into_iter().fold(0.0, f64::max)
+            certified / falsification.observed.into_iter().fold(0.0, f64::max)
         };
         let rounding = certify(&[], program, ScalarType::F32);
         assert!(rounding <= 30.0, "{what}: {rounding}");

@@ -5,11 +5,11 @@ mod support;
 
 use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::bound::interval::Interval;
-use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::certify::scale;
-use dalembert_codegen::certify::sensitivity::{Fineness, Sensitivity};
+use dalembert_codegen::certify::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::certify::sines::within;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
@@ -55,7 +55,7 @@ fn planar() -> Case {
 impl Case {
     fn sines(&self, scalar: ScalarType, tolerance: f64) -> Sines {
         let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
-        let sensitivity = Sensitivity::of(&self.program, &self.limits, Fineness::GLANCE);
+        let sensitivity = Sensitivity::of(&self.program, &self.limits, BoundEffort::QUICK);
         within(
             &self.program,
             scalar,
@@ -69,7 +69,7 @@ impl Case {
     fn certificate(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
         let (robot, program) = (&self.robot, &self.program);
         let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
-        let sensitivity = Sensitivity::of(program, &self.limits, Fineness::CERTIFY);
+        let sensitivity = Sensitivity::of(program, &self.limits, BoundEffort::CERTIFY);
         libm.with_sines(&Setting::whole(robot), sines, &sensitivity)
     }
 
@@ -90,8 +90,12 @@ fn a_certificate_with_polynomials_holds_and_is_not_refuted() {
         let sines = case.sines(scalar, tolerance);
         let certificate = case.certificate(scalar, &sines);
         certificate.check(&case.robot).unwrap();
-        let attack = attack(&certificate, 4000, 3, 1).unwrap();
-        assert_eq!(attack.violation, None, "{:?}", attack.observed);
+        let falsification = falsify(&certificate, 4000, 3, 1).unwrap();
+        assert_eq!(
+            falsification.violation, None,
+            "{:?}",
+            falsification.observed
+        );
         for bound in &certificate.bounds {
             assert!(bound.sincos <= tolerance && bound.sincos > bound.rounding);
         }
@@ -144,7 +148,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
             "x{}",
             index + 1
         );
-        let found = attack(&lie, 2000, 2, 3).unwrap();
+        let found = falsify(&lie, 2000, 2, 3).unwrap();
         assert!(
             found.violation.is_some(),
             "x{}: {:?}",
@@ -183,7 +187,7 @@ fn a_claim_made_too_small_is_caught() {
     for bound in &mut bound.bounds {
         bound.sincos /= 50.0;
     }
-    assert!(attack(&bound, 4000, 3, 5).unwrap().violation.is_some());
+    assert!(falsify(&bound, 4000, 3, 5).unwrap().violation.is_some());
 
     // Polynomials that nothing is claimed of, and claims without polynomials.
     let mut silent = honest.clone();

@@ -5,9 +5,9 @@ use std::ops::Range;
 use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 
 /// More than these are counted, not listed.
-const MOST: usize = 200;
+const MAX: usize = 200;
 /// More names than these are not listed.
-const MOST_NAMES: usize = 30;
+const MAX_NAMES: usize = 30;
 
 /// Collects them, in any order.
 pub(crate) struct Problems<'s> {
@@ -44,7 +44,7 @@ impl<'s> Problems<'s> {
     }
 
     fn push(&mut self, severity: Severity, span: &Range<usize>, message: String, help: &str) {
-        if self.found.len() == MOST {
+        if self.found.len() == MAX {
             self.more += usize::from(severity == Severity::Error);
             return;
         }
@@ -104,8 +104,8 @@ pub(crate) fn instead<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> S
     let names: Vec<&str> = names.collect();
     match closest(name, &names) {
         Some(meant) => format!("did you mean `{meant}`?"),
-        None if names.len() > MOST_NAMES => {
-            format!("there is: {}, …", names[..MOST_NAMES].join(", "))
+        None if names.len() > MAX_NAMES => {
+            format!("there is: {}, …", names[..MAX_NAMES].join(", "))
         }
         None => format!("there is: {}", names.join(", ")),
     }

@@ -42,7 +42,7 @@ const NOTHING: i32 = -9;
 /// Angles next to multiples of π/4 and π/6, in radians.
 const NEXT_TO: i32 = -12;
 /// However few digits a number has: so far, in radians, it may be off.
-const MOST: i32 = -5;
+const MAX: i32 = -5;
 /// The digits that tell π/6 from a number that happens to be near it.
 const TELLING: usize = 5;
 
@@ -146,7 +146,7 @@ fn meant(angle: &Angle, text: &str) -> Option<Angle> {
         return None;
     }
     let (unit, digits) = digits(text);
-    let loose = unit.min(power(MOST));
+    let loose = unit.min(power(MAX));
     let pi = Angle::PiTimes(Rational::one()).radians();
     [
         (2, NOTHING, 1),

@@ -61,7 +61,7 @@ impl Chain {
 }
 
 /// No robot has more fixed joints behind each other.
-const MOST_STEPS: usize = 100;
+const MAX_STEPS: usize = 100;
 
 /// The links and joints as a tree.
 struct Tree<'u, 'p, 's> {
@@ -401,8 +401,8 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         let mut good = true;
         let mut open = vec![(link, Vec::new())];
         while let Some((link, way)) = open.pop() {
-            if way.len() > MOST_STEPS {
-                let message = format!("more than {MOST_STEPS} joints in a row do not move");
+            if way.len() > MAX_STEPS {
+                let message = format!("more than {MAX_STEPS} joints in a row do not move");
                 let help = "is this a robot? cut out the arm";
                 self.problems
                     .error(&self.urdf.links[link].span, message, help);

@@ -19,7 +19,7 @@ use crate::equations::kinematics::poses;
 use crate::equations::matrix::{Columns, total};
 use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
-use crate::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor, from_torques};
+use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, from_torques};
 use crate::number::{Exact, Rounded};
 use crate::robot::{JointKind, Robot};
 use crate::scalar::{Divide, Scalar};
@@ -115,13 +115,13 @@ impl<T> JointVectors<T> {
 /// spread to the outputs.
 ///
 /// ```
-/// use dalembert_model::equations::{Arm, Link, Rotor};
+/// use dalembert_model::equations::{Arm, Link, SinCosPair};
 /// use dalembert_model::reference::Reference;
 /// use dalembert_model::robot::{Convention, Inertia, JointKind};
 /// use nalgebra::DVector;
 ///
 /// // A pendulum of 1 kg at 0.5 m, swinging in the x-y plane.
-/// let straight = Rotor { sin: 0.0, cos: 1.0 };
+/// let straight = SinCosPair { sin: 0.0, cos: 1.0 };
 /// let arm = Arm {
 ///     convention: Convention::Standard,
 ///     gravity: [0.0, -9.81, 0.0],
@@ -334,7 +334,7 @@ impl<T: Float> Reference<T> {
         let position = |(link, q): (&crate::equations::Link<T>, &T)| match link.kind {
             JointKind::Revolute => {
                 let (sin, cos) = q.sin_cos();
-                JointPosition::Revolute(Rotor { sin, cos })
+                JointPosition::Revolute(SinCosPair { sin, cos })
             }
             JointKind::Prismatic => JointPosition::Prismatic(*q),
         };

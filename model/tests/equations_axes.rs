@@ -4,10 +4,10 @@
 
 mod equations_support;
 
-use dalembert_model::equations::chain::composite::{Composite, Travel};
-use dalembert_model::equations::chain::recursion::{Couple, Spin};
-use dalembert_model::equations::chain::{Chain, Gauge, Skeleton};
-use dalembert_model::equations::{Arm, Formulation, JointPosition, Rotor};
+use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
+use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm};
+use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
@@ -65,7 +65,7 @@ fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Point
             Twist::Against => (Field::ZERO, Field::ONE.neg()),
             Twist::Across => (Field::ONE, Field::ZERO),
         };
-        link.alpha = Rotor { sin, cos };
+        link.alpha = SinCosPair { sin, cos };
     }
     arm.map(|x| Known(*x))
 }
@@ -106,7 +106,7 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let by_velocity = textbook.torque_by_velocity(arm, &at, &qd);
 
     let skeleton = Skeleton::new(arm, &[]);
-    let mut chain = Chain::new(&skeleton, &Gauge::base(&skeleton));
+    let mut chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
     let choices = choices(&chain);
     for choice in &choices {
         for (link, &axes) in chain.links.iter_mut().zip(choice) {
@@ -114,15 +114,15 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
         }
         let (posed, at) = chain.posed(&position);
         for (spin, couple) in [
-            (Spin::Column, Couple::SecondMoments),
-            (Spin::Rates, Couple::Euler),
+            (AccelerationForm::Column, MomentForm::SecondMoments),
+            (AccelerationForm::Rates, MomentForm::Euler),
         ] {
             let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
             assert_eq!(found, torque, "{choice:?}");
         }
         assert_eq!(posed.passivity(&at, &qd, &v, &a), passivity, "{choice:?}");
         let composite = Composite::new(&posed, &at);
-        for travel in [Travel::Outward, Travel::Inward] {
+        for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
             assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
             assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
             let slopes = composite.slopes(&qd, &qdd, travel);

@@ -3,7 +3,7 @@
 
 mod equations_support;
 
-use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition, Rotor};
+use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
@@ -15,9 +15,9 @@ fn number(x: f64) -> Big {
     Big::from_f64(x).unwrap()
 }
 
-fn pair(angle: f64) -> Rotor<Big> {
+fn pair(angle: f64) -> SinCosPair<Big> {
     let (sin, cos) = number(angle).sin_cos();
-    Rotor { sin, cos }
+    SinCosPair { sin, cos }
 }
 
 fn at(arm: &Arm<Big>, q: &[f64]) -> Vec<DhVariables<Big>> {
@@ -126,15 +126,15 @@ fn f32_runtime_stays_within_100_u() {
         let near = |x: f64| x as f32;
         let near_pair = |angle: f64| {
             let (sin, cos) = libm::sincosf(near(angle));
-            Rotor { sin, cos }
+            SinCosPair { sin, cos }
         };
         let runtime = Reference::new(case.arm(near, near_pair));
         let exact = |x: f32| number(f64::from(x));
         let truth = case.arm(
             |x| exact(near(x)),
             |angle| {
-                let Rotor { sin, cos } = near_pair(angle);
-                Rotor {
+                let SinCosPair { sin, cos } = near_pair(angle);
+                SinCosPair {
                     sin: exact(sin),
                     cos: exact(cos),
                 }

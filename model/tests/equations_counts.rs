@@ -2,7 +2,7 @@
 
 mod equations_support;
 
-use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, Rotor};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::count::{Count, Counter};
 use equations_support::golden;
@@ -14,12 +14,12 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
     let value = || counter.value();
     let link = || Link {
         kind: JointKind::Revolute,
-        alpha: Rotor {
+        alpha: SinCosPair {
             sin: value(),
             cos: value(),
         },
         beta: None,
-        theta: Rotor {
+        theta: SinCosPair {
             sin: Count::Zero,
             cos: Count::One,
         },
@@ -54,7 +54,7 @@ fn torques<'a>(formulation: Formulation, arm: &Arm<Count<'a>>, counter: &'a Coun
         .links
         .iter()
         .map(|link| match link.kind {
-            JointKind::Revolute => JointPosition::Revolute(Rotor {
+            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
                 sin: counter.value(),
                 cos: counter.value(),
             }),

@@ -3,7 +3,7 @@
 
 mod equations_support;
 
-use dalembert_model::equations::Rotor;
+use dalembert_model::equations::SinCosPair;
 use dalembert_model::reference::{Reference, WrongLength};
 use equations_support::extremes::{self, Extreme};
 use equations_support::normwise;
@@ -14,7 +14,7 @@ const U: f64 = f64::EPSILON / 2.0;
 fn runtime(case: &Extreme) -> Reference<f64> {
     let pair = |angle: f64| {
         let (sin, cos) = libm::sincos(angle);
-        Rotor { sin, cos }
+        SinCosPair { sin, cos }
     };
     Reference::new(case.arm(|x| x, pair))
 }

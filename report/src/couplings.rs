@@ -11,7 +11,7 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
 
 use dalembert_codegen::function::{Function, Quantity};
-use dalembert_codegen::generate::MOST_OUTPUTS;
+use dalembert_codegen::generate::MAX_OUTPUTS;
 use dalembert_codegen::graph::{Folding, Graph, Node, NodeId};
 use dalembert_codegen::trace::trace;
 
@@ -111,7 +111,7 @@ impl Couplings {
     pub fn of(robot: &Robot) -> Option<Couplings> {
         let function = Function::DynamicCoefficients;
         let n = robot.joints.len();
-        if function.outputs(n) > MOST_OUTPUTS {
+        if function.outputs(n) > MAX_OUTPUTS {
             return None;
         }
         // Which formulation is traced does not matter to the findings: equal

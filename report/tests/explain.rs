@@ -11,15 +11,15 @@ use dalembert_codegen::scene::Setting;
 use dalembert_codegen::verify::exact::{prove, prove_in};
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
-use dalembert_report::explain::parameters::{Fate, Parameter, Together};
-use dalembert_report::explain::steps::{Code, Step};
+use dalembert_report::explain::parameters::{Parameter, ParameterStatus, Together};
+use dalembert_report::explain::steps::{Code, SearchStep};
 use dalembert_report::explain::{Explanation, explain, explain_all};
 
 fn of(name: &str, function: Function) -> Explanation {
     explain(&support::robot(name), function, &Request::default()).unwrap()
 }
 
-fn operations(explanation: &Explanation, step: Step) -> usize {
+fn operations(explanation: &Explanation, step: SearchStep) -> usize {
     let mut rows = explanation.rows.iter();
     let row = rows.find(|row| row.step == step).unwrap();
     row.counts.operations()
@@ -53,14 +53,14 @@ fn a_scene_is_explained() {
     let explained = explain(&reading.robot, Function::Gravity, &request).unwrap();
     let setting = Setting::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
     let (last, exact) = explained.rows.split_last().unwrap();
-    assert_eq!(last.step, Step::Tolerance);
+    assert_eq!(last.step, SearchStep::Tolerance);
     for row in exact {
         if let Code::Program(program) = &row.code {
             let step = row.step.key();
             prove_in(&setting, program).unwrap_or_else(|e| panic!("{step}: {e}"));
         }
     }
-    let searched = operations(&explained, Step::Search);
+    let searched = operations(&explained, SearchStep::Search);
     assert!(last.counts.operations() < searched && searched < 14);
     assert!(explained.couplings.is_none());
     {
@@ -117,18 +117,18 @@ fn the_last_row_is_what_is_generated() {
 fn steps_do_not_make_it_dearer() {
     let puma = of("puma560", Function::InverseDynamics);
     let falling = [
-        Step::LagrangeWritten,
-        Step::LagrangeFolded,
-        Step::LagrangeFingerprints,
-        Step::LagrangeEGraph,
-        Step::LagrangeSearch,
-        Step::NewtonFingerprints,
-        Step::ChainKept,
-        Step::ChainBase,
-        Step::ChainTuned,
-        Step::ChainUnit,
-        Step::EGraph,
-        Step::Search,
+        SearchStep::LagrangeWritten,
+        SearchStep::LagrangeFolded,
+        SearchStep::LagrangeFingerprints,
+        SearchStep::LagrangeEGraph,
+        SearchStep::LagrangeSearch,
+        SearchStep::NewtonFingerprints,
+        SearchStep::ChainKept,
+        SearchStep::ChainBase,
+        SearchStep::ChainTuned,
+        SearchStep::ChainUnit,
+        SearchStep::EGraph,
+        SearchStep::Search,
     ];
     for pair in falling.windows(2) {
         let (before, after) = (operations(&puma, pair[0]), operations(&puma, pair[1]));
@@ -139,7 +139,7 @@ fn steps_do_not_make_it_dearer() {
             pair[1]
         );
     }
-    assert!(operations(&puma, Step::Search) < operations(&puma, Step::ChainBase));
+    assert!(operations(&puma, SearchStep::Search) < operations(&puma, SearchStep::ChainBase));
 }
 
 /// Two links in a plane have three base parameters each way the books count
@@ -162,15 +162,15 @@ fn what_drops_out_of_the_puma() {
     // and only its moment about the axis counts.
     let waist = &puma.links[0];
     assert_eq!(waist.together, Some(Together::Sum));
-    let idle = |(p, _, fate): &(Parameter, f64, Fate)| {
-        matches!(p, Parameter::First(_)) && *fate == Fate::NoEffect
+    let idle = |(p, _, fate): &(Parameter, f64, ParameterStatus)| {
+        matches!(p, Parameter::First(_)) && *fate == ParameterStatus::NoEffect
     };
     assert!(waist.left.iter().any(idle), "{:?}", waist.left);
     // Gravity is a matter of first moments.
     let gravity = of("puma560", Function::Gravity).parameters;
     for (p, _, fate) in gravity.links.iter().flat_map(|link| &link.left) {
         let second = matches!(p, Parameter::Second(_));
-        assert!(!second || *fate == Fate::NoEffect, "{p}");
+        assert!(!second || *fate == ParameterStatus::NoEffect, "{p}");
     }
 }
 
@@ -197,7 +197,11 @@ fn rounding_of_every_row() {
             assert!(errors.normwise > 0.0 && errors.normwise < 1e3, "{step}");
             // Small symbols are differences of large numbers where poses are
             // differentiated.
-            let bound = if row.step == Step::Search { 1e3 } else { 1e8 };
+            let bound = if row.step == SearchStep::Search {
+                1e3
+            } else {
+                1e8
+            };
             let error = errors.per_joint;
             assert!(error > 0.0 && error < bound, "{function} {step}: {error}");
         }

@@ -19,19 +19,19 @@ fn robot(name: &str) -> Robot {
 
 /// Which of q, q̇ and q̈, and which joint.
 #[derive(Clone, Copy, PartialEq)]
-struct Place(usize, usize);
+struct Entry(usize, usize);
 
-fn reads(input: Input, place: Place) -> bool {
+fn reads(input: Input, place: Entry) -> bool {
     match input {
         Input::Sin(angle) | Input::Cos(angle) => {
             place.0 == 0 && angle.terms().any(|(joint, _)| joint == place.1)
         }
-        Input::Entry(argument, joint) => place == Place(argument.index(), joint),
+        Input::Entry(argument, joint) => place == Entry(argument.index(), joint),
     }
 }
 
 /// Which outputs a program makes out of an input.
-fn dependent(program: &Program, place: Place) -> Vec<bool> {
+fn dependent(program: &Program, place: Entry) -> Vec<bool> {
     let mut steps: Vec<bool> = Vec::new();
     let of = |operand: &Operand, steps: &[bool]| match operand {
         Operand::Input(input) => reads(*input, place),
@@ -46,7 +46,7 @@ fn dependent(program: &Program, place: Place) -> Vec<bool> {
     outputs.map(|output| of(&output.value, &steps)).collect()
 }
 
-fn with(state: &JointState, place: Place, value: f64) -> JointState {
+fn with(state: &JointState, place: Entry, value: f64) -> JointState {
     let mut state = state.clone();
     let values = [&mut state.q, &mut state.qd, &mut state.qdd];
     values.into_iter().nth(place.0).unwrap()[place.1] = value;
@@ -54,7 +54,7 @@ fn with(state: &JointState, place: Place, value: f64) -> JointState {
 }
 
 /// Whether an output changes with an input, at some of the states.
-fn sensitive(code: &Code, function: Function, states: &[JointState], place: Place) -> Vec<bool> {
+fn sensitive(code: &Code, function: Function, states: &[JointState], place: Entry) -> Vec<bool> {
     let mut sensitive = Vec::new();
     for state in states {
         let rows = [&state.q, &state.qd, &state.qdd];
@@ -87,7 +87,7 @@ fn what_is_not_finite_reaches_what_depends_on_it() {
         let runtime = Code::runtime(&robot, ScalarType::F64);
         for generated in &functions {
             let function = generated.function;
-            for place in (0..3).flat_map(|row| (0..robot.joints.len()).map(move |j| Place(row, j)))
+            for place in (0..3).flat_map(|row| (0..robot.joints.len()).map(move |j| Entry(row, j)))
             {
                 let dependent = dependent(&generated.program, place);
                 let sensitive = sensitive(&runtime, function, &states, place);

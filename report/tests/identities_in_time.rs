@@ -7,7 +7,7 @@ use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::{JointState, seeded};
 use dalembert_codegen::verify::floating::Emitted;
 use dalembert_model::equations::matrix::Columns;
-use dalembert_model::equations::{Arm, Formulation, JointPosition, Rotor};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::number::Rounded;
 use dalembert_model::read;
 use dalembert_model::robot::{JointKind, Robot};
@@ -62,7 +62,7 @@ fn inertia_rate(robot: &Robot, formula: Formulation, state: &JointState) -> Matr
             match joint.kind {
                 JointKind::Revolute => {
                     let (sin, cos) = value.sin_cos();
-                    JointPosition::Revolute(Rotor { sin, cos }.turning(&rate))
+                    JointPosition::Revolute(SinCosPair { sin, cos }.turning(&rate))
                 }
                 JointKind::Prismatic => JointPosition::Prismatic(Dual { value, rate }),
             }
@@ -215,7 +215,7 @@ fn kinetic(d: &[[f64; 6]; 6], qd: &[f64; 6]) -> f64 {
 fn potential(arm: &Arm<f64>, q: &[f64; 6]) -> f64 {
     let pair = |q: &f64| {
         let (sin, cos) = libm::sincos(*q);
-        JointPosition::Revolute(Rotor { sin, cos })
+        JointPosition::Revolute(SinCosPair { sin, cos })
     };
     let position: Vec<_> = q.iter().map(pair).collect();
     let mut pose = Columns::identity();

@@ -1,9 +1,9 @@
 //! `dalembert certify`: a certificate checked again, part by part.
 
 use dalembert_codegen::bound::interval::Interval;
-use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::Certificate;
 use dalembert_codegen::certify::certificate::format::{self, MAX_BYTES};
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::gappa;
 use dalembert_codegen::certify::input_box::InputBox;
 use dalembert_codegen::emit::figures::inside;
@@ -93,19 +93,19 @@ fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outc
     }
     let mut seen = None;
     if args.samples > 0 {
-        let attack = attack(certificate, args.samples, args.climbs, 1)
+        let falsification = falsify(certificate, args.samples, args.climbs, 1)
             .map_err(|error| Failure::Check(format!("error: {name}: {error}")))?;
         rows[0].push("observed".into());
-        for (row, observed) in rows[1..].iter_mut().zip(&attack.observed) {
+        for (row, observed) in rows[1..].iter_mut().zip(&falsification.observed) {
             row.push(format!("{observed:.3e}"));
         }
-        seen = Some(attack);
+        seen = Some(falsification);
     }
     text += &output::table(&rows, 0);
     output::print(&text)?;
-    if let Some(attack) = seen {
-        output::note(&format!("run at {} states", attack.states));
-        if let Some((index, state)) = attack.violation {
+    if let Some(falsification) = seen {
+        output::note(&format!("run at {} states", falsification.states));
+        if let Some((index, state)) = falsification.violation {
             return Err(Failure::Check(format!(
                 "error: {name}: {} errs more than E at q = {:?}, qd = {:?}, qdd = {:?}",
                 certificate.emitted.entry(index),

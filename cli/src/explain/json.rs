@@ -7,7 +7,7 @@ use dalembert_model::robot::Robot;
 use dalembert_report::couplings::Couplings;
 use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
-use dalembert_report::explain::parameters::{Fate, LinkFate, Parameter, Together};
+use dalembert_report::explain::parameters::{LinkParameters, Parameter, ParameterStatus, Together};
 use dalembert_report::explain::steps::Code;
 use serde_json::{Map, Value, json};
 
@@ -74,22 +74,22 @@ fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors])
     })
 }
 
-fn link_json(link: &LinkFate) -> Value {
+fn link_json(link: &LinkParameters) -> Value {
     let object = |list: Vec<(Parameter, f64)>| -> Map<String, Value> {
         let entries = list.into_iter();
         entries
             .map(|(p, value)| (p.to_string(), json!(value)))
             .collect()
     };
-    let with = |fate: Fate| {
+    let with = |fate: ParameterStatus| {
         let chosen = link.left.iter().filter(|(_, _, f)| *f == fate);
         object(chosen.map(|(p, value, _)| (*p, *value)).collect())
     };
     json!({
         "joint": link.joint + 1,
         "moved_to_the_link_before": object(link.moved.clone()),
-        "left": with(Fate::Stays),
-        "without_effect": with(Fate::NoEffect),
+        "left": with(ParameterStatus::Stays),
+        "without_effect": with(ParameterStatus::NoEffect),
         "together": link.together.map(|together| match together {
             Together::Sum => "sum",
             Together::Difference => "difference",

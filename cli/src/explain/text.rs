@@ -8,7 +8,9 @@ use dalembert_report::couplings::Couplings;
 use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
 use dalembert_report::explain::merged::Merged;
-use dalembert_report::explain::parameters::{Fate, LinkFate, Parameter, Parameters, Together};
+use dalembert_report::explain::parameters::{
+    LinkParameters, Parameter, ParameterStatus, Parameters, Together,
+};
 use dalembert_report::explain::steps::Code;
 
 use super::{Measured, QUANTITIES, REASONS, tally};
@@ -142,7 +144,7 @@ fn formulation_name(formulation: Formulation) -> &'static str {
     }
 }
 
-fn link_text(robot: &Robot, link: &LinkFate, before: Option<&LinkFate>) -> String {
+fn link_text(robot: &Robot, link: &LinkParameters, before: Option<&LinkParameters>) -> String {
     let joint = link.joint + 1;
     let mut text = format!("  link {joint}\n");
     let mut line = |line: String| text += &format!("    {line}\n");
@@ -157,11 +159,14 @@ fn link_text(robot: &Robot, link: &LinkFate, before: Option<&LinkFate>) -> Strin
             None => format!("to the base, which feels nothing: {moved}"),
         });
     }
-    let with = |fate: Fate| {
+    let with = |fate: ParameterStatus| {
         let chosen = link.left.iter().filter(move |(_, _, f)| *f == fate);
         values(chosen.map(|(p, value, _)| (*p, *value)))
     };
-    let (stays, idle) = (with(Fate::Stays), with(Fate::NoEffect));
+    let (stays, idle) = (
+        with(ParameterStatus::Stays),
+        with(ParameterStatus::NoEffect),
+    );
     line(match link.needed() {
         0 => "nothing is left of it".to_owned(),
         _ => format!("left: {stays}"),

@@ -13,12 +13,12 @@ use crate::outcome::{Failure, Outcome};
 pub struct Target {
     /// As the user calls it.
     pub name: PathBuf,
-    pub(super) place: Place,
+    pub(super) place: Destination,
 }
 
 /// What is there.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum Destination {
     /// Standard output.
     Standard,
     /// A file that is there or will be, links followed: replaced as a whole.
@@ -28,7 +28,7 @@ pub(super) enum Place {
 }
 
 /// Links that are followed.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// Where a process finds what it has open.
 const OPEN: [&str; 2] = ["/dev/fd", "/proc/self/fd"];
@@ -38,7 +38,7 @@ impl Target {
     pub fn standard() -> Target {
         Target {
             name: "standard output".into(),
-            place: Place::Standard,
+            place: Destination::Standard,
         }
     }
 
@@ -58,9 +58,9 @@ impl Target {
     /// It cannot.
     pub fn check(&self) -> Outcome {
         let tried = match &self.place {
-            Place::Standard => Ok(()),
-            Place::File(path) => Unfinished::beside(path).map(drop),
-            Place::Stream(path) => enter(path),
+            Destination::Standard => Ok(()),
+            Destination::File(path) => Unfinished::beside(path).map(drop),
+            Destination::Stream(path) => enter(path),
         };
         tried.map_err(|error| unwritable(&self.name, error))
     }
@@ -68,23 +68,23 @@ impl Target {
     /// The file, unless it is a device or a pipe.
     pub fn file(&self) -> Option<&Path> {
         match &self.place {
-            Place::File(path) => Some(path),
-            Place::Standard | Place::Stream(_) => None,
+            Destination::File(path) => Some(path),
+            Destination::Standard | Destination::Stream(_) => None,
         }
     }
 }
 
-fn place(path: &Path) -> io::Result<Place> {
+fn place(path: &Path) -> io::Result<Destination> {
     if path.to_string_lossy().ends_with(std::path::is_separator) {
         return Err(ErrorKind::IsADirectory.into());
     }
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         // A file that is open may have no name, or is to be written on, not anew.
         if let Some(number) = OPEN.iter().find_map(|open| path.strip_prefix(open).ok()) {
             return match number == Path::new("1") {
-                true => Ok(Place::Standard),
-                false => fs::metadata(&path).map(|_| Place::Stream(path)),
+                true => Ok(Destination::Standard),
+                false => fs::metadata(&path).map(|_| Destination::Stream(path)),
             };
         }
         if let Ok(to) = fs::read_link(&path) {
@@ -92,11 +92,13 @@ fn place(path: &Path) -> io::Result<Place> {
             continue;
         }
         return match fs::metadata(&path) {
-            Ok(found) if found.is_file() => fs::canonicalize(&path).map(Place::File),
-            Ok(found) => stream(&found).map(|()| Place::Stream(path)),
+            Ok(found) if found.is_file() => fs::canonicalize(&path).map(Destination::File),
+            Ok(found) => stream(&found).map(|()| Destination::Stream(path)),
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 let name = path.file_name().ok_or(ErrorKind::IsADirectory)?;
-                Ok(Place::File(fs::canonicalize(parent(&path))?.join(name)))
+                Ok(Destination::File(
+                    fs::canonicalize(parent(&path))?.join(name),
+                ))
             }
             Err(error) => Err(error),
         };

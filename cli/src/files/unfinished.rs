@@ -13,7 +13,7 @@ pub(super) struct Unfinished {
 }
 
 /// Left by runs with the same number that were killed.
-const MOST_LEFT: usize = 16;
+const MAX_LEFT: usize = 16;
 
 impl Unfinished {
     /// In the same folder, so that it can be renamed.
@@ -27,7 +27,7 @@ impl Unfinished {
             // New: in a folder that others write in too, a link may lie in wait.
             match File::create_new(&path) {
                 Ok(file) => return Ok(Unfinished { path, file }),
-                Err(error) if error.kind() == ErrorKind::AlreadyExists && left < MOST_LEFT => {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists && left < MAX_LEFT => {
                     left += 1;
                 }
                 Err(error) => return Err(error),

@@ -3,7 +3,7 @@
 use std::fs::OpenOptions;
 use std::io::Write;
 
-use super::target::{Place, Target};
+use super::target::{Destination, Target};
 use super::unfinished::Unfinished;
 use super::unwritable;
 use crate::outcome::Outcome;
@@ -19,7 +19,7 @@ use crate::output;
 pub fn write(outputs: &[(&Target, &str)]) -> Outcome {
     let mut unfinished = Vec::new();
     for (target, text) in outputs {
-        if let Place::File(path) = &target.place {
+        if let Destination::File(path) = &target.place {
             let part = Unfinished::beside(path).and_then(|mut part| {
                 part.file.write_all(text.as_bytes())?;
                 Ok(part)
@@ -30,14 +30,14 @@ pub fn write(outputs: &[(&Target, &str)]) -> Outcome {
     }
     for (target, text) in outputs {
         match &target.place {
-            Place::Standard => output::print(text)?,
-            Place::Stream(path) => {
+            Destination::Standard => output::print(text)?,
+            Destination::Stream(path) => {
                 // At the end: what is open may be a file with something in it.
                 let opened = OpenOptions::new().append(true).open(path);
                 let written = opened.and_then(|mut file| file.write_all(text.as_bytes()));
                 written.map_err(|error| unwritable(&target.name, error))?;
             }
-            Place::File(_) => {}
+            Destination::File(_) => {}
         }
     }
     for (target, path, part) in unfinished {

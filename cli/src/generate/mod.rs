@@ -15,7 +15,7 @@ use dalembert_codegen::generate::{GenerateError, Generated, Request};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::simplify::Effort;
 use dalembert_model::robot::Robot;
-use dalembert_report::explain::errors::{MOST_STATES, affordable_states};
+use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
 
 use crate::args::GenerateArgs;
 use crate::outcome::{Failure, Outcome};
@@ -38,7 +38,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     drop(session);
     let states = args.states.unwrap_or(match args.choice.effort {
         // Who ended the search waits no longer for its errors.
-        Effort::Thorough if !generated.ended => MOST_STATES,
+        Effort::Thorough if !generated.ended => MAX_STATES,
         _ => affordable_states(robot.joints.len()),
     });
     if states > affordable_states(robot.joints.len()) {

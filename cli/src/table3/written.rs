@@ -1,6 +1,6 @@
 //! What the formulas cost as they are written: run with the counting scalar.
 
-use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, Rotor};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::{Convention, Inertia, JointKind, Robot};
 use dalembert_model::scalar::Scalar;
@@ -14,12 +14,12 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
     let value = || counter.value();
     let link = || Link {
         kind: JointKind::Revolute,
-        alpha: Rotor {
+        alpha: SinCosPair {
             sin: value(),
             cos: value(),
         },
         beta: None,
-        theta: Rotor {
+        theta: SinCosPair {
             sin: Count::Zero,
             cos: Count::One,
         },
@@ -70,7 +70,7 @@ fn count<'a>(formulation: Formulation, arm: &Arm<Count<'a>>, counter: &'a Counte
         .links
         .iter()
         .map(|link| match link.kind {
-            JointKind::Revolute => JointPosition::Revolute(Rotor {
+            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
                 sin: counter.value(),
                 cos: counter.value(),
             }),

@@ -11,7 +11,7 @@ mod report;
 
 use std::path::Path;
 
-use dalembert_codegen::certify::choose::Frame;
+use dalembert_codegen::certify::choose::ErrorBudget;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::plan::{self, Plan, SceneKey};
@@ -63,13 +63,13 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let setting = Setting::of(&reading.robot, bare.as_ref()).map_err(GenerateError::Scene)?;
     let exact = exact(args, &reading, scene, bare.as_ref())?;
     let relative_to = relative_to(args, scene);
-    let frame = Frame::new(&setting, &exact, relative_to).map_err(|refusal| {
+    let frame = ErrorBudget::new(&setting, &exact, relative_to).map_err(|refusal| {
         Failure::Input(format!(
             "error: {}: {refusal}\n  = help: give the limits in the robot file, or the box of a scene",
             args.robot.display()
         ))
     })?;
-    // Every tolerance and the exact program: searched for, then attacked.
+    // Every tolerance and the exact program: searched for, then falsified.
     let steps = Steps::new(2 * (1 + tolerances.len()));
     let watch = steps.watch();
     let frame = frame.watched(watch.over(exact.function));

@@ -8,8 +8,8 @@
 mod given;
 mod show;
 
-use dalembert_codegen::certify::attack::{Attack, attack};
 use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certify::falsify::{Falsification, falsify};
 use dalembert_codegen::generate::{GenerateError, Generated};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::{SEED, STATES, seeded};
@@ -37,7 +37,7 @@ impl Check {
 /// A certificate and the largest errors that were seen.
 struct Claim<'g> {
     certificate: &'g Certificate,
-    attack: Attack,
+    falsification: Falsification,
 }
 
 impl Claim<'_> {
@@ -47,7 +47,7 @@ impl Claim<'_> {
     }
 
     fn passed(&self) -> bool {
-        self.attack.violation.is_none()
+        self.falsification.violation.is_none()
     }
 }
 
@@ -118,7 +118,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     disagreement.map_or(Ok(()), |why| Err(Failure::Check(why)))
 }
 
-/// The certificates of a scene with a tolerance, attacked.
+/// The certificates of a scene with a tolerance, falsified.
 fn claims(generated: &Generated) -> Result<Vec<Claim<'_>>, Failure> {
     let admitted = generated
         .functions
@@ -126,11 +126,11 @@ fn claims(generated: &Generated) -> Result<Vec<Claim<'_>>, Failure> {
         .filter_map(|f| f.admitted.as_ref());
     let mut claims = Vec::new();
     for certificate in admitted.flat_map(|admitted| &admitted.certificates) {
-        let attack = attack(certificate, STATES, CLIMBS, SEED)
+        let falsification = falsify(certificate, STATES, CLIMBS, SEED)
             .map_err(|error| Failure::Check(format!("error: {error}")))?;
         claims.push(Claim {
             certificate,
-            attack,
+            falsification,
         });
     }
     Ok(claims)

@@ -38,11 +38,11 @@ impl Found<'_> {
             let certificate = claim.certificate;
             text += &format!(
                 "\n{} in {}, certified, and the largest errors at {} states\n",
-                certificate.emitted.function, certificate.scalar, claim.attack.states
+                certificate.emitted.function, certificate.scalar, claim.falsification.states
             );
             let mut rows = report::bounds(certificate);
             rows[0].push("observed".into());
-            for (row, observed) in rows[1..].iter_mut().zip(&claim.attack.observed) {
+            for (row, observed) in rows[1..].iter_mut().zip(&claim.falsification.observed) {
                 row.push(format!("{observed:.3e}"));
             }
             text += &output::table(&rows, 0);
@@ -121,8 +121,8 @@ impl Found<'_> {
                 "function": claim.certificate.emitted.function.name(),
                 "scalar": claim.certificate.scalar.name(),
                 "certified": bounds.map(|bound| bound.total()).collect::<Vec<_>>(),
-                "observed": claim.attack.observed,
-                "states": claim.attack.states,
+                "observed": claim.falsification.observed,
+                "states": claim.falsification.states,
                 "passed": claim.passed(),
             })
         });

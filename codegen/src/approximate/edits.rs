@@ -24,7 +24,7 @@ use crate::program::{Input, Operand, Operation, Program};
 
 /// What an edit replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Place {
+pub enum EditSite {
     /// Every use of an input.
     Input(Input),
     /// The result of a step.
@@ -39,7 +39,7 @@ pub enum Place {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edit {
     /// What is replaced.
-    pub place: Place,
+    pub place: EditSite,
     /// Whether the replacement is negated.
     pub negative: bool,
     /// The replacement: computed before the place, or a constant.
@@ -92,17 +92,18 @@ impl Stage {
         for (index, edit) in self.edits.iter().enumerate() {
             let early = match (&edit.value, edit.place) {
                 (Operand::Constant(_), _) => true,
-                (_, Place::Input(_)) => false,
+                (_, EditSite::Input(_)) => false,
                 (Operand::Input(_), _) => true,
-                (Operand::Step(value), Place::Step(at) | Place::Left(at) | Place::Right(at)) => {
-                    *value < at
-                }
+                (
+                    Operand::Step(value),
+                    EditSite::Step(at) | EditSite::Left(at) | EditSite::Right(at),
+                ) => *value < at,
             };
             let known = match edit.place {
-                Place::Step(step) | Place::Left(step) | Place::Right(step) => {
+                EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => {
                     step < self.program.steps.len()
                 }
-                Place::Input(_) => true,
+                EditSite::Input(_) => true,
             };
             let twice = !places.insert(edit.place);
             if !early || !known || twice {
@@ -176,7 +177,7 @@ pub fn difference(stages: &[Stage]) -> Graph {
 struct Run<'a> {
     stage: &'a Stage,
     /// The edit of each place; its first, if a place has several.
-    edits: BTreeMap<Place, &'a Edit>,
+    edits: BTreeMap<EditSite, &'a Edit>,
     builder: Builder,
     exact: Vec<Value>,
     edited: Vec<Value>,
@@ -200,7 +201,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn edit(&self, place: Place) -> Option<&'a Edit> {
+    fn edit(&self, place: EditSite) -> Option<&'a Edit> {
         self.edits.get(&place).copied()
     }
 
@@ -214,7 +215,7 @@ impl<'a> Run<'a> {
 
     fn after(&mut self, operand: &Operand) -> Value {
         match operand {
-            Operand::Input(input) => match self.edit(Place::Input(*input)) {
+            Operand::Input(input) => match self.edit(EditSite::Input(*input)) {
                 Some(edit) => self.replacement(edit),
                 None => self.builder.input(*input),
             },
@@ -237,7 +238,7 @@ impl<'a> Run<'a> {
 
     fn delta(&mut self, operand: &Operand) -> Value {
         match operand {
-            Operand::Input(input) => match self.edit(Place::Input(*input)) {
+            Operand::Input(input) => match self.edit(EditSite::Input(*input)) {
                 Some(edit) => self.moved(edit, operand),
                 None => Value::zero(),
             },
@@ -247,7 +248,7 @@ impl<'a> Run<'a> {
     }
 
     /// An operand of a step: before, after, and the difference.
-    fn operand(&mut self, operand: &Operand, place: Place) -> [Value; 3] {
+    fn operand(&mut self, operand: &Operand, place: EditSite) -> [Value; 3] {
         let before = self.before(operand);
         match self.edit(place) {
             None => [before, self.after(operand), self.delta(operand)],
@@ -260,11 +261,11 @@ impl<'a> Run<'a> {
 
     fn steps(&mut self) {
         for (index, step) in self.stage.program.steps.iter().enumerate() {
-            let [a, a_after, da] = self.operand(&step.left, Place::Left(index));
-            let [b, b_after, db] = self.operand(&step.right, Place::Right(index));
+            let [a, a_after, da] = self.operand(&step.left, EditSite::Left(index));
+            let [b, b_after, db] = self.operand(&step.right, EditSite::Right(index));
             let exact = operate(&mut self.builder, step.operation, &a, &b);
             self.exact.push(exact.clone());
-            let (edited, delta) = match self.edit(Place::Step(index)) {
+            let (edited, delta) = match self.edit(EditSite::Step(index)) {
                 None => (
                     operate(&mut self.builder, step.operation, &a_after, &b_after),
                     self.unedited(step.operation, [&b, &da, &db, &a_after]),
@@ -333,7 +334,7 @@ pub(crate) fn operate(builder: &mut Builder, operation: Operation, a: &Value, b:
 
 impl Edit {
     /// A constant in place of a value.
-    pub fn constant(place: Place, value: Exact) -> Edit {
+    pub fn constant(place: EditSite, value: Exact) -> Edit {
         Edit {
             place,
             negative: false,
@@ -344,12 +345,12 @@ impl Edit {
     /// Whether it puts another constant in the place of an operand: it saves
     /// nothing, but makes up for what other edits leave out.
     pub fn corrects(&self) -> bool {
-        matches!(self.place, Place::Left(_) | Place::Right(_))
+        matches!(self.place, EditSite::Left(_) | EditSite::Right(_))
             && matches!(self.value, Operand::Constant(_))
     }
 
     /// Zero in place of a value: its term is dropped.
-    pub fn zero(place: Place) -> Edit {
+    pub fn zero(place: EditSite) -> Edit {
         Edit::constant(place, Exact::zero())
     }
 }

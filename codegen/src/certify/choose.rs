@@ -14,25 +14,25 @@ use dalembert_model::scene::{Scale, Tolerance};
 use super::certificate::subject::Subject;
 use super::certificate::{Certificate, Refuted};
 use super::definite::{Indefinite, least_eigenvalue};
-use super::gauge;
 use super::input_box::{InputBox, MissingLimit};
 use super::prune::{self, Settings};
+use super::regrouping;
 use super::scale;
 use super::sensitivity::Sensitivity;
 use super::sines;
 use super::work::Meter;
 use crate::approximate::edits::{Stage, has_edits};
 use crate::bound::Split;
-use crate::certify::sensitivity::Fineness;
+use crate::certify::sensitivity::BoundEffort;
 use crate::function::{Argument, Function};
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::scene::Setting;
 use crate::sincos::TooAccurate;
-use crate::watch::{Part, Vigil};
+use crate::watch::{FunctionWatch, Part};
 
 /// What errors of a function are bounded in and relative to.
 #[derive(Clone, Debug)]
-pub struct Frame<'a> {
+pub struct ErrorBudget<'a> {
     /// The full model.
     pub setting: &'a Setting,
     /// The exact program.
@@ -44,7 +44,7 @@ pub struct Frame<'a> {
     /// What T is.
     pub relative_to: Scale,
     /// Who waits, if anybody does.
-    watch: Option<Vigil<'a>>,
+    watch: Option<FunctionWatch<'a>>,
     /// Of the programs asked for last.
     sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
 }
@@ -78,7 +78,7 @@ pub struct Claim {
 
 /// Why no variant meets a tolerance.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Refusal {
+pub enum ToleranceError {
     /// Errors of such a function have no bound.
     Function(Unbounded),
     /// A limit that a bound needs.
@@ -148,21 +148,21 @@ impl fmt::Display for Unbounded {
     }
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for ToleranceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Function(why) => why.fmt(f),
-            Refusal::Missing(missing) => missing.fmt(f),
-            Refusal::Scale(why) => why.fmt(f),
-            Refusal::Work { limit, scene } => write!(
+            ToleranceError::Function(why) => why.fmt(f),
+            ToleranceError::Missing(missing) => missing.fmt(f),
+            ToleranceError::Scale(why) => why.fmt(f),
+            ToleranceError::Work { limit, scene } => write!(
                 f,
                 "what the tolerance allows was not found within {limit} units of work, about as \
                  much as may be done while a compiler waits: run `dalembert generate ROBOT.toml \
                  --scene {scene} --effort thorough --save-plan` once; with its plan nothing is \
                  searched for"
             ),
-            Refusal::Indefinite(why) => write!(f, "the full model: {why}"),
-            Refusal::Above {
+            ToleranceError::Indefinite(why) => write!(f, "the full model: {why}"),
+            ToleranceError::Above {
                 entry,
                 scalar,
                 tolerance,
@@ -183,7 +183,7 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for ToleranceError {}
 
 /// Why a variant gets no polynomials for its sines.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,7 +191,7 @@ pub enum NoPolynomials {
     /// None is as exact as what is left of the tolerance.
     TooAccurate(TooAccurate),
     /// Their errors with those of the rest are too much.
-    Above(Refusal),
+    Above(ToleranceError),
     /// D with their errors cannot be shown to be positive definite.
     Indefinite,
 }
@@ -210,23 +210,25 @@ impl fmt::Display for NoPolynomials {
 
 impl std::error::Error for NoPolynomials {}
 
-impl<'a> Frame<'a> {
+impl<'a> ErrorBudget<'a> {
     /// The box of a setting, and T over it.
     ///
     /// # Errors
-    /// [`Refusal::Missing`] limits, or a program that cannot be read back.
+    /// [`ToleranceError::Missing`] limits, or a program that cannot be read back.
     pub fn new(
         setting: &'a Setting,
         exact: &'a Program,
         relative_to: Scale,
-    ) -> Result<Frame<'a>, Refusal> {
-        Unbounded::find(exact).map_or(Ok(()), |why| Err(Refusal::Function(why)))?;
-        let limits = InputBox::within(setting, exact.function).map_err(Refusal::Missing)?;
+    ) -> Result<ErrorBudget<'a>, ToleranceError> {
+        Unbounded::find(exact).map_or(Ok(()), |why| Err(ToleranceError::Function(why)))?;
+        let limits = InputBox::within(setting, exact.function).map_err(ToleranceError::Missing)?;
         let scales = match relative_to {
-            Scale::Actuator => scale::actuator(setting.robot(), exact).map_err(Refusal::Scale)?,
+            Scale::Actuator => {
+                scale::actuator(setting.robot(), exact).map_err(ToleranceError::Scale)?
+            }
             Scale::Range => scale::range(exact, &limits),
         };
-        Ok(Frame {
+        Ok(ErrorBudget {
             setting,
             exact,
             limits,
@@ -238,8 +240,8 @@ impl<'a> Frame<'a> {
     }
 
     /// The same under a watch: where it is over, a search ends with its best.
-    pub fn watched(self, watch: Vigil<'a>) -> Frame<'a> {
-        Frame {
+    pub fn watched(self, watch: FunctionWatch<'a>) -> ErrorBudget<'a> {
+        ErrorBudget {
             watch: Some(watch),
             ..self
         }
@@ -252,7 +254,7 @@ impl<'a> Frame<'a> {
 
     /// What bounds of a program's rounding need: found once for the scalars, the
     /// sines and the tolerances of the same program.
-    fn sensitivity(&self, program: &Program, fineness: Fineness) -> Rc<Sensitivity> {
+    fn sensitivity(&self, program: &Program, fineness: BoundEffort) -> Rc<Sensitivity> {
         let mut known = self.sensitivities.borrow_mut();
         let found = known
             .iter()
@@ -280,7 +282,7 @@ impl<'a> Frame<'a> {
     }
 
     /// The exact program's certificates, whatever they come to.
-    pub fn unedited(&self, scalars: &[ScalarType], fineness: Fineness) -> Admitted {
+    pub fn unedited(&self, scalars: &[ScalarType], fineness: BoundEffort) -> Admitted {
         self.certified(&[], self.exact, scalars, fineness)
     }
 
@@ -289,7 +291,7 @@ impl<'a> Frame<'a> {
         stages: &[Stage],
         emitted: &Program,
         scalars: &[ScalarType],
-        fineness: Fineness,
+        fineness: BoundEffort,
     ) -> Admitted {
         // What the scalars share, then each of them.
         let tell = |done| {
@@ -345,17 +347,17 @@ impl<'a> Frame<'a> {
     /// certified to stay within its tolerance.
     ///
     /// # Errors
-    /// [`Refusal::Above`] if the exact program is not.
+    /// [`ToleranceError::Above`] if the exact program is not.
     pub fn choose(
         &self,
         tolerances: &[f64],
         scalars: &[ScalarType],
         settings: &Settings,
-        fineness: Fineness,
-    ) -> Result<Admitted, Refusal> {
+        fineness: BoundEffort,
+    ) -> Result<Admitted, ToleranceError> {
         let meter = Meter::new(settings.work);
         let spent = || match settings.work {
-            Some(limit) if meter.is_over() => Err(Refusal::Work {
+            Some(limit) if meter.is_over() => Err(ToleranceError::Work {
                 limit,
                 scene: (self.setting.scene()).map_or(String::new(), |scene| scene.name.clone()),
             }),
@@ -371,7 +373,7 @@ impl<'a> Frame<'a> {
             };
             let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
             let start = start.get_or_insert_with(|| {
-                gauge::descend(self.setting, exact, limits, &allowances, settings, watch)
+                regrouping::descend(self.setting, exact, limits, &allowances, settings, watch)
             });
             let start = start.as_ref();
             let pruned = prune::watched(exact, start, limits, &allowances, settings, watch);
@@ -390,7 +392,8 @@ impl<'a> Frame<'a> {
         if has_inertia(self.exact) {
             // Nothing may go. Is that the model's own fault?
             for &scalar in scalars {
-                least_eigenvalue(self.exact, scalar, &self.limits).map_err(Refusal::Indefinite)?;
+                least_eigenvalue(self.exact, scalar, &self.limits)
+                    .map_err(ToleranceError::Indefinite)?;
             }
         }
         Ok(unedited)
@@ -405,7 +408,7 @@ impl<'a> Frame<'a> {
         &self,
         certificate: &Certificate,
         tolerances: &[f64],
-        fineness: Fineness,
+        fineness: BoundEffort,
     ) -> Result<Certificate, NoPolynomials> {
         let Certificate {
             emitted, scalar, ..
@@ -443,7 +446,7 @@ impl<'a> Frame<'a> {
         tolerances: &[f64],
         scalars: &[ScalarType],
         aside: f64,
-        fineness: Fineness,
+        fineness: BoundEffort,
     ) -> Option<Vec<f64>> {
         let pairs = self.scales.iter().zip(tolerances);
         let whole: Vec<f64> = pairs.map(|(scale, t)| scale * t).collect();
@@ -487,21 +490,21 @@ impl Admitted {
     /// Whether every E is within its output's tolerance.
     ///
     /// # Errors
-    /// [`Refusal::Above`] with the first that is not.
-    pub fn within(&self, tolerances: &[f64]) -> Result<(), Refusal> {
+    /// [`ToleranceError::Above`] with the first that is not.
+    pub fn within(&self, tolerances: &[f64]) -> Result<(), ToleranceError> {
         self.certificates
             .iter()
             .try_for_each(|c| within(c, tolerances))
     }
 }
 
-fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), Refusal> {
+fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), ToleranceError> {
     let mut pairs = certificate.bounds.iter().zip(tolerances);
     // No number is within nothing.
     let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
     match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
         None => Ok(()),
-        Some(index) => Err(Refusal::Above {
+        Some(index) => Err(ToleranceError::Above {
             entry: certificate.emitted.entry(index),
             scalar: certificate.scalar,
             tolerance: tolerances[index],

@@ -27,16 +27,16 @@ use crate::program::Input;
 pub(super) type Key = u128;
 
 /// The most joints that fit a key.
-const MOST_JOINTS: usize = 22;
+const MAX_JOINTS: usize = 22;
 
 /// A polynomial, sorted by key.
 pub(super) type Polynomial = Vec<(Key, Interval)>;
 
 /// Products of more terms than this are not written out.
-const MOST_PRODUCTS: usize = 4_000_000;
+const MAX_PRODUCTS: usize = 4_000_000;
 
 /// Nor graphs whose products have more together: some seconds.
-const MOST_WORK: usize = 100_000_000;
+const MAX_WORK: usize = 100_000_000;
 
 /// Products of terms that take about a unit of work.
 const TERMS: usize = 16;
@@ -68,7 +68,7 @@ pub(super) fn visit(
     show: &mut dyn FnMut(usize, &Polynomial),
 ) -> Option<()> {
     let live = graph.live();
-    if limits.joints() > MOST_JOINTS || mixes(graph, &live) {
+    if limits.joints() > MAX_JOINTS || mixes(graph, &live) {
         return None;
     }
     let mut last_use = vec![0; graph.nodes.len()];
@@ -96,7 +96,7 @@ pub(super) fn visit(
                 let (a, b) = (&values[a.index()], &values[b.index()]);
                 work += a.len() * b.len();
                 work::count(1 + a.len() * b.len() / TERMS);
-                if work > MOST_WORK {
+                if work > MAX_WORK {
                     return None;
                 }
                 product(a, b)?
@@ -219,7 +219,7 @@ fn sum(a: &Polynomial, b: &Polynomial, minus: bool) -> Polynomial {
 }
 
 fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
-    if a.len() * b.len() > MOST_PRODUCTS {
+    if a.len() * b.len() > MAX_PRODUCTS {
         return None;
     }
     let mut terms = Vec::with_capacity(a.len() * b.len());
@@ -234,7 +234,7 @@ fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
             };
             multiply(*x, *y, coefficient, &mut terms)?;
             // A pair is more than one term if it has sines in common.
-            if terms.len() > MOST_PRODUCTS {
+            if terms.len() > MAX_PRODUCTS {
                 return None;
             }
         }
@@ -262,7 +262,7 @@ fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Opti
     let mut key = u128::from(kept[2]) << 8 | u128::from(kept[3]);
     let (mut x, mut y) = (x >> 16, y >> 16);
     let mut joint = 0;
-    let mut squares = [0usize; MOST_JOINTS];
+    let mut squares = [0usize; MAX_JOINTS];
     let mut count = 0;
     while x != 0 || y != 0 {
         let cos = (x & 15) + (y & 15);

@@ -11,28 +11,28 @@
 //!   over the sub-boxes of `subdivide`, and written out. `distinct`: equal
 //!   outputs once
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
-//! - [`prune`]: the cheapest edits that a certificate admits; `gauge`: the exact
+//! - [`prune`]: the cheapest edits that a certificate admits; `regrouping`: the exact
 //!   program that they leave least of
 //! - [`choose`]: the cheapest variant that a tolerance admits
 //! - `work`: work counted, for who cannot wait
 //! - [`certificate`]: the claim, its check and its text
-//! - [`sample`], [`attack`]: attempts to refute it
+//! - [`sample`], [`falsify`]: attempts to refute it
 //! - [`gappa`]: scripts for a second opinion on rounding
 
-pub mod attack;
 pub mod bound;
 pub mod certificate;
 pub mod choose;
 pub mod definite;
 mod distinct;
 mod expand;
+pub mod falsify;
 pub mod form;
 pub mod gappa;
-mod gauge;
 mod grid;
 pub mod input_box;
 pub mod prune;
 pub mod ranges;
+mod regrouping;
 pub mod sample;
 pub mod scale;
 pub mod sensitivity;

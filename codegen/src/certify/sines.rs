@@ -155,7 +155,7 @@ fn groups(
             Some((members, _)) => members.push(index),
             None => {
                 let candidates = Candidates::new(sincos::need(trig), scalar, key(trig).0);
-                groups.push((vec![index], candidates.front(error * MOST, error)));
+                groups.push((vec![index], candidates.front(error * MAX, error)));
             }
         }
     }
@@ -163,7 +163,7 @@ fn groups(
 }
 
 /// How many times the common error the sines of one range may have.
-const MOST: f64 = 1e4;
+const MAX: f64 = 1e4;
 
 fn taken(old: &AngleKernel, choice: &Choice) -> AngleKernel {
     AngleKernel {

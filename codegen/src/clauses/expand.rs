@@ -45,7 +45,7 @@ pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
         }
         None => (stub::write(&invocation, source.joints), Vec::new()),
     };
-    let modules = module::dress(&text, &invocation, &warnings).unwrap_or_else(|error| {
+    let modules = module::assemble(&text, &invocation, &warnings).unwrap_or_else(|error| {
         let text = format!("the generated text has no tokens: {error}");
         errors.say(&invocation.name, &text, "");
         TokenStream::new()

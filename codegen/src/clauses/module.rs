@@ -29,7 +29,7 @@ pub(super) fn math(sincos: SinCos) -> MathPath {
 
 /// Dresses every module of the text; the warnings end its documentation, and
 /// the compiler gives those of the first module.
-pub(super) fn dress(
+pub(super) fn assemble(
     text: &str,
     invocation: &Invocation,
     warnings: &[Warning],

@@ -160,7 +160,7 @@ struct File {
     /// Which tokens a piece of the text is of.
     marks: Vec<(Range<usize>, TokenStream)>,
     /// Pieces that stand in for tokens which were reported already.
-    spoiled: Vec<Range<usize>>,
+    skipped: Vec<Range<usize>>,
 }
 
 impl File {
@@ -250,7 +250,7 @@ impl File {
 
     fn value(&mut self, value: &[TokenTree], errors: &mut Errors) {
         self.mark(value.iter().cloned().collect(), |file| match value {
-            [] => file.spoil(),
+            [] => file.skip_to_here(),
             [tree] => {
                 if let Some(list) = group(tree, Delimiter::Bracket) {
                     file.list(list, errors);
@@ -305,7 +305,7 @@ impl File {
             };
             if !matches!(suffix, "" | "deg") {
                 errors.push(literal, &m::SUFFIX);
-                return self.spoil();
+                return self.skip_to_here();
             }
         }
         let text = join(value);
@@ -328,15 +328,15 @@ impl File {
             NumberError::Malformed => errors.push(at, &m::NO_NUMBER),
             error => errors.say(at, &format!("`{text}` is {error}"), error.help()),
         }
-        self.spoil();
+        self.skip_to_here();
     }
 
     /// Stands in for a value that cannot be read: whatever the key, the
     /// reader refuses it, and so says nothing that rests on it.
-    fn spoil(&mut self) {
+    fn skip_to_here(&mut self) {
         let start = self.text.len();
         self.text += "nan";
-        self.spoiled.push(start..self.text.len());
+        self.skipped.push(start..self.text.len());
     }
 
     fn quoted(&mut self, text: &str) {
@@ -354,7 +354,7 @@ impl File {
     /// Reports at the innermost tokens that the message is about.
     fn report(&self, found: &Diagnostic, name: &Ident, errors: &mut Errors) {
         let at = found.span.start;
-        if self.spoiled.iter().any(|range| range.contains(&at)) {
+        if self.skipped.iter().any(|range| range.contains(&at)) {
             return;
         }
         let help = found.help.as_deref().map(reword).unwrap_or_default();

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::certify::certificate::Refuted;
-use crate::certify::choose::Refusal;
+use crate::certify::choose::ToleranceError;
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::scene::SettingError;
@@ -77,7 +77,7 @@ pub enum GenerateError {
         why: String,
     },
     /// No variant meets the scene's tolerance.
-    Tolerance(Function, Refusal),
+    Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
     Variant(Function, Refuted),
 }

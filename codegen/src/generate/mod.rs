@@ -22,7 +22,7 @@ pub mod tolerate;
 use dalembert_model::robot::Robot;
 
 use crate::backend::read::TextError;
-pub use crate::certify::choose::{Refusal, Unbounded};
+pub use crate::certify::choose::{ToleranceError, Unbounded};
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
@@ -60,7 +60,7 @@ pub struct Generated {
 
 /// The most numbers a function may return: beyond, the code that returns
 /// them alone takes a compiler minutes.
-pub const MOST_OUTPUTS: usize = 20_000;
+pub const MAX_OUTPUTS: usize = 20_000;
 
 /// Generates, proves, prints and reads back.
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
@@ -82,7 +82,10 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         let mut unbounded = request.functions.iter();
         let refusal = unbounded.find_map(|&f| Some((f, Unbounded::of(f)?)));
         if let Some((function, why)) = refusal {
-            return Err(GenerateError::Tolerance(function, Refusal::Function(why)));
+            return Err(GenerateError::Tolerance(
+                function,
+                ToleranceError::Function(why),
+            ));
         }
     }
     let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
@@ -151,7 +154,7 @@ fn all(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
         ..request.clone()
     };
     match attempt(setting, &cheapest) {
-        Err(GenerateError::Tolerance(_, Refusal::Above { .. })) => attempt(setting, request),
+        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => attempt(setting, request),
         found => found,
     }
 }
@@ -173,7 +176,7 @@ fn one(
     request: &Request,
 ) -> Result<GeneratedFunction, GenerateError> {
     let outputs = function.outputs(setting.rows().len());
-    if outputs > MOST_OUTPUTS {
+    if outputs > MAX_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
     if function.inverts_inertia()

@@ -1,6 +1,6 @@
 //! A function's program: from the plan, or searched for.
 
-use dalembert_model::equations::chain::Gauge;
+use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
 use super::{GenerateError, Prefer, Request};
@@ -12,8 +12,8 @@ use crate::portfolio::{self, Limit, Source, Start, Sums, Variant};
 use crate::program::{Counts, Program};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort, Simplified, Stage};
-use crate::verify::accuracy::{Judge, Refused};
-use crate::watch::{Part, Vigil};
+use crate::verify::accuracy::{AccuracyFilter, Refused};
+use crate::watch::{FunctionWatch, Part};
 
 /// The plan's program, the first requested scalar's that it has.
 pub fn replay<'r>(
@@ -68,7 +68,7 @@ pub(super) fn found(
 
 /// What a search found, and from what.
 pub struct Found {
-    /// The gauge of the regrouped variants, if there are such.
+    /// The regrouping of the regrouped variants, if there are such.
     pub tuned: Option<Tuned>,
     /// What it started from.
     pub variants: Vec<Variant>,
@@ -91,8 +91,8 @@ pub fn search(
         function,
         request,
         judge: match request.prefer {
-            Prefer::Accuracy => Judge::new(setting, function),
-            Prefer::Operations => Judge::lenient(setting, function),
+            Prefer::Accuracy => AccuracyFilter::new(setting, function),
+            Prefer::Operations => AccuracyFilter::lenient(setting, function),
         },
     };
     let watch = request.watch.over(function);
@@ -126,19 +126,20 @@ struct Search<'a> {
     setting: &'a Setting,
     function: Function,
     request: &'a Request,
-    judge: Judge<'a>,
+    judge: AccuracyFilter<'a>,
 }
 
 impl Search<'_> {
     /// The quick search: without a limit first, since most robots need none.
     /// Where that costs too many digits, again within the limit, also from
     /// where the other one ended.
-    fn quick(&self, watch: Option<Vigil<'_>>) -> Result<Found, GenerateError> {
+    fn quick(&self, watch: Option<FunctionWatch<'_>>) -> Result<Found, GenerateError> {
         let free = self.run(Effort::Quick, false, &[], watch)?;
         if self.judge.accepts(&free.simplified.graph) {
             return Ok(free);
         }
-        let from: Vec<Gauge<Exact>> = free.tuned.iter().map(|t| t.gauge.clone()).collect();
+        let from: Vec<Regrouping<Exact>> =
+            free.tuned.iter().map(|t| t.regrouping.clone()).collect();
         let mut found = self.run(Effort::Quick, true, &from, watch)?;
         let graph = &free.simplified.graph;
         found.refused = self.refused(graph.counts(), self.judge.error(graph), &found);
@@ -160,8 +161,8 @@ impl Search<'_> {
         &self,
         effort: Effort,
         limited: bool,
-        from: &[Gauge<Exact>],
-        watch: Option<Vigil<'_>>,
+        from: &[Regrouping<Exact>],
+        watch: Option<FunctionWatch<'_>>,
     ) -> Result<Found, GenerateError> {
         let (setting, function, start) = (self.setting, self.function, self.request.start);
         let excess = |graph: &Graph| self.judge.excess(graph);

@@ -7,9 +7,9 @@
 use dalembert_model::scene::Tolerance;
 
 use crate::certify::certificate::Certificate;
-use crate::certify::choose::{Admitted, Claim, Frame, NoPolynomials, Refusal};
+use crate::certify::choose::{Admitted, Claim, ErrorBudget, NoPolynomials, ToleranceError};
 use crate::certify::prune::Settings;
-use crate::certify::sensitivity::Fineness;
+use crate::certify::sensitivity::BoundEffort;
 use crate::certify::work::Meter;
 use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, Request};
@@ -71,10 +71,10 @@ pub fn admitted<'p>(
         return Err(GenerateError::SinCos(program.function, why.into()));
     }
     let frame = |program: &&'p Program| {
-        let frame = Frame::new(setting, program, tolerance.relative_to);
+        let frame = ErrorBudget::new(setting, program, tolerance.relative_to);
         frame.map_err(|refusal| GenerateError::Tolerance(program.function, refusal))
     };
-    let frames: Result<Vec<Frame<'_>>, GenerateError> = programs.iter().map(frame).collect();
+    let frames: Result<Vec<ErrorBudget<'_>>, GenerateError> = programs.iter().map(frame).collect();
     let frames = frames?;
     let meter = Meter::new(request.work);
     let last = choices.len() - 1;
@@ -83,7 +83,10 @@ pub fn admitted<'p>(
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
-                GenerateError::Tolerance(_, Refusal::Above { .. } | Refusal::Indefinite(_))
+                GenerateError::Tolerance(
+                    _,
+                    ToleranceError::Above { .. } | ToleranceError::Indefinite(_),
+                )
                 | GenerateError::SinCos(..),
             ) if index < last => {}
             Err(error) => return Err(error),
@@ -95,7 +98,7 @@ pub fn admitted<'p>(
 /// What a tolerance admits of every function in these scalars. Whether it admits
 /// the exact programs is seen first: a refusal comes before any search.
 fn all(
-    frames: &[Frame<'_>],
+    frames: &[ErrorBudget<'_>],
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
@@ -114,17 +117,17 @@ fn all(
         .collect()
 }
 
-fn fineness(request: &Request) -> Fineness {
+fn fineness(request: &Request) -> BoundEffort {
     match request.effort {
-        Effort::Quick => Fineness::GLANCE,
-        Effort::Thorough => Fineness::CERTIFY,
+        Effort::Quick => BoundEffort::QUICK,
+        Effort::Thorough => BoundEffort::CERTIFY,
     }
 }
 
 /// The plan's variant, if the tolerances admit it: its bounds are not found
 /// anew, but they are compared.
 fn usable(
-    frame: &Frame<'_>,
+    frame: &ErrorBudget<'_>,
     tolerances: &[f64],
     scalars: &[ScalarType],
     request: &Request,
@@ -134,7 +137,7 @@ fn usable(
 }
 
 fn one(
-    frame: &Frame<'_>,
+    frame: &ErrorBudget<'_>,
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
@@ -169,7 +172,7 @@ fn one(
     // Always as fine, so that a plan's variant gets the sines that it got when
     // it was found.
     let with = |certificate: &Certificate| {
-        frame.with_polynomials(certificate, &tolerances, Fineness::GLANCE)
+        frame.with_polynomials(certificate, &tolerances, BoundEffort::QUICK)
     };
     let all = |admitted: &Admitted| -> Result<Vec<Certificate>, NoPolynomials> {
         admitted.certificates.iter().map(with).collect()
@@ -207,7 +210,7 @@ fn one(
     Ok(admitted)
 }
 
-/// Another gauge may be looked for only where the start may be any.
+/// Another regrouping may be looked for only where the start may be any.
 fn thorough(request: &Request) -> Settings {
     let sweeps = match request.start {
         Start::Auto => Settings::THOROUGH.sweeps,
@@ -227,7 +230,7 @@ const QUICK: Settings = Settings {
     stages: 3,
     alike: 2,
     sweeps: 0,
-    budget: Fineness::GLANCE.budget,
+    budget: BoundEffort::QUICK.budget,
     effort: Effort::Quick,
     refit: true,
     work: None,
@@ -235,7 +238,7 @@ const QUICK: Settings = Settings {
 
 /// The plan's variant, if it has the same one for each of the scalars.
 fn kept(
-    frame: &Frame<'_>,
+    frame: &ErrorBudget<'_>,
     function: Function,
     scalars: &[ScalarType],
     request: &Request,

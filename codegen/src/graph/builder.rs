@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
-use super::{Edge, Graph, Node, NodeId, Points, Print};
+use super::{Edge, Fingerprint, Graph, Node, NodeId, Points};
 use crate::program::{Counts, Input};
 
 /// Products of constants with more monomials stay two operations: long
 /// polynomials in odd angles would grow without end.
-const MOST_FOLDED: usize = 1_000;
+const MAX_FOLDED: usize = 1_000;
 
 /// How much a builder recognises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,13 +46,13 @@ impl Value {
 /// A graph under construction.
 pub struct Builder {
     graph: Graph,
-    prints: Vec<Print>,
+    prints: Vec<Fingerprint>,
     folding: Folding,
     points: Points,
     by_node: HashMap<Node, NodeId>,
     by_constant: HashMap<Exact, NodeId>,
     /// Canonical print → the edge that has it (semantic folding only).
-    by_print: HashMap<Print, Edge>,
+    by_print: HashMap<Fingerprint, Edge>,
     at_rest: HashMap<NodeId, Option<Exact>>,
     /// Operations asked for, before any folding but that of constants.
     asked: Counts,
@@ -87,19 +87,19 @@ impl Builder {
     }
 
     /// The print of a value.
-    pub fn print(&mut self, value: &Value) -> Print {
+    pub fn print(&mut self, value: &Value) -> Fingerprint {
         let edge = self.edge(value);
         self.edge_print(edge)
     }
 
     /// The value with this print, if the builder has met one.
-    pub fn find(&self, print: &Print) -> Option<Value> {
+    pub fn find(&self, print: &Fingerprint) -> Option<Value> {
         let (canonical, negative) = print.canonical();
         let edge = self.by_print.get(&canonical)?;
         Some(Value::Edge(edge.negated_if(negative)))
     }
 
-    fn edge_print(&self, edge: Edge) -> Print {
+    fn edge_print(&self, edge: Edge) -> Fingerprint {
         self.prints[edge.node().index()].negate_if(edge.is_negative())
     }
 
@@ -192,7 +192,7 @@ impl Builder {
             for (factor, rest) in [(a, b), (b, a)] {
                 if let Node::Constant(inner) = self.graph.node(factor) {
                     let inner = &self.graph.constants[inner as usize];
-                    if constant.terms() * inner.terms() > MOST_FOLDED {
+                    if constant.terms() * inner.terms() > MAX_FOLDED {
                         break;
                     }
                     let folded = constant.mul(inner);
@@ -239,7 +239,7 @@ impl Builder {
             _ => x.mul(y),
         };
         if self.folding == Folding::Semantic {
-            if print == Print::zero() {
+            if print == Fingerprint::zero() {
                 return Value::zero();
             }
             if let Some(known) = self.find(&print) {
@@ -278,7 +278,7 @@ impl Builder {
 
     /// The exact value of a node that does not depend on the state: its value
     /// at rest, where every angle, position and rate is zero.
-    fn constant_value(&mut self, node: Node, print: &Print) -> Option<Exact> {
+    fn constant_value(&mut self, node: Node, print: &Fingerprint) -> Option<Exact> {
         let [a, b] = node.operands()?;
         let (x, y) = (self.rest(a), self.rest(b));
         let value = at_rest(node, &x?, &y?)?;
@@ -338,7 +338,10 @@ impl Builder {
         // A denominator divisible by the prime has no print; readers admit
         // decimals only, so this is for robots built by hand: such a constant
         // is told apart by its own index, and the proof will refuse it.
-        let print = self.points.constant(&magnitude).unwrap_or_else(Print::zero);
+        let print = self
+            .points
+            .constant(&magnitude)
+            .unwrap_or_else(Fingerprint::zero);
         let index = self.graph.constants.len() as u32;
         self.graph.constants.push(magnitude.clone());
         let id = NodeId::new(self.graph.nodes.len());
@@ -350,7 +353,7 @@ impl Builder {
         id.signed(negative)
     }
 
-    fn intern(&mut self, node: Node, print: Print, negative: bool) -> Edge {
+    fn intern(&mut self, node: Node, print: Fingerprint, negative: bool) -> Edge {
         if let Some(id) = self.by_node.get(&node) {
             return id.signed(negative);
         }

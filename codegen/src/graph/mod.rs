@@ -12,7 +12,7 @@
 
 pub mod builder;
 mod counts;
-pub mod print;
+pub mod fingerprint;
 pub mod rules;
 pub mod symbol;
 
@@ -21,7 +21,7 @@ use dalembert_model::number::Exact;
 use crate::program::Input;
 
 pub use builder::{Builder, Folding, Value};
-pub use print::{Points, Print};
+pub use fingerprint::{Fingerprint, Points};
 
 /// The index of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

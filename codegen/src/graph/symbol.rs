@@ -174,7 +174,7 @@ impl Scalar for Symbol {
 mod tests {
     use super::*;
     use crate::function::Argument;
-    use crate::graph::{Folding, Points, Print};
+    use crate::graph::{Fingerprint, Folding, Points};
     use dalembert_model::number::Angle;
 
     /// (1/c)·x with c the cosine of an odd angle: constants without a builder
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn quotients_of_constants_wait_for_a_builder() {
         let angle = Angle::Radians(Rational::new(1.into(), 3.into()));
-        let cosine = Exact::rotor(&angle).cos;
+        let cosine = Exact::sincos(&angle).cos;
         let inverse = Symbol::one().div(&Symbol::from(cosine.clone()));
         assert!(matches!(inverse, Symbol::Quotient(..)));
         let twice = inverse
@@ -193,7 +193,7 @@ mod tests {
         let product = twice.mul(&x).value(&mut builder.borrow_mut());
         let print = builder.borrow_mut().print(&product);
         let points = Points::SEARCH;
-        let known = |print: Option<Print>| print.unwrap_or_else(Print::zero);
+        let known = |print: Option<Fingerprint>| print.unwrap_or_else(Fingerprint::zero);
         let expected = points
             .input(Input::Entry(Argument::Velocity, 0))
             .div(&known(points.constant(&cosine)));

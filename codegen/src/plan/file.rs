@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::Plan;
-use super::parse::MOST_BYTES;
+use super::parse::MAX_BYTES;
 
 /// Where a robot file's plan is: `puma560.plan` beside `puma560.toml`.
 pub fn path(robot_file: &Path) -> PathBuf {
@@ -39,7 +39,7 @@ pub fn beside(robot_file: &Path) -> Result<Option<Plan>, String> {
     }
     let mut bytes = Vec::new();
     let read =
-        File::open(&path).and_then(|file| file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes));
+        File::open(&path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
     match read {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(format!("cannot read `{shown}`: {error}")),

@@ -31,7 +31,7 @@ impl fmt::Display for PlanError {
 impl std::error::Error for PlanError {}
 
 /// The longest plan that is read.
-pub const MOST_BYTES: usize = 64 << 20;
+pub const MAX_BYTES: usize = 64 << 20;
 
 impl Plan {
     /// Reads a plan.
@@ -39,8 +39,8 @@ impl Plan {
     /// # Errors
     /// The first line that is not as [`Plan::write`] writes it.
     pub fn parse(text: &str) -> Result<Plan, PlanError> {
-        if text.len() > MOST_BYTES {
-            let message = format!("the plan is longer than {MOST_BYTES} bytes");
+        if text.len() > MAX_BYTES {
+            let message = format!("the plan is longer than {MAX_BYTES} bytes");
             return Err(PlanError { line: 1, message });
         }
         let mut reader = Reader::default();

@@ -1,7 +1,7 @@
 //! The formulations that a function can start from, each as a graph.
 //!
 //! The textbook forms are traced as they stand; the chain forms
-//! ([`dalembert_model::equations::chain`]) in a gauge that is tuned to the
+//! ([`dalembert_model::equations::chain`]) in a regrouping that is tuned to the
 //! robot and the function ([`tune`]).
 
 pub mod start;
@@ -11,8 +11,8 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::Composite;
-use dalembert_model::equations::chain::{Chain, Displacement, Gauge, Skeleton};
-use dalembert_model::equations::{Arm, Formulation, Rotor};
+use dalembert_model::equations::chain::{Chain, Displacement, Regrouping, Skeleton};
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, Written};
 use dalembert_model::scalar::Scalar;
@@ -24,7 +24,7 @@ use crate::program::{AngleSum, Counts, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
 use crate::trace::{symbols, trace_in};
-use crate::watch::{Part, Vigil};
+use crate::watch::{FunctionWatch, Part};
 pub use start::Start;
 use tune::Tuned;
 
@@ -144,7 +144,7 @@ pub fn textbook(setting: &Setting, function: Function, formulation: Formulation)
 }
 
 /// Longer chains are tuned by the price before the search alone.
-const MOST_GLANCES: usize = 10;
+const MAX_QUICK_LINKS: usize = 10;
 
 /// How far a program is above the error that is allowed: at most one where it
 /// is admitted.
@@ -166,16 +166,16 @@ fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
     }
 }
 
-/// The gauge that is cheapest for a function within a limit, if there is one;
-/// the best so far where the watch is over. `from` are gauges to start from,
+/// The regrouping that is cheapest for a function within a limit, if there is one;
+/// the best so far where the watch is over. `from` are regroupings to start from,
 /// besides those that every robot has.
 pub fn tuned(
     setting: &Setting,
     function: Function,
     effort: Effort,
     limit: Option<Limit<'_>>,
-    from: &[Gauge<Exact>],
-    watch: Option<Vigil<'_>>,
+    from: &[Regrouping<Exact>],
+    watch: Option<FunctionWatch<'_>>,
 ) -> Tuned {
     let arm = skeleton(setting);
     let forms = function.forms();
@@ -189,7 +189,7 @@ pub fn tuned(
     };
     let merged = |chain: &Chain<Exact>, form| merged(setting, function, chain, form);
     let helpers = [angle_sums(setting, Sums::Products)];
-    // What the search makes of a gauge is not what the gauge costs at first.
+    // What the search makes of a regrouping is not what the regrouping costs at first.
     let glance = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
         false => {
@@ -205,7 +205,7 @@ pub fn tuned(
         }
         from
     };
-    let mut starts: Vec<Gauge<Exact>> = starts(&Chain::new(&arm, &start))
+    let mut starts: Vec<Regrouping<Exact>> = starts(&Chain::new(&arm, &start))
         .into_iter()
         .map(with)
         .collect();
@@ -227,20 +227,20 @@ pub fn tuned(
                 false => price(&merged(chain, form), limit, below),
             },
         );
-        if arm.links.len() <= MOST_GLANCES {
-            found.price = glance(&Chain::new(&arm, &found.gauge), found.form, u64::MAX);
+        if arm.links.len() <= MAX_QUICK_LINKS {
+            found.price = glance(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
         }
         if tuned.as_ref().is_none_or(|best| found.price < best.price) {
             tuned = Some(found);
         }
     }
     let mut tuned = tuned.unwrap_or(Tuned {
-        gauge: start,
+        regrouping: start,
         form: forms[0],
         price: u64::MAX,
     });
-    if effort == Effort::Thorough && arm.links.len() <= MOST_GLANCES && !is_over() {
-        tuned = tune::tune(&arm, tuned.gauge, &[tuned.form], 2, glance);
+    if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
+        tuned = tune::tune(&arm, tuned.regrouping, &[tuned.form], 2, glance);
     }
     tuned
 }
@@ -257,7 +257,7 @@ fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     }
     let mut starts = vec![vec![0; n]];
     for axes in [last, before] {
-        if n <= MOST_GLANCES && !starts.contains(&axes) {
+        if n <= MAX_QUICK_LINKS && !starts.contains(&axes) {
             starts.push(axes);
         }
     }
@@ -265,13 +265,17 @@ fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
 }
 
 /// The most choices of axes that the search is offered at once.
-const MOST_AXES: usize = 16;
+const MAX_AXES: usize = 16;
 
-/// A function in every chain form, in one gauge, in the gauge's axes and in
+/// A function in every chain form, in one regrouping, in the regrouping's axes and in
 /// others: what is dear in one choice of axes may be cheap in another, and
 /// the search mixes them.
-pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) -> Vec<Variant> {
-    let mut chain = Chain::new(&skeleton(setting), gauge);
+pub fn regrouped(
+    setting: &Setting,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+) -> Vec<Variant> {
+    let mut chain = Chain::new(&skeleton(setting), regrouping);
     let mut variants = Vec::new();
     for axes in axes(&chain) {
         for (link, axes) in chain.links.iter_mut().zip(axes) {
@@ -289,30 +293,35 @@ pub fn regrouped(setting: &Setting, function: Function, gauge: &Gauge<Exact>) ->
     variants
 }
 
-/// A function in the gauges that differ from a tuned one in one link, in its
+/// A function in the regroupings that differ from a tuned one in one link, in its
 /// form.
 pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
-    let gauges = gauges(setting, &tuned.gauge);
-    let graph = |gauge| in_gauge(setting, function, gauge, tuned.form);
-    gauges.iter().map(graph).collect()
+    let regroupings = regroupings(setting, &tuned.regrouping);
+    let graph = |regrouping| in_gauge(setting, function, regrouping, tuned.form);
+    regroupings.iter().map(graph).collect()
 }
 
-/// The gauges that differ from one in one link; none of chains too long to
+/// The regroupings that differ from one in one link; none of chains too long to
 /// look at each.
-pub fn gauges(setting: &Setting, gauge: &Gauge<Exact>) -> Vec<Gauge<Exact>> {
+pub fn regroupings(setting: &Setting, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
     let arm = skeleton(setting);
-    match arm.links.len() <= MOST_GLANCES {
-        true => tune::neighbours(&arm, gauge),
+    match arm.links.len() <= MAX_QUICK_LINKS {
+        true => tune::neighbours(&arm, regrouping),
         false => Vec::new(),
     }
 }
 
-/// A function in a gauge and a form, merged by fingerprint.
-pub fn in_gauge(setting: &Setting, function: Function, gauge: &Gauge<Exact>, form: Form) -> Graph {
+/// A function in a regrouping and a form, merged by fingerprint.
+pub fn in_gauge(
+    setting: &Setting,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+    form: Form,
+) -> Graph {
     merged(
         setting,
         function,
-        &Chain::new(&skeleton(setting), gauge),
+        &Chain::new(&skeleton(setting), regrouping),
         form,
     )
 }
@@ -345,7 +354,7 @@ fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     }
     let mut different: Vec<Vec<i32>> = Vec::new();
     for choice in all {
-        if different.len() < MOST_AXES && !different.contains(&choice) {
+        if different.len() < MAX_AXES && !different.contains(&choice) {
             different.push(choice);
         }
     }
@@ -367,7 +376,7 @@ pub enum Sums {
 pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let arm = skeleton(setting);
-    let chain = Chain::new(&arm, &Gauge::base(&arm));
+    let chain = Chain::new(&arm, &Regrouping::base(&arm));
     let groups = chain.parallel();
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
     let motion = symbols(setting, &[], &builder).of_joints(setting.chained());
@@ -375,14 +384,14 @@ pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
     let mut outputs = Vec::new();
     for group in &groups {
         for first in 0..group.len() {
-            let mut product: Option<Rotor<Symbol>> = None;
+            let mut product: Option<SinCosPair<Symbol>> = None;
             let mut input: Option<AngleSum> = None;
             for &(link, opposite) in &group[first..] {
                 let Displacement::Turn(pair) = &at[link] else {
                     continue;
                 };
                 // About the axis of the group's first link.
-                let turn = Rotor {
+                let turn = SinCosPair {
                     sin: if opposite {
                         pair.sin.neg()
                     } else {

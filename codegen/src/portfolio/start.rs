@@ -1,7 +1,7 @@
 //! What a function's search starts from.
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::equations::chain::Gauge;
+use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
 use crate::function::Function;
@@ -9,7 +9,7 @@ use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Limit, Source, Variant};
 use crate::scene::Setting;
 use crate::simplify::Effort;
-use crate::watch::Vigil;
+use crate::watch::FunctionWatch;
 
 /// Which formulation a function starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -64,8 +64,8 @@ impl Start {
         function: Function,
         effort: Effort,
         limit: Option<Limit<'_>>,
-        from: &[Gauge<Exact>],
-        watch: Option<Vigil<'_>>,
+        from: &[Regrouping<Exact>],
+        watch: Option<FunctionWatch<'_>>,
     ) -> (Option<Tuned>, Vec<Variant>) {
         match self {
             Start::Only(formulation) => {
@@ -80,7 +80,7 @@ impl Start {
                     return (None, variants.into());
                 }
                 let tuned = portfolio::tuned(setting, function, effort, limit, from, watch);
-                let mut variants = portfolio::regrouped(setting, function, &tuned.gauge);
+                let mut variants = portfolio::regrouped(setting, function, &tuned.regrouping);
                 // The textbook recursion gives D column by column and h_ikm
                 // by polarisation, with n² of work a link or more: no match.
                 let mut quantities = function.quantities().iter();

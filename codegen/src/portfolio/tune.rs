@@ -1,4 +1,4 @@
-//! The cheapest gauge of a chain: coordinate descent.
+//! The cheapest regrouping of a chain: coordinate descent.
 //!
 //! Each candidate is traced and merged by fingerprint, about a millisecond.
 //! The candidates for a link come from what its parameters and its parent's
@@ -6,7 +6,9 @@
 //! entry vanish that would cost operations.
 
 use dalembert_model::equations::chain::body::entry;
-use dalembert_model::equations::chain::{Body, Chain, ChainLink, Gauge, LinkGauge, Skeleton};
+use dalembert_model::equations::chain::{
+    Body, Chain, ChainLink, LinkRegrouping, Regrouping, Skeleton,
+};
 use dalembert_model::equations::matrix::{Vector, zero_vector};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
@@ -16,17 +18,17 @@ use super::Form;
 
 /// Constants of a tuned chain with more monomials than this are not formed:
 /// regrouping through many different odd angles would multiply them.
-const MOST_TERMS: usize = 100;
+const MAX_TERMS: usize = 100;
 
 /// The links of longer chains are not tuned one by one: a price takes time in
 /// proportion to their number, and so does the number of prices.
-const MOST_TUNED: usize = 16;
+const MAX_TUNED: usize = 16;
 
 /// What the descent found.
 #[derive(Clone, Debug)]
 pub struct Tuned {
-    /// The gauge.
-    pub gauge: Gauge<Exact>,
+    /// The regrouping.
+    pub regrouping: Regrouping<Exact>,
     /// The cheapest form in it.
     pub form: Form,
     /// Its price.
@@ -35,8 +37,8 @@ pub struct Tuned {
 
 /// Where a descent starts: base parameters; where regrouping through odd
 /// angles would make the constants too large, a link keeps what it has.
-pub fn start(arm: &Skeleton<Exact>) -> Gauge<Exact> {
-    let mut gauge = Gauge::base(arm);
+pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
+    let mut regrouping = Regrouping::base(arm);
     for i in (1..arm.links.len()).rev() {
         // The chain from the parent on: what lies before does not matter, and
         // must not be reached by constants that may be too large.
@@ -44,24 +46,24 @@ pub fn start(arm: &Skeleton<Exact>) -> Gauge<Exact> {
             gravity: arm.gravity.clone(),
             links: arm.links[i - 1..].to_vec(),
         };
-        let mut choice = gauge.clone();
+        let mut choice = regrouping.clone();
         choice.links.drain(..i - 1);
         let chain = Chain::new(&part, &choice);
-        if terms(&chain.links[0]) > MOST_TERMS {
+        if terms(&chain.links[0]) > MAX_TERMS {
             let [mass, first, second] = chain.links[1].free.clone();
-            let link = &mut gauge.links[i];
+            let link = &mut regrouping.links[i];
             (link.mass, link.first, link.second) = (mass, first, second);
             link.keep_seconds = true;
         }
     }
-    gauge
+    regrouping
 }
 
-/// Descends from a gauge. `price` must not depend on anything else; above the
+/// Descends from a regrouping. `price` must not depend on anything else; above the
 /// last argument, which is the best price so far, it need not be exact.
 pub fn tune(
     arm: &Skeleton<Exact>,
-    from: Gauge<Exact>,
+    from: Regrouping<Exact>,
     forms: &[Form],
     rounds: usize,
     price: impl Fn(&Chain<Exact>, Form, u64) -> u64,
@@ -70,7 +72,7 @@ pub fn tune(
         arm,
         price,
         best: Tuned {
-            gauge: from,
+            regrouping: from,
             form: forms[0],
             price: u64::MAX,
         },
@@ -79,7 +81,7 @@ pub fn tune(
     for _ in 0..rounds {
         let before = descent.best.price;
         descent.units();
-        if arm.links.len() <= MOST_TUNED {
+        if arm.links.len() <= MAX_TUNED {
             for i in (0..arm.links.len()).rev() {
                 descent.link(i);
             }
@@ -99,20 +101,20 @@ struct Descent<'a, P> {
 }
 
 impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
-    fn attempt(&mut self, gauge: Gauge<Exact>) {
-        let chain = Chain::new(self.arm, &gauge);
+    fn attempt(&mut self, regrouping: Regrouping<Exact>) {
+        let chain = Chain::new(self.arm, &regrouping);
         if is_large(&chain) {
             return;
         }
         let price = (self.price)(&chain, self.best.form, self.best.price);
         if price < self.best.price {
             self.best.price = price;
-            self.best.gauge = gauge;
+            self.best.regrouping = regrouping;
         }
     }
 
     fn forms(&mut self, forms: &[Form]) {
-        let chain = Chain::new(self.arm, &self.best.gauge);
+        let chain = Chain::new(self.arm, &self.best.regrouping);
         for &form in forms {
             let price = (self.price)(&chain, form, self.best.price);
             if price < self.best.price {
@@ -124,7 +126,7 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
 
     /// Metres, and every length of the chain.
     fn units(&mut self) {
-        let mut metres = self.best.gauge.clone();
+        let mut metres = self.best.regrouping.clone();
         (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
         let chain = Chain::new(self.arm, &metres);
         let mut units = vec![Exact::one()];
@@ -140,37 +142,37 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         }
         for unit in units {
             if let Some(per_unit) = quotient(&Exact::one(), &unit) {
-                self.attempt(Gauge {
+                self.attempt(Regrouping {
                     unit,
                     per_unit,
-                    ..self.best.gauge.clone()
+                    ..self.best.regrouping.clone()
                 });
             }
         }
     }
 
     fn link(&mut self, i: usize) {
-        for link in alternatives(self.arm, &self.best.gauge, i) {
-            let mut gauge = self.best.gauge.clone();
+        for link in alternatives(self.arm, &self.best.regrouping, i) {
+            let mut regrouping = self.best.regrouping.clone();
             // The best may have changed since.
-            gauge.links[i] = link;
-            self.attempt(gauge);
+            regrouping.links[i] = link;
+            self.attempt(regrouping);
         }
     }
 }
 
-/// Gauges that differ in one link. What the joints before a link feel does
-/// not depend on its gauge, so the search can mix these link by link.
-pub fn neighbours(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>) -> Vec<Gauge<Exact>> {
-    let mut found: Vec<Gauge<Exact>> = Vec::new();
-    if arm.links.len() > MOST_TUNED {
+/// Regroupings that differ in one link. What the joints before a link feel does
+/// not depend on its regrouping, so the search can mix these link by link.
+pub fn neighbours(arm: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
+    let mut found: Vec<Regrouping<Exact>> = Vec::new();
+    if arm.links.len() > MAX_TUNED {
         return found;
     }
     for i in 0..arm.links.len() {
-        for link in alternatives(arm, gauge, i) {
-            let mut other = gauge.clone();
+        for link in alternatives(arm, regrouping, i) {
+            let mut other = regrouping.clone();
             other.links[i] = link;
-            let is_new = other != *gauge && !found.contains(&other);
+            let is_new = other != *regrouping && !found.contains(&other);
             if is_new && !is_large(&Chain::new(arm, &other)) {
                 found.push(other);
             }
@@ -180,8 +182,12 @@ pub fn neighbours(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>) -> Vec<Gauge<Exac
 }
 
 /// What a link may keep, where its origin may lie and how its frame may turn.
-fn alternatives(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>, i: usize) -> Vec<LinkGauge<Exact>> {
-    let mut metres = gauge.clone();
+fn alternatives(
+    arm: &Skeleton<Exact>,
+    regrouping: &Regrouping<Exact>,
+    i: usize,
+) -> Vec<LinkRegrouping<Exact>> {
+    let mut metres = regrouping.clone();
     (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
     let chain = Chain::new(arm, &metres);
     let now = &metres.links[i];
@@ -193,7 +199,7 @@ fn alternatives(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>, i: usize) -> Vec<Li
     links.extend(
         (less..=more)
             .filter(|&axes| axes != now.axes)
-            .map(|axes| LinkGauge {
+            .map(|axes| LinkRegrouping {
                 axes,
                 ..now.clone()
             }),
@@ -202,7 +208,7 @@ fn alternatives(arm: &Skeleton<Exact>, gauge: &Gauge<Exact>, i: usize) -> Vec<Li
 }
 
 fn is_large(chain: &Chain<Exact>) -> bool {
-    chain.links.iter().any(|link| terms(link) > MOST_TERMS)
+    chain.links.iter().any(|link| terms(link) > MAX_TERMS)
 }
 
 /// The most monomials of a constant of the link.
@@ -221,9 +227,9 @@ fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
 fn revolute(
     arm: &Skeleton<Exact>,
     chain: &Chain<Exact>,
-    now: &LinkGauge<Exact>,
+    now: &LinkRegrouping<Exact>,
     i: usize,
-) -> Vec<LinkGauge<Exact>> {
+) -> Vec<LinkRegrouping<Exact>> {
     let link = &chain.links[i];
     let [mass, first, second] = &link.free;
     let zero = Exact::zero();
@@ -266,25 +272,25 @@ fn revolute(
     }
     let mut candidates = Vec::new();
     for choice in masses {
-        candidates.push(LinkGauge {
+        candidates.push(LinkRegrouping {
             mass: choice,
             ..now.clone()
         });
     }
     for choice in firsts {
-        candidates.push(LinkGauge {
+        candidates.push(LinkRegrouping {
             first: choice,
             ..now.clone()
         });
     }
     for choice in seconds {
-        candidates.push(LinkGauge {
+        candidates.push(LinkRegrouping {
             second: choice,
             ..now.clone()
         });
     }
     for z in origins {
-        candidates.push(LinkGauge {
+        candidates.push(LinkRegrouping {
             origin: [Exact::zero(), Exact::zero(), z],
             ..now.clone()
         });
@@ -292,7 +298,11 @@ fn revolute(
     candidates
 }
 
-fn prismatic(chain: &Chain<Exact>, now: &LinkGauge<Exact>, i: usize) -> Vec<LinkGauge<Exact>> {
+fn prismatic(
+    chain: &Chain<Exact>,
+    now: &LinkRegrouping<Exact>,
+    i: usize,
+) -> Vec<LinkRegrouping<Exact>> {
     let link = &chain.links[i];
     let shifted = |by: &Vector<Exact>| -> Vector<Exact> {
         core::array::from_fn(|axis| now.origin[axis].add(&by[axis]))
@@ -315,13 +325,13 @@ fn prismatic(chain: &Chain<Exact>, now: &LinkGauge<Exact>, i: usize) -> Vec<Link
     }
     let mut candidates = Vec::new();
     for origin in origins {
-        candidates.push(LinkGauge {
+        candidates.push(LinkRegrouping {
             origin,
             ..now.clone()
         });
     }
     for keep_seconds in [false, true] {
-        candidates.push(LinkGauge {
+        candidates.push(LinkRegrouping {
             keep_seconds,
             ..now.clone()
         });
@@ -329,7 +339,7 @@ fn prismatic(chain: &Chain<Exact>, now: &LinkGauge<Exact>, i: usize) -> Vec<Link
     candidates
 }
 
-/// The entries of a body that cost operations in every gauge.
+/// The entries of a body that cost operations in every regrouping.
 fn costly(body: &Body<Exact>) -> Vec<Exact> {
     let second = &body.second;
     vec![

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use dalembert_model::equations::Rotor;
+use dalembert_model::equations::SinCosPair;
 use dalembert_model::scalar::Scalar;
 
 use crate::function::Argument;
@@ -47,8 +47,8 @@ impl AngleSum {
     }
 
     /// The sine and cosine of the sum from those of the joints' angles.
-    pub fn pair<S: Scalar>(self, mut of: impl FnMut(usize) -> Rotor<S>) -> Rotor<S> {
-        let mut sum = Rotor {
+    pub fn pair<S: Scalar>(self, mut of: impl FnMut(usize) -> SinCosPair<S>) -> SinCosPair<S> {
+        let mut sum = SinCosPair {
             sin: S::zero(),
             cos: S::one(),
         };

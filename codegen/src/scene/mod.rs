@@ -266,7 +266,7 @@ impl Setting {
 
 fn position(at: &Position) -> JointPosition<Exact> {
     match at {
-        Position::Angle(angle) => JointPosition::Revolute(Exact::rotor(angle)),
+        Position::Angle(angle) => JointPosition::Revolute(Exact::sincos(angle)),
         Position::Length(length) => JointPosition::Prismatic(Exact::from(length.clone())),
     }
 }

@@ -1,6 +1,6 @@
 //! The motion of a robot's joints from the inputs of a program.
 
-use dalembert_model::equations::{JointPosition, Rotor};
+use dalembert_model::equations::{JointPosition, SinCosPair};
 use dalembert_model::outputs::Motion;
 use dalembert_model::robot::{JointKind, Robot};
 
@@ -13,7 +13,7 @@ pub fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> 
     let q = robot.joints.iter().enumerate().map(|(i, joint)| {
         let angle = AngleSum::joint(i);
         match joint.kind {
-            JointKind::Revolute => JointPosition::Revolute(Rotor {
+            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
                 sin: input(Input::Sin(angle)),
                 cos: input(Input::Cos(angle)),
             }),

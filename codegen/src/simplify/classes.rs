@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::graph::{Builder, Edge, Folding, Graph, Node, Points, Print, Value};
+use crate::graph::{Builder, Edge, Fingerprint, Folding, Graph, Node, Points, Value};
 use crate::program::Input;
 
 /// The index of a class.
@@ -20,7 +20,7 @@ pub type ClassId = u32;
 /// The operands stand for their canonical prints, and the result for the
 /// class up to sign: signs are found again when a graph is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Way {
+pub enum ENode {
     /// a + b
     Sum(ClassId, ClassId),
     /// a − b
@@ -32,21 +32,22 @@ pub enum Way {
     Quotient(ClassId, ClassId),
 }
 
-impl Way {
+impl ENode {
     /// The operands.
     pub fn operands(self) -> [ClassId; 2] {
         match self {
-            Way::Sum(a, b) | Way::Difference(a, b) | Way::Product(a, b) | Way::Quotient(a, b) => {
-                [a, b]
-            }
+            ENode::Sum(a, b)
+            | ENode::Difference(a, b)
+            | ENode::Product(a, b)
+            | ENode::Quotient(a, b) => [a, b],
         }
     }
 
-    fn ordered(self) -> Way {
+    fn ordered(self) -> ENode {
         match self {
-            Way::Sum(a, b) if b < a => Way::Sum(b, a),
-            Way::Difference(a, b) if b < a => Way::Difference(b, a),
-            Way::Product(a, b) if b < a => Way::Product(b, a),
+            ENode::Sum(a, b) if b < a => ENode::Sum(b, a),
+            ENode::Difference(a, b) if b < a => ENode::Difference(b, a),
+            ENode::Product(a, b) if b < a => ENode::Product(b, a),
             way => way,
         }
     }
@@ -65,11 +66,11 @@ pub enum Leaf {
 #[derive(Clone, Debug)]
 pub struct Class {
     /// The canonical print.
-    pub print: Print,
+    pub print: Fingerprint,
     /// The leaf that it is, if it is one: then there are no ways.
     pub leaf: Option<Leaf>,
     /// The ways to compute it, in the order they were found.
-    pub ways: Vec<Way>,
+    pub ways: Vec<ENode>,
 }
 
 /// A class with a sign.
@@ -85,7 +86,7 @@ pub struct Signed {
 #[derive(Clone, Debug, Default)]
 pub struct Classes {
     classes: Vec<Class>,
-    by_print: HashMap<Print, ClassId>,
+    by_print: HashMap<Fingerprint, ClassId>,
     /// The function's results; `None` is zero.
     pub outputs: Vec<Option<Signed>>,
 }
@@ -105,7 +106,7 @@ impl Classes {
 
     /// The first way of each class: of a fresh [`Classes::new`] the program
     /// that the graph was, since a merged graph computes each class once.
-    pub fn program(&self) -> Vec<Option<Way>> {
+    pub fn program(&self) -> Vec<Option<ENode>> {
         self.classes
             .iter()
             .map(|class| class.ways.first().copied())
@@ -128,14 +129,14 @@ impl Classes {
     }
 
     /// The class of a print, and whether the print is its negative.
-    pub fn find(&self, print: &Print) -> Option<Signed> {
+    pub fn find(&self, print: &Fingerprint) -> Option<Signed> {
         let (canonical, negative) = print.canonical();
         let &class = self.by_print.get(&canonical)?;
         Some(Signed { class, negative })
     }
 
     /// The class of a print, made if it is new.
-    pub fn intern(&mut self, print: &Print) -> Signed {
+    pub fn intern(&mut self, print: &Fingerprint) -> Signed {
         let (canonical, negative) = print.canonical();
         let classes = &mut self.classes;
         let class = *self.by_print.entry(canonical).or_insert_with(|| {
@@ -157,7 +158,7 @@ impl Classes {
     }
 
     /// Adds a way to compute a class; whether it was new.
-    pub fn add_way(&mut self, id: ClassId, way: Way) -> bool {
+    pub fn add_way(&mut self, id: ClassId, way: ENode) -> bool {
         let way = way.ordered();
         if let Some(constant) = self.folded(way) {
             // Up to sign it is the class, which stands for its canonical value.
@@ -176,28 +177,28 @@ impl Classes {
     }
 
     /// The value of an operation on two constants.
-    fn folded(&self, way: Way) -> Option<Exact> {
+    fn folded(&self, way: ENode) -> Option<Exact> {
         let [a, b] = way.operands().map(|id| match &self.get(id).leaf {
             Some(Leaf::Constant(constant)) => Some(constant),
             _ => None,
         });
         let (a, b) = (a?, b?);
         Some(match way {
-            Way::Sum(..) => a.add(b),
-            Way::Difference(..) => a.sub(b),
-            Way::Product(..) => a.mul(b),
-            Way::Quotient(..) => return a.divide(b.as_rational()?),
+            ENode::Sum(..) => a.add(b),
+            ENode::Difference(..) => a.sub(b),
+            ENode::Product(..) => a.mul(b),
+            ENode::Quotient(..) => return a.divide(b.as_rational()?),
         })
     }
 
     /// The print of a way's result.
-    pub fn way_print(&self, way: Way) -> Print {
+    pub fn way_print(&self, way: ENode) -> Fingerprint {
         let [a, b] = way.operands().map(|id| self.get(id).print);
         match way {
-            Way::Sum(..) => a.add(&b),
-            Way::Difference(..) => a.sub(&b),
-            Way::Product(..) => a.mul(&b),
-            Way::Quotient(..) => a.div(&b),
+            ENode::Sum(..) => a.add(&b),
+            ENode::Difference(..) => a.sub(&b),
+            ENode::Product(..) => a.mul(&b),
+            ENode::Quotient(..) => a.div(&b),
         }
     }
 
@@ -205,14 +206,14 @@ impl Classes {
     /// node's class; `None` is zero.
     pub fn absorb(&mut self, graph: &Graph) -> Vec<Option<Signed>> {
         let points = Points::SEARCH;
-        let mut prints: Vec<Print> = Vec::with_capacity(graph.nodes.len());
+        let mut prints: Vec<Fingerprint> = Vec::with_capacity(graph.nodes.len());
         let mut values = Vec::with_capacity(graph.nodes.len());
         for node in &graph.nodes {
             let of = |id: crate::graph::NodeId| &prints[id.index()];
             let print = match *node {
                 Node::Constant(c) => points
                     .constant(&graph.constants[c as usize])
-                    .unwrap_or_else(Print::zero),
+                    .unwrap_or_else(Fingerprint::zero),
                 Node::Input(input) => points.input(input),
                 Node::Sum(a, b) => of(a).add(of(b)),
                 Node::Difference(a, b) => of(a).sub(of(b)),
@@ -229,10 +230,10 @@ impl Classes {
         &mut self,
         graph: &Graph,
         node: &Node,
-        print: &Print,
+        print: &Fingerprint,
         values: &[Option<Signed>],
     ) -> Option<Signed> {
-        if *print == Print::zero() {
+        if *print == Fingerprint::zero() {
             return None;
         }
         let value = self.intern(print);
@@ -255,11 +256,11 @@ impl Classes {
                 if let (Some(x), Some(y)) = (values[a.index()], values[b.index()]) {
                     let same = x.negative == y.negative;
                     let way = match node {
-                        Node::Product(..) => Way::Product(x.class, y.class),
-                        Node::Quotient(..) => Way::Quotient(x.class, y.class),
-                        Node::Sum(..) if same => Way::Sum(x.class, y.class),
-                        Node::Difference(..) if !same => Way::Sum(x.class, y.class),
-                        _ => Way::Difference(x.class, y.class),
+                        Node::Product(..) => ENode::Product(x.class, y.class),
+                        Node::Quotient(..) => ENode::Quotient(x.class, y.class),
+                        Node::Sum(..) if same => ENode::Sum(x.class, y.class),
+                        Node::Difference(..) if !same => ENode::Sum(x.class, y.class),
+                        _ => ENode::Difference(x.class, y.class),
                     };
                     self.add_way(value.class, way);
                 }
@@ -272,7 +273,7 @@ impl Classes {
     ///
     /// The choice must be acyclic below the outputs and name a way for each
     /// class that they need; classes beyond its end have no way.
-    pub fn graph(&self, choice: &[Option<Way>]) -> Graph {
+    pub fn graph(&self, choice: &[Option<ENode>]) -> Graph {
         let mut builder = Builder::new(Folding::Semantic);
         let mut values: Vec<Option<Value>> = vec![None; self.len()];
         let mut pending: Vec<ClassId> = Vec::new();
@@ -296,10 +297,10 @@ impl Classes {
                             continue;
                         };
                         match way {
-                            Way::Sum(..) => builder.add(x, y),
-                            Way::Difference(..) => builder.sub(x, y),
-                            Way::Product(..) => builder.mul(x, y),
-                            Way::Quotient(..) => builder.div(x, y),
+                            ENode::Sum(..) => builder.add(x, y),
+                            ENode::Difference(..) => builder.sub(x, y),
+                            ENode::Product(..) => builder.mul(x, y),
+                            ENode::Quotient(..) => builder.div(x, y),
                         }
                     }
                     (None, None) => Value::zero(),
@@ -347,7 +348,10 @@ mod tests {
         let (first, second) = (class_of(&classes, 0), class_of(&classes, 1));
         assert_eq!(first, second);
         let ways = &classes.get(first.class).ways;
-        assert!(matches!(ways.as_slice(), [Way::Product(..), Way::Sum(..)]));
+        assert!(matches!(
+            ways.as_slice(),
+            [ENode::Product(..), ENode::Sum(..)]
+        ));
     }
 
     #[test]
@@ -389,7 +393,7 @@ mod tests {
             classes.set_leaf(class, Leaf::Constant(leaf));
             class
         });
-        let way = Way::Product(ids[0], ids[1]);
+        let way = ENode::Product(ids[0], ids[1]);
         let product = classes.intern(&classes.way_print(way)).class;
         assert!(!classes.add_way(product, way), "a leaf needs no way");
         let Some(Leaf::Constant(leaf)) = &classes.get(product).leaf else {
@@ -403,9 +407,9 @@ mod tests {
         let mut classes = Classes::new(&graph(&["(* ?a ?b)"]));
         let id = class_of(&classes, 0).class;
         let [a, b] = classes.get(id).ways[0].operands();
-        assert!(!classes.add_way(id, Way::Sum(a, id)));
+        assert!(!classes.add_way(id, ENode::Sum(a, id)));
         assert!(
-            !classes.add_way(id, Way::Product(b, a)),
+            !classes.add_way(id, ENode::Product(b, a)),
             "the same way, operands exchanged"
         );
         assert_eq!(classes.get(id).ways.len(), 1);
@@ -440,7 +444,7 @@ mod tests {
                 choice /= ways.len().max(1);
                 ways.get(index).copied()
             });
-            let chosen: Vec<Option<Way>> = chosen.collect();
+            let chosen: Vec<Option<ENode>> = chosen.collect();
             assert_eq!(prints(&classes.graph(&chosen)), expected);
         }
     }

@@ -14,9 +14,9 @@ use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
-use super::classes::{ClassId, Classes, Leaf, Way};
+use super::classes::{ClassId, Classes, ENode, Leaf};
 use crate::function::Argument;
-use crate::graph::Print;
+use crate::graph::Fingerprint;
 use crate::program::Input;
 
 /// Tries every pair of the pool; returns how many new ways there are.
@@ -40,13 +40,13 @@ pub fn pairs(classes: &mut Classes, pool: &[ClassId]) -> usize {
 }
 
 /// Calls with the key of every sum, difference and product in the pool.
-fn for_pairs(classes: &Classes, pool: &[ClassId], mut call: impl FnMut(Field, Way)) {
+fn for_pairs(classes: &Classes, pool: &[ClassId], mut call: impl FnMut(Field, ENode)) {
     let first: Vec<Field> = pool.iter().map(|&id| classes.get(id).print.0[0]).collect();
     for (index, (&a, x)) in pool.iter().zip(&first).enumerate() {
         for (&b, y) in pool[index..].iter().zip(&first[index..]) {
-            call(up_to_sign(x.add(y)), Way::Sum(a, b));
-            call(up_to_sign(x.sub(y)), Way::Difference(a, b));
-            call(up_to_sign(x.mul(y)), Way::Product(a, b));
+            call(up_to_sign(x.add(y)), ENode::Sum(a, b));
+            call(up_to_sign(x.sub(y)), ENode::Difference(a, b));
+            call(up_to_sign(x.mul(y)), ENode::Product(a, b));
         }
     }
 }
@@ -55,7 +55,7 @@ fn for_pairs(classes: &Classes, pool: &[ClassId], mut call: impl FnMut(Field, Wa
 /// all points afterwards.
 type Table<T> = HashMap<Field, T, BuildHasherDefault<AsItIs>>;
 
-fn key(print: &Print) -> Field {
+fn key(print: &Fingerprint) -> Field {
     up_to_sign(print.0[0])
 }
 
@@ -84,7 +84,7 @@ impl Hasher for AsItIs {
 
 /// Finds classes that are a constant multiple of one another, or differ by a
 /// constant, and adds the ways that lead from one to the other.
-pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]) -> usize {
+pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<ENode>]) -> usize {
     // Points 0 and 1 share the constant angles, so a ratio (difference) that
     // is the same at both is a constant.
     let mut ratios: HashMap<Field, Vec<ClassId>> = HashMap::new();
@@ -105,13 +105,13 @@ pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]
     let mut found = Vec::new();
     for (a, x, b, y) in values.pairs(ratios) {
         if !num_traits::Zero::is_zero(&x) {
-            found.push((b, Way::Product(a, a), Exact::from(y / x)));
+            found.push((b, ENode::Product(a, a), Exact::from(y / x)));
         }
     }
     for (a, x, b, y) in values.pairs(shifts) {
         // b = c ± a, whichever it is.
-        found.push((b, Way::Sum(a, a), Exact::from(&y - &x)));
-        found.push((b, Way::Difference(a, a), Exact::from(&y + &x)));
+        found.push((b, ENode::Sum(a, a), Exact::from(&y - &x)));
+        found.push((b, ENode::Difference(a, a), Exact::from(&y + &x)));
     }
     let mut count = 0;
     for (class, kind, constant) in found {
@@ -123,8 +123,8 @@ pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]
         };
         let [a, _] = kind.operands();
         let candidates = match kind {
-            Way::Product(..) => vec![Way::Product(a, leaf)],
-            _ => vec![Way::Sum(a, leaf), Way::Difference(a, leaf)],
+            ENode::Product(..) => vec![ENode::Product(a, leaf)],
+            _ => vec![ENode::Sum(a, leaf), ENode::Difference(a, leaf)],
         };
         for way in candidates {
             let print = classes.way_print(way);
@@ -139,7 +139,7 @@ pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]
 /// Tries (a ∘ b) ∘ c for every class of `targets` over the pool.
 pub fn resubstitute(classes: &mut Classes, targets: &[ClassId], pool: &[ClassId]) -> usize {
     // a ∘ b → the first such pair.
-    let mut table: Table<Way> = Table::default();
+    let mut table: Table<ENode> = Table::default();
     for_pairs(classes, pool, |first, way| {
         table.entry(first).or_insert(way);
     });
@@ -148,7 +148,7 @@ pub fn resubstitute(classes: &mut Classes, targets: &[ClassId], pool: &[ClassId]
         .map(|&c| (c, classes.get(c).print.0[0]))
         .map(|(c, x)| (c, x, x.inverse()))
         .collect();
-    let mut found: Vec<(ClassId, Way, ClassId, bool)> = Vec::new();
+    let mut found: Vec<(ClassId, ENode, ClassId, bool)> = Vec::new();
     for &y in targets {
         let target = classes.get(y).print.0[0];
         for (c, other, inverse) in &others {
@@ -169,15 +169,15 @@ pub fn resubstitute(classes: &mut Classes, targets: &[ClassId], pool: &[ClassId]
     let mut count = 0;
     for (y, inner, c, product) in found {
         let print = classes.way_print(inner);
-        if print == Print::zero() {
+        if print == Fingerprint::zero() {
             continue;
         }
         let middle = classes.intern(&print).class;
         classes.add_way(middle, inner);
         let ways = if product {
-            vec![Way::Product(middle, c)]
+            vec![ENode::Product(middle, c)]
         } else {
-            vec![Way::Sum(middle, c), Way::Difference(middle, c)]
+            vec![ENode::Sum(middle, c), ENode::Difference(middle, c)]
         };
         for way in ways {
             let print = classes.way_print(way);
@@ -205,12 +205,12 @@ fn intern_constant(classes: &mut Classes, constant: &Exact) -> Option<ClassId> {
 /// Exact values of classes at one rational state, by the chosen program.
 struct Values<'a> {
     classes: &'a Classes,
-    choice: &'a [Option<Way>],
+    choice: &'a [Option<ENode>],
     known: HashMap<ClassId, Option<Rational>>,
 }
 
 impl<'a> Values<'a> {
-    fn new(classes: &'a Classes, choice: &'a [Option<Way>]) -> Self {
+    fn new(classes: &'a Classes, choice: &'a [Option<ENode>]) -> Self {
         Values {
             classes,
             choice,
@@ -281,13 +281,13 @@ impl<'a> Values<'a> {
 }
 
 /// The value of a way; none of a quotient by zero.
-fn operate(way: Way, x: &Rational, y: &Rational) -> Option<Rational> {
+fn operate(way: ENode, x: &Rational, y: &Rational) -> Option<Rational> {
     Some(match way {
-        Way::Sum(..) => x + y,
-        Way::Difference(..) => x - y,
-        Way::Product(..) => x * y,
-        Way::Quotient(..) if num_traits::Zero::is_zero(y) => return None,
-        Way::Quotient(..) => x / y,
+        ENode::Sum(..) => x + y,
+        ENode::Difference(..) => x - y,
+        ENode::Product(..) => x * y,
+        ENode::Quotient(..) if num_traits::Zero::is_zero(y) => return None,
+        ENode::Quotient(..) => x / y,
     })
 }
 

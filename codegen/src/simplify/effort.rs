@@ -1,7 +1,7 @@
 //! How much work a search may do: counted in e-nodes, pairs and moves, never
 //! in time, so the result is the same on every machine.
 
-use super::egraph::Budget;
+use super::egraph::SaturationLimits;
 use super::extract::Schedule;
 use super::search::Settings;
 
@@ -32,7 +32,7 @@ impl Effort {
         Effort::ALL.into_iter().find(|e| e.name() == name)
     }
 
-    /// Rounds of the gauge's descent.
+    /// Rounds of the regrouping's descent.
     pub fn gauge_rounds(self) -> usize {
         match self {
             Effort::Quick => 1,
@@ -40,14 +40,14 @@ impl Effort {
         }
     }
 
-    pub(super) fn budget(self) -> Budget {
+    pub(super) fn budget(self) -> SaturationLimits {
         match self {
-            Effort::Quick => Budget {
+            Effort::Quick => SaturationLimits {
                 nodes: 5_000,
                 iterations: 1,
                 rounds: 1,
             },
-            Effort::Thorough => Budget {
+            Effort::Thorough => SaturationLimits {
                 nodes: 100_000,
                 iterations: 3,
                 rounds: 2,

@@ -12,13 +12,13 @@ use std::str::FromStr;
 
 use egg::{Analysis, DidMerge, EGraph, Id, Language, Rewrite, SimpleScheduler, define_language};
 
-use super::classes::{ClassId, Classes, Way};
+use super::classes::{ClassId, Classes, ENode};
 use super::rules::{Phase, SATURATION};
-use crate::graph::Print;
+use crate::graph::Fingerprint;
 
 /// How far saturation goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Budget {
+pub struct SaturationLimits {
     /// E-nodes at which it stops.
     pub nodes: usize,
     /// Iterations of each phase in each round.
@@ -63,13 +63,13 @@ define_language! {
 /// Carries every e-class's fingerprint.
 #[derive(Clone, Debug, Default)]
 pub struct Prints {
-    leaves: HashMap<ClassId, Print>,
+    leaves: HashMap<ClassId, Fingerprint>,
 }
 
 impl Analysis<Term> for Prints {
-    type Data = Print;
+    type Data = Fingerprint;
 
-    fn make(egraph: &mut EGraph<Term, Self>, term: &Term, _: Id) -> Print {
+    fn make(egraph: &mut EGraph<Term, Self>, term: &Term, _: Id) -> Fingerprint {
         let of = |id: Id| &egraph[id].data;
         match *term {
             Term::Add([a, b]) => of(a).add(of(b)),
@@ -79,12 +79,12 @@ impl Analysis<Term> for Prints {
             Term::Neg([a]) => of(a).neg(),
             Term::Leaf(LeafRef(class)) => {
                 let known = egraph.analysis.leaves.get(&class);
-                known.copied().unwrap_or_else(Print::zero)
+                known.copied().unwrap_or_else(Fingerprint::zero)
             }
         }
     }
 
-    fn merge(&mut self, _: &mut Print, _: Print) -> DidMerge {
+    fn merge(&mut self, _: &mut Fingerprint, _: Fingerprint) -> DidMerge {
         // Rules are sound, so both prints are equal.
         DidMerge(false, false)
     }
@@ -93,7 +93,7 @@ impl Analysis<Term> for Prints {
 /// Saturates from the chosen program and adds what it finds to the classes.
 ///
 /// `choice` names the way that each needed class is computed by now.
-pub fn saturate(classes: &mut Classes, choice: &[Option<Way>], budget: Budget) {
+pub fn saturate(classes: &mut Classes, choice: &[Option<ENode>], budget: SaturationLimits) {
     let mut egraph = EGraph::new(Prints {
         leaves: (0..classes.len() as ClassId)
             .filter(|&id| classes.get(id).leaf.is_some())
@@ -104,7 +104,7 @@ pub fn saturate(classes: &mut Classes, choice: &[Option<Way>], budget: Budget) {
     merge_by_print(&mut egraph);
     // A small program saturates into more regroupings than anyone can weigh.
     let nodes = budget.nodes.min(NODES_PER_TERM * egraph.total_size());
-    let budget = Budget { nodes, ..budget };
+    let budget = SaturationLimits { nodes, ..budget };
     for _ in 0..budget.rounds {
         for phase in [Phase::Sign, Phase::Factor, Phase::Regroup, Phase::Factor] {
             run_phase(&mut egraph, phase, budget);
@@ -126,7 +126,7 @@ fn rewrites(phase: Phase) -> Vec<Rewrite<Term, Prints>> {
         .collect()
 }
 
-fn run_phase(egraph: &mut EGraph<Term, Prints>, phase: Phase, budget: Budget) {
+fn run_phase(egraph: &mut EGraph<Term, Prints>, phase: Phase, budget: SaturationLimits) {
     let rules = rewrites(phase);
     for _ in 0..budget.iterations {
         let before = (egraph.total_size(), egraph.number_of_classes());
@@ -151,7 +151,7 @@ fn run_phase(egraph: &mut EGraph<Term, Prints>, phase: Phase, budget: Budget) {
 }
 
 /// The chosen program as terms.
-fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option<Way>]) {
+fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option<ENode>]) {
     let mut ids: HashMap<ClassId, Id> = HashMap::new();
     let mut pending: Vec<ClassId> = Vec::new();
     for output in classes.outputs.iter().flatten() {
@@ -172,10 +172,10 @@ fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option
                         continue;
                     };
                     match way {
-                        Way::Sum(..) => Term::Add([x, y]),
-                        Way::Difference(..) => Term::Sub([x, y]),
-                        Way::Product(..) => Term::Mul([x, y]),
-                        Way::Quotient(..) => Term::Div([x, y]),
+                        ENode::Sum(..) => Term::Add([x, y]),
+                        ENode::Difference(..) => Term::Sub([x, y]),
+                        ENode::Product(..) => Term::Mul([x, y]),
+                        ENode::Quotient(..) => Term::Div([x, y]),
                     }
                 }
                 _ => Term::Leaf(LeafRef(class)),
@@ -196,7 +196,7 @@ fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option
 fn merge_by_print(egraph: &mut EGraph<Term, Prints>) {
     let mut ids: Vec<Id> = egraph.classes().map(|class| class.id).collect();
     ids.sort_unstable();
-    let mut by_print: HashMap<Print, Id> = HashMap::new();
+    let mut by_print: HashMap<Fingerprint, Id> = HashMap::new();
     for id in ids {
         let print = egraph[id].data;
         if let Some(&other) = by_print.get(&print) {
@@ -221,7 +221,7 @@ fn merge_by_print(egraph: &mut EGraph<Term, Prints>) {
 fn harvest(egraph: &EGraph<Term, Prints>, classes: &mut Classes) {
     let mut ids: Vec<Id> = egraph.classes().map(|class| class.id).collect();
     ids.sort_unstable();
-    let zero = Print::zero();
+    let zero = Fingerprint::zero();
     for id in ids {
         let eclass = &egraph[id];
         if eclass.data == zero {
@@ -239,11 +239,11 @@ fn harvest(egraph: &EGraph<Term, Prints>, classes: &mut Classes) {
             let (x, y) = (classes.intern(&x), classes.intern(&y));
             let same = x.negative == y.negative;
             let way = match term {
-                Term::Mul(_) => Way::Product(x.class, y.class),
-                Term::Div(_) => Way::Quotient(x.class, y.class),
-                Term::Add(_) if same => Way::Sum(x.class, y.class),
-                Term::Sub(_) if !same => Way::Sum(x.class, y.class),
-                _ => Way::Difference(x.class, y.class),
+                Term::Mul(_) => ENode::Product(x.class, y.class),
+                Term::Div(_) => ENode::Quotient(x.class, y.class),
+                Term::Add(_) if same => ENode::Sum(x.class, y.class),
+                Term::Sub(_) if !same => ENode::Sum(x.class, y.class),
+                _ => ENode::Difference(x.class, y.class),
             };
             classes.add_way(class, way);
         }

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use super::classes::{ClassId, Classes, Leaf, Way};
+use super::classes::{ClassId, Classes, ENode, Leaf};
 use crate::program::AngleSum;
 use crate::random::Random;
 
@@ -48,11 +48,11 @@ impl CostModel {
         }
     }
 
-    fn way(&self, way: Way) -> u64 {
+    fn way(&self, way: ENode) -> u64 {
         match way {
-            Way::Product(..) => self.mul,
-            Way::Sum(..) | Way::Difference(..) => self.add,
-            Way::Quotient(..) => self.div,
+            ENode::Product(..) => self.mul,
+            ENode::Sum(..) | ENode::Difference(..) => self.add,
+            ENode::Quotient(..) => self.div,
         }
     }
 }
@@ -104,12 +104,12 @@ const NONE: u32 = u32::MAX;
 
 /// The ways of a dead operand that are looked at: the first found, which are
 /// those of real programs.
-const MOST_WAYS: usize = 16;
+const MAX_ENODES: usize = 16;
 
 impl<'a> Extraction<'a> {
     /// Starts from a choice that is acyclic and complete below the outputs;
     /// every other class gets an acyclic way where it has one.
-    pub fn new(classes: &'a Classes, seed: &[Option<Way>], model: CostModel) -> Self {
+    pub fn new(classes: &'a Classes, seed: &[Option<ENode>], model: CostModel) -> Self {
         let n = classes.len();
         let mut angles: BTreeMap<AngleSum, u32> = BTreeMap::new();
         let mut angle_of = vec![NONE; n];
@@ -150,7 +150,7 @@ impl<'a> Extraction<'a> {
 
     /// The seed's ways, then, class by class until nothing changes, ways
     /// whose operands are computable: acyclic, since each uses earlier ones.
-    fn seed(&mut self, seed: &[Option<Way>]) {
+    fn seed(&mut self, seed: &[Option<ENode>]) {
         for (id, way) in seed.iter().enumerate() {
             if let Some(way) = way {
                 let ways = &self.classes.get(id as ClassId).ways;
@@ -190,7 +190,7 @@ impl<'a> Extraction<'a> {
     }
 
     /// The chosen ways.
-    pub fn choice(&self) -> Vec<Option<Way>> {
+    pub fn choice(&self) -> Vec<Option<ENode>> {
         (0..self.classes.len() as ClassId)
             .map(|id| self.way(id))
             .collect()
@@ -203,7 +203,7 @@ impl<'a> Extraction<'a> {
         live
     }
 
-    fn way(&self, id: ClassId) -> Option<Way> {
+    fn way(&self, id: ClassId) -> Option<ENode> {
         let chosen = self.chosen[id as usize];
         self.classes.get(id).ways.get(chosen as usize).copied()
     }
@@ -281,7 +281,7 @@ impl<'a> Extraction<'a> {
     }
 
     /// What a way adds, looking `depth` levels into dead operands.
-    fn marginal(&self, way: Way, depth: u32) -> u64 {
+    fn marginal(&self, way: ENode, depth: u32) -> u64 {
         let mut cost = self.model.way(way);
         for operand in way.operands() {
             if self.uses[operand as usize] > 0 {
@@ -298,7 +298,7 @@ impl<'a> Extraction<'a> {
             cost += if depth == 0 {
                 2 * self.model.add
             } else {
-                let ways = ways.iter().take(MOST_WAYS);
+                let ways = ways.iter().take(MAX_ENODES);
                 let costs = ways.map(|&way| self.marginal(way, depth - 1));
                 costs.min().unwrap_or(u64::MAX / 4)
             };
@@ -307,7 +307,7 @@ impl<'a> Extraction<'a> {
     }
 
     /// Whether an operand of the way depends on the class.
-    fn reaches(&mut self, way: Way, target: ClassId) -> bool {
+    fn reaches(&mut self, way: ENode, target: ClassId) -> bool {
         self.stamp += 1;
         let mut stack = Vec::from(way.operands());
         while let Some(id) = stack.pop() {
@@ -326,7 +326,7 @@ impl<'a> Extraction<'a> {
     }
 
     /// Whether every operand has a way or is a leaf.
-    fn computable(&self, way: Way) -> bool {
+    fn computable(&self, way: ENode) -> bool {
         way.operands()
             .iter()
             .all(|&id| self.classes.get(id).leaf.is_some() || self.chosen[id as usize] != NONE)
@@ -346,7 +346,7 @@ impl<'a> Extraction<'a> {
         Some(())
     }
 
-    fn rewire(&mut self, id: ClassId, old: Way, index: u32, new: Way, depth: u32) {
+    fn rewire(&mut self, id: ClassId, old: ENode, index: u32, new: ENode, depth: u32) {
         // The old operands go first, so that what only they kept alive counts
         // as work for the new way.
         self.cost -= self.model.way(old);
@@ -479,10 +479,10 @@ mod tests {
 
     /// What the outputs cost by a choice, found from nothing but the choice;
     /// `None` where it goes in a circle.
-    fn cost_of(classes: &Classes, choice: &[Option<Way>]) -> Option<u64> {
+    fn cost_of(classes: &Classes, choice: &[Option<ENode>]) -> Option<u64> {
         fn visit(
             classes: &Classes,
-            choice: &[Option<Way>],
+            choice: &[Option<ENode>],
             id: ClassId,
             state: &mut [u8],
         ) -> Option<u64> {
@@ -511,7 +511,7 @@ mod tests {
 
     /// The least cost over all choices.
     fn least(classes: &Classes) -> u64 {
-        let ways: Vec<&[Way]> = (0..classes.len() as ClassId)
+        let ways: Vec<&[ENode]> = (0..classes.len() as ClassId)
             .map(|id| classes.get(id).ways.as_slice())
             .collect();
         let count: usize = ways.iter().map(|ways| ways.len().max(1)).product();
@@ -592,7 +592,7 @@ mod tests {
             .into_iter()
             .find(|&id| id != product)
             .unwrap();
-        assert!(classes.add_way(product, Way::Difference(y, a)));
+        assert!(classes.add_way(product, ENode::Difference(y, a)));
         let program = classes.program();
         let mut search = Extraction::new(&classes, &program, MODEL);
         for seed in 0..20 {

@@ -20,7 +20,7 @@ use std::fmt;
 use crate::graph::{Folding, Graph};
 use crate::program::Counts;
 use crate::random::Random;
-use crate::watch::{Part, Vigil};
+use crate::watch::{FunctionWatch, Part};
 use classes::Classes;
 pub use effort::Effort;
 pub use extract::{CostModel, Extraction, Schedule};
@@ -96,7 +96,7 @@ pub fn watched(
     helpers: &[Graph],
     effort: Effort,
     accept: &dyn Fn(&Graph) -> bool,
-    watch: Option<Vigil<'_>>,
+    watch: Option<FunctionWatch<'_>>,
 ) -> Option<Simplified> {
     let tell = |part, rounds, best: &Graph| {
         if let Some(watch) = watch {

@@ -1,6 +1,6 @@
 //! Discovery and extraction in turns.
 
-use super::classes::{ClassId, Classes, Way};
+use super::classes::{ClassId, Classes, ENode};
 use super::cost;
 use super::discover;
 use super::extract::{CostModel, Extraction, Schedule};
@@ -24,7 +24,7 @@ pub struct Settings {
 }
 
 /// A program with more values than this is not paired whole in any search.
-const MOST_OWN: usize = 1_500;
+const MAX_OWN: usize = 1_500;
 
 /// One round from a program: what other graphs and the fingerprints offer,
 /// then extraction. Never returns a dearer program.
@@ -43,7 +43,7 @@ pub fn round(
     }
     discover::multiples(&mut classes, &own, &choice);
     // The program's own classes come first, then the other graphs' in turn.
-    let most = settings.pairs.max(own.len().min(MOST_OWN));
+    let most = settings.pairs.max(own.len().min(MAX_OWN));
     let pool: Vec<ClassId> = (0..classes.len().min(most) as ClassId).collect();
     discover::pairs(&mut classes, &pool);
     if own.len() <= settings.substitutes {
@@ -72,7 +72,7 @@ pub fn glance(program: &Graph, helpers: &[Graph]) -> Graph {
 /// Climbs, anneals and climbs again from a choice.
 pub fn extract(
     classes: &Classes,
-    choice: &[Option<Way>],
+    choice: &[Option<ENode>],
     schedule: Schedule,
     random: &mut Random,
 ) -> Graph {

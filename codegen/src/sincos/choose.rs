@@ -22,13 +22,13 @@ pub struct Choice {
 }
 
 /// The most that angles are halved.
-const MOST_HALVINGS: u32 = 3;
+const MAX_HALVINGS: u32 = 3;
 
 /// Degrees above say nothing that floats can hold.
-const MOST_DEGREE: usize = 27;
+const MAX_DEGREE: usize = 27;
 
 /// Beyond this, whole turns are taken off.
-const MOST_UNREDUCED: f64 = 16.0;
+const MAX_UNREDUCED: f64 = 16.0;
 
 /// How much better than its estimate a form is given the chance to be: sums
 /// of bounds are larger than bounds of sums.
@@ -55,7 +55,7 @@ impl Candidates {
             fits: Vec::new(),
             forms: Vec::new(),
         };
-        if range.magnitude() <= MOST_UNREDUCED {
+        if range.magnitude() <= MAX_UNREDUCED {
             let (middle, radius) = (range.mid(), range.radius());
             let quarters = libm::round(middle / std::f64::consts::FRAC_PI_2) as i32;
             let mut about = vec![Centre::Quarter(quarters)];
@@ -100,7 +100,7 @@ impl Candidates {
     /// the best.
     fn add(&mut self, reduced: bool, centre: Centre, radius: f64) {
         let halvings = match centre {
-            Centre::Quarter(_) => MOST_HALVINGS,
+            Centre::Quarter(_) => MAX_HALVINGS,
             Centre::At(_) => 0,
         };
         for halvings in 0..=halvings {
@@ -120,8 +120,8 @@ impl Candidates {
                 Centre::At(_) => (1, [1, 1]),
             };
             let mut best: BTreeMap<usize, (f64, Form)> = BTreeMap::new();
-            for sin in (start[0]..=MOST_DEGREE).step_by(step) {
-                for cos in (start[1]..=MOST_DEGREE).step_by(step) {
+            for sin in (start[0]..=MAX_DEGREE).step_by(step) {
+                for cos in (start[1]..=MAX_DEGREE).step_by(step) {
                     if sin.abs_diff(cos) > 3 {
                         continue;
                     }

@@ -42,9 +42,9 @@ impl Errors {
 }
 
 /// A kernel of more steps, or of a higher degree, is not looked at.
-const MOST_STEPS: usize = 128;
-const MOST_DEGREE: usize = 160;
-const MOST_BITS: u64 = 1 << 18;
+const MAX_STEPS: usize = 128;
+const MAX_DEGREE: usize = 160;
+const MAX_BITS: u64 = 1 << 18;
 
 /// The widest piece of a range.
 const PIECE: f64 = 0.5;
@@ -55,7 +55,7 @@ const CELLS: usize = 48;
 /// Bounds for every float of the scalar in the range; `None` if the kernel is
 /// nothing that can be bounded.
 pub fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
-    if kernel.steps.len() > MOST_STEPS {
+    if kernel.steps.len() > MAX_STEPS {
         return None;
     }
     if let Some((constants, left)) = reduction::split(kernel, scalar) {
@@ -99,8 +99,8 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     let mut values: Vec<Poly> = Vec::with_capacity(kernel.steps.len());
     for step in &kernel.steps {
         let (left, right) = (read(step.left, &values)?, read(step.right, &values)?);
-        let large = left.degree() + right.degree() > MOST_DEGREE;
-        if large || left.bits() + right.bits() > MOST_BITS {
+        let large = left.degree() + right.degree() > MAX_DEGREE;
+        if large || left.bits() + right.bits() > MAX_BITS {
             return None;
         }
         let value = match step.operation {

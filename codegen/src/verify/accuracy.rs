@@ -17,10 +17,10 @@ const FLOOR: f64 = 4.0;
 pub const WORSE: f64 = 4.0;
 
 /// Longer chains are not measured: their programs are what the recursion is.
-const MOST_MEASURED: usize = 16;
+const MAX_MEASURED: usize = 16;
 
 /// The most joints for which h_ikm is held against Lagrange–Euler.
-const MOST_WRITTEN: usize = 7;
+const MAX_WRITTEN: usize = 7;
 
 /// A program that takes fewer operations than the one taken, and costs more
 /// digits than are allowed.
@@ -37,28 +37,28 @@ pub struct Refused {
 /// Accepts a program of a function that costs no more than [`WORSE`] times
 /// the error of a textbook form.
 #[derive(Clone, Debug)]
-pub struct Judge<'a> {
+pub struct AccuracyFilter<'a> {
     setting: &'a Setting,
     function: Function,
     yardstick: Option<Rounding>,
 }
 
-impl<'a> Judge<'a> {
+impl<'a> AccuracyFilter<'a> {
     /// Measures the textbook form: the link-frame recursion; for h_ikm, which
     /// it gives only by differences, Lagrange–Euler.
     pub fn new(setting: &'a Setting, function: Function) -> Self {
         let n = setting.joints().len();
         let mut quantities = function.quantities().iter();
         let formulation = if quantities.any(|quantity| quantity.by_differences()) {
-            (n <= MOST_WRITTEN).then_some(Formulation::LagrangeEuler)
+            (n <= MAX_WRITTEN).then_some(Formulation::LagrangeEuler)
         } else {
-            (n <= MOST_MEASURED).then_some(Formulation::NewtonEulerLink)
+            (n <= MAX_MEASURED).then_some(Formulation::NewtonEulerLink)
         };
         let yardstick = formulation.map(|formulation| {
             let textbook = portfolio::textbook(setting, function, formulation).graph;
             estimate(setting, function, &textbook)
         });
-        Judge {
+        AccuracyFilter {
             setting,
             function,
             yardstick,
@@ -67,7 +67,7 @@ impl<'a> Judge<'a> {
 
     /// Whatever it costs.
     pub fn lenient(setting: &'a Setting, function: Function) -> Self {
-        Judge {
+        AccuracyFilter {
             setting,
             function,
             yardstick: None,

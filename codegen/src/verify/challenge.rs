@@ -10,7 +10,7 @@
 
 use hmac_sha256::Hash;
 
-use dalembert_model::equations::Rotor;
+use dalembert_model::equations::SinCosPair;
 use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::robot::write as write_robot;
 use dalembert_model::scalar::prime::Prime;
@@ -176,7 +176,7 @@ impl Point {
         (0..MAX_TRIES).find_map(below).unwrap_or_default()
     }
 
-    fn circle(&self, kind: &str, name: &str) -> Rotor<Residue> {
+    fn circle(&self, kind: &str, name: &str) -> SinCosPair<Residue> {
         Residue::circle_point(self.prime, self.residue(kind, name))
     }
 
@@ -192,7 +192,7 @@ impl Point {
         }
     }
 
-    fn joint(&self, joint: usize) -> Rotor<Residue> {
+    fn joint(&self, joint: usize) -> SinCosPair<Residue> {
         self.circle("joint", &joint.to_string())
     }
 

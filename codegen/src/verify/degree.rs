@@ -15,7 +15,7 @@
 //!
 //! [`height`]: Degree::height
 
-use dalembert_model::equations::Rotor;
+use dalembert_model::equations::SinCosPair;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
@@ -86,7 +86,7 @@ impl Degree {
                 ..Degree::of(Some(Size::of(x)))
             })
         };
-        let degree = constant.map(&mut coefficient, &mut |_| Rotor {
+        let degree = constant.map(&mut coefficient, &mut |_| SinCosPair {
             sin: generator.clone(),
             cos: generator.clone(),
         });

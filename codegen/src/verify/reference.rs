@@ -9,7 +9,7 @@
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Angle, Exact, Rational, Rounded, Wide};
 use dalembert_model::outputs::Axis;
-use dalembert_model::scalar::{Divide, Rotor, Scalar};
+use dalembert_model::scalar::{Divide, Scalar, SinCosPair};
 use num_traits::Zero;
 
 use crate::function::{Function, Quantity};
@@ -65,7 +65,7 @@ impl<'s> Reference<'s> {
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let finite = |x: f64| Wide::from_f64(x).unwrap_or_else(Wide::zero);
-        let pairs: Vec<Rotor<Wide>> = state.q.iter().map(|&q| pair(q)).collect();
+        let pairs: Vec<SinCosPair<Wide>> = state.q.iter().map(|&q| pair(q)).collect();
         // A motion reads the angles of single joints only.
         let joint = |angle: AngleSum| angle.terms().map(|(joint, _)| joint).sum::<usize>();
         let sine = |value: &Wide| Known::sized(value.clone(), 1.0);
@@ -104,9 +104,9 @@ pub fn recursions(function: Function, joints: usize) -> usize {
     function.quantities().iter().map(of).sum()
 }
 
-fn pair(q: f64) -> Rotor<Wide> {
+fn pair(q: f64) -> SinCosPair<Wide> {
     let angle = Rational::from_float(q).unwrap_or_else(Rational::zero);
-    Wide::rotor(&Angle::Radians(angle))
+    Wide::sincos(&Angle::Radians(angle))
 }
 
 /// A value, and the largest magnitude that it and all that it was made of can
@@ -129,7 +129,7 @@ impl Known {
             Some(Known::sized(Wide::from_rational(x), size))
         };
         let value = constant.map(rational, &mut |angle| {
-            Wide::rotor(angle).map(|x| Known::sized(x.clone(), 1.0))
+            Wide::sincos(angle).map(|x| Known::sized(x.clone(), 1.0))
         });
         value.unwrap_or_else(|| Known::sized(Wide::from_exact(constant), f64::INFINITY))
     }

@@ -21,7 +21,7 @@ pub(crate) use link::Link;
 pub(crate) use number::{Number, Origin, Value};
 
 /// No robot has more links.
-const MOST_LINKS: usize = 1024;
+const MAX_LINKS: usize = 1024;
 
 /// A URDF, every joint with a parent and a child that there are.
 #[derive(Clone, Debug)]
@@ -83,8 +83,8 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
         "joint",
         joints.iter().map(|joint| (&joint.name, &joint.span)),
     );
-    if links.len() > MOST_LINKS {
-        let message = format!("there are {} links, more than {MOST_LINKS}", links.len());
+    if links.len() > MAX_LINKS {
+        let message = format!("there are {} links, more than {MAX_LINKS}", links.len());
         let help = "is this a robot? cut out the arm";
         reader.problems.error(&span, message, help);
         return None;

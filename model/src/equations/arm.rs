@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::matrix::{Columns, Vector, plus};
 use crate::robot::{Convention, Inertia, JointKind};
-use crate::scalar::{Rotor, Scalar};
+use crate::scalar::{Scalar, SinCosPair};
 
 /// The parameters of an arm in the scalar of a computation.
 #[derive(Clone, Debug)]
@@ -27,11 +27,11 @@ pub struct Link<S> {
     /// Revolute or prismatic.
     pub kind: JointKind,
     /// Twist α_i.
-    pub alpha: Rotor<S>,
+    pub alpha: SinCosPair<S>,
     /// The turn β_i about y after it, of standard DH.
-    pub beta: Option<Rotor<S>>,
+    pub beta: Option<SinCosPair<S>>,
     /// Constant part of θ_i.
-    pub theta: Rotor<S>,
+    pub theta: SinCosPair<S>,
     /// Length a_i.
     pub a: S,
     /// Constant part of d_i.
@@ -44,7 +44,7 @@ pub struct Link<S> {
     pub inertia: Inertia<S>,
     /// Viscous damping b_i.
     pub viscous: S,
-    /// Rotor inertia felt at the joint.
+    /// SinCosPair inertia felt at the joint.
     pub armature: S,
 }
 
@@ -52,7 +52,7 @@ pub struct Link<S> {
 #[derive(Clone, Debug)]
 pub enum JointPosition<S> {
     /// (sin q_i, cos q_i)
-    Revolute(Rotor<S>),
+    Revolute(SinCosPair<S>),
     /// q_i
     Prismatic(S),
 }
@@ -61,7 +61,7 @@ pub enum JointPosition<S> {
 #[derive(Clone, Debug)]
 pub struct DhVariables<S> {
     /// θ_i
-    pub theta: Rotor<S>,
+    pub theta: SinCosPair<S>,
     /// d_i
     pub d: S,
 }
@@ -198,32 +198,32 @@ impl<S: Scalar> Link<S> {
     }
 }
 
-fn turn_y<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn turn_y<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [z, x] = angle.turn(&z, &x);
     [x, y, z]
 }
 
-fn turn_back_y<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn turn_back_y<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [z, x] = angle.turn_back(&z, &x);
     [x, y, z]
 }
 
-fn turn_x<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn turn_x<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [y, z] = angle.turn(&y, &z);
     [x, y, z]
 }
 
-fn turn_back_x<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn turn_back_x<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [y, z] = angle.turn_back(&y, &z);
     [x, y, z]
 }
 
-fn turn_z<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn turn_z<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [x, y] = angle.turn(&x, &y);
     [x, y, z]
 }
 
-fn turn_back_z<S: Scalar>(angle: &Rotor<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn turn_back_z<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [x, y] = angle.turn_back(&x, &y);
     [x, y, z]
 }

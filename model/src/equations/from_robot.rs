@@ -1,7 +1,7 @@
 //! From a robot with exact parameters to an arm in any scalar.
 
 use super::matrix::Columns;
-use super::{Arm, Link, Rotor};
+use super::{Arm, Link, SinCosPair};
 use crate::number::{Angle, Exact, Rational};
 use crate::robot::{Placement, Robot};
 use crate::scalar::Scalar;
@@ -11,7 +11,7 @@ impl<S> Arm<S> {
     /// rounding for floats, a constant for symbols, a residue for fields.
     pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
         let exact = |placement| {
-            pose_of(placement, Exact::rotor, |x: &Rational| {
+            pose_of(placement, Exact::sincos, |x: &Rational| {
                 Exact::from(x.clone())
             })
         };
@@ -27,8 +27,8 @@ impl<S> Arm<S> {
         let [base, tool] = [base, tool].map(|pose| pose.map(|pose| pose.map(&mut *scalar)));
         let links = robot.joints.iter().map(|joint| {
             let mut pair = |angle| {
-                let pair = Exact::rotor(angle);
-                Rotor {
+                let pair = Exact::sincos(angle);
+                SinCosPair {
                     sin: scalar(&pair.sin),
                     cos: scalar(&pair.cos),
                 }
@@ -64,7 +64,7 @@ impl<S> Arm<S> {
 /// and lengths are in a scalar.
 pub fn pose_of<S: Scalar>(
     placement: &Placement,
-    pair: impl Fn(&Angle) -> Rotor<S>,
+    pair: impl Fn(&Angle) -> SinCosPair<S>,
     length: impl Fn(&Rational) -> S,
 ) -> Columns<S> {
     let [roll, pitch, yaw] = placement.rpy.each_ref().map(pair);

@@ -9,7 +9,7 @@
 
 use alloc::vec::Vec;
 
-use super::Rotor;
+use super::SinCosPair;
 use crate::robot::{Inertia, JointKind};
 use crate::scalar::Scalar;
 pub use crate::scalar::structural::{halved, minus, negative, over, plus, times, twice};
@@ -101,7 +101,7 @@ pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> 
     ]
 }
 
-impl<S: Scalar> Rotor<S> {
+impl<S: Scalar> SinCosPair<S> {
     /// The plane rotation by this angle: (c x − s y, s x + c y).
     pub fn turn(&self, x: &S, y: &S) -> [S; 2] {
         [
@@ -110,7 +110,7 @@ impl<S: Scalar> Rotor<S> {
         ]
     }
 
-    /// The inverse of [`Rotor::turn`]: (c x + s y, c y − s x).
+    /// The inverse of [`SinCosPair::turn`]: (c x + s y, c y − s x).
     pub fn turn_back(&self, x: &S, y: &S) -> [S; 2] {
         [
             plus(&times(&self.cos, x), &times(&self.sin, y)),
@@ -154,7 +154,7 @@ impl<S: Scalar> Columns<S> {
     }
 
     /// · Rz(θ)
-    pub fn turn_z(self, theta: &Rotor<S>) -> Self {
+    pub fn turn_z(self, theta: &SinCosPair<S>) -> Self {
         let [x, y, z] = self.axes;
         let [x, y] = turn_columns(theta, &x, &y);
         Columns {
@@ -164,7 +164,7 @@ impl<S: Scalar> Columns<S> {
     }
 
     /// · Rx(α)
-    pub fn turn_x(self, alpha: &Rotor<S>) -> Self {
+    pub fn turn_x(self, alpha: &SinCosPair<S>) -> Self {
         let [x, y, z] = self.axes;
         let [y, z] = turn_columns(alpha, &y, &z);
         Columns {
@@ -174,7 +174,7 @@ impl<S: Scalar> Columns<S> {
     }
 
     /// · Ry(β)
-    pub fn turn_y(self, beta: &Rotor<S>) -> Self {
+    pub fn turn_y(self, beta: &SinCosPair<S>) -> Self {
         let [x, y, z] = self.axes;
         let [z, x] = turn_columns(beta, &z, &x);
         Columns {
@@ -255,7 +255,7 @@ impl<S: Scalar> Columns<S> {
 
 /// Two columns times a plane rotation from the right:
 /// (c x + s y, c y − s x).
-fn turn_columns<S: Scalar>(angle: &Rotor<S>, x: &Vector<S>, y: &Vector<S>) -> [Vector<S>; 2] {
+fn turn_columns<S: Scalar>(angle: &SinCosPair<S>, x: &Vector<S>, y: &Vector<S>) -> [Vector<S>; 2] {
     let [a, b, c] = [0, 1, 2].map(|row| angle.turn_back(&x[row], &y[row]));
     let [[x0, y0], [x1, y1], [x2, y2]] = [a, b, c];
     [[x0, x1, x2], [y0, y1, y2]]

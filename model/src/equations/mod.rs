@@ -43,7 +43,7 @@ pub mod lagrange_euler;
 pub mod matrix;
 pub mod newton_euler;
 
-pub use crate::scalar::Rotor;
+pub use crate::scalar::SinCosPair;
 pub use arm::{Arm, DhVariables, JointPosition, Link};
 pub use formulation::Formulation;
 pub use from_robot::pose_of;

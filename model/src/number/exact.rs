@@ -15,8 +15,8 @@ use core::cmp::Ordering;
 use num_traits::{One, Signed, Zero};
 
 use super::{Angle, Rational};
-use crate::scalar::Rotor;
 use crate::scalar::Scalar;
+use crate::scalar::SinCosPair;
 
 /// An exact constant.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -85,7 +85,7 @@ impl Exact {
     }
 
     /// The pair of a constant angle; multiples of π/2 give 0 and ±1.
-    pub fn rotor(angle: &Angle) -> Rotor<Exact> {
+    pub fn sincos(angle: &Angle) -> SinCosPair<Exact> {
         let (turns, key) = reduce(angle);
         let (sin, cos) = match key {
             None => (Exact::zero(), Exact::one()),
@@ -98,16 +98,16 @@ impl Exact {
             }
         };
         match turns {
-            0 => Rotor { sin, cos },
-            1 => Rotor {
+            0 => SinCosPair { sin, cos },
+            1 => SinCosPair {
                 sin: cos,
                 cos: sin.neg(),
             },
-            2 => Rotor {
+            2 => SinCosPair {
                 sin: sin.neg(),
                 cos: cos.neg(),
             },
-            _ => Rotor {
+            _ => SinCosPair {
                 sin: cos.neg(),
                 cos: sin,
             },
@@ -149,7 +149,7 @@ impl Exact {
     pub fn map<S: Scalar>(
         &self,
         rational: &mut impl FnMut(&Rational) -> Option<S>,
-        pair: &mut impl FnMut(&Angle) -> Rotor<S>,
+        pair: &mut impl FnMut(&Angle) -> SinCosPair<S>,
     ) -> Option<S> {
         match &self.0 {
             Form::Rational(value) => rational(value),
@@ -399,7 +399,7 @@ mod tests {
     fn opposite_angles_cancel() {
         for n in -12..=12 {
             let (there, back) = (pi_times(n, 12), pi_times(-n, 12));
-            let sum = Exact::rotor(&there).compose(&Exact::rotor(&back));
+            let sum = Exact::sincos(&there).compose(&Exact::sincos(&back));
             assert!(sum.sin.is_zero() && sum.cos.is_one(), "{n}");
         }
     }
@@ -407,7 +407,7 @@ mod tests {
     #[test]
     fn right_angles_are_exact() {
         for (n, sin, cos) in [(0, 0, 1), (1, 1, 0), (2, 0, -1), (3, -1, 0), (-1, -1, 0)] {
-            let rotor = Exact::rotor(&pi_times(n, 2));
+            let rotor = Exact::sincos(&pi_times(n, 2));
             assert_eq!(rotor.sin, Exact::from(Rational::from_integer(sin.into())));
             assert_eq!(rotor.cos, Exact::from(Rational::from_integer(cos.into())));
         }
@@ -419,7 +419,7 @@ mod tests {
             pi_times(1, 5),
             Angle::Radians(Rational::new(3.into(), 10.into())),
         ] {
-            let r = Exact::rotor(&angle);
+            let r = Exact::sincos(&angle);
             assert!(r.sin.mul(&r.sin).add(&r.cos.mul(&r.cos)).is_one());
         }
     }
@@ -427,8 +427,8 @@ mod tests {
     #[test]
     fn complementary_angles_share_their_generators() {
         assert_eq!(
-            Exact::rotor(&pi_times(1, 3)).sin,
-            Exact::rotor(&pi_times(1, 6)).cos
+            Exact::sincos(&pi_times(1, 3)).sin,
+            Exact::sincos(&pi_times(1, 6)).cos
         );
     }
 }

@@ -108,7 +108,7 @@ fn arc(sin: &Wide, cos: &Wide) -> Rational {
     };
     let [y, x] = [&sin, &cos].map(|part| f64::nearest_rational(&part.to_rational()));
     let start = Rational::from_float(libm::atan2(y, x)).unwrap_or_else(Rational::zero);
-    let at = Wide::rotor(&Angle::Radians(start.clone()));
+    let at = Wide::sincos(&Angle::Radians(start.clone()));
     // The sine of what is missing, 1e-16 or less: arcsin x = x + x³/6 + 3x⁵/40 …
     let x = sin.mul(&at.cos).sub(&cos.mul(&at.sin)).to_rational();
     let square = &x * &x;
@@ -126,7 +126,7 @@ mod tests {
     }
 
     fn of(angle: &Angle) -> Angle {
-        let pair = Wide::rotor(angle);
+        let pair = Wide::sincos(angle);
         let size = Wide::from_rational(&ratio(7, 3));
         Angle::recovered(&pair.sin.mul(&size), &pair.cos.mul(&size))
     }

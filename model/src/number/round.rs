@@ -16,7 +16,7 @@ pub trait Rounded: Copy + PartialEq {
     /// Exponent of the least subnormal: it is 2^`LEAST`.
     const LEAST: i64;
     /// Exponent e of the largest finite number: it is below 2^e.
-    const MOST: i64;
+    const MAX: i64;
     /// From a double that the format holds exactly, or an infinity.
     fn from_exact_f64(value: f64) -> Self;
     /// The nearest value of an exact constant; an infinity beyond the range.
@@ -30,7 +30,7 @@ pub trait Rounded: Copy + PartialEq {
     }
     /// The nearest value of a rational; an infinity beyond the range.
     fn nearest_rational(value: &Rational) -> Self {
-        let magnitude = round_magnitude(value, Self::DIGITS, Self::LEAST, Self::MOST);
+        let magnitude = round_magnitude(value, Self::DIGITS, Self::LEAST, Self::MAX);
         Self::from_exact_f64(if value.is_negative() {
             -magnitude
         } else {
@@ -42,7 +42,7 @@ pub trait Rounded: Copy + PartialEq {
 impl Rounded for f64 {
     const DIGITS: i64 = 53;
     const LEAST: i64 = -1074;
-    const MOST: i64 = 1024;
+    const MAX: i64 = 1024;
     fn from_exact_f64(value: f64) -> Self {
         value
     }
@@ -51,7 +51,7 @@ impl Rounded for f64 {
 impl Rounded for f32 {
     const DIGITS: i64 = 24;
     const LEAST: i64 = -149;
-    const MOST: i64 = 128;
+    const MAX: i64 = 128;
     fn from_exact_f64(value: f64) -> Self {
         value as f32
     }
@@ -219,12 +219,12 @@ mod tests {
 
     #[test]
     fn sines_are_rounded_correctly() {
-        let half = Exact::rotor(&Angle::PiTimes(ratio(1, 6))).sin;
+        let half = Exact::sincos(&Angle::PiTimes(ratio(1, 6))).sin;
         assert_eq!(f64::nearest(&half), 0.5);
-        let third = Exact::rotor(&Angle::PiTimes(ratio(1, 3)));
+        let third = Exact::sincos(&Angle::PiTimes(ratio(1, 3)));
         assert_eq!(f64::nearest(&third.sin), 0.866_025_403_784_438_6);
         assert_eq!(f64::nearest(&third.cos.neg()), -0.5);
-        let tenth = Exact::rotor(&Angle::Radians(ratio(3, 10)));
+        let tenth = Exact::sincos(&Angle::Radians(ratio(3, 10)));
         // sin of 3/10 itself: the sine of the double 0.3 rounds to another double.
         assert_eq!(f64::nearest(&tenth.sin), 0.295_520_206_661_339_6);
         assert_eq!(f32::nearest(&tenth.cos), 0.955_336_5_f32);
@@ -232,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_hidden_zero_rounds_to_zero() {
-        let quarter = Exact::rotor(&Angle::PiTimes(ratio(1, 4)));
+        let quarter = Exact::sincos(&Angle::PiTimes(ratio(1, 4)));
         assert_eq!(f64::nearest(&quarter.sin.sub(&quarter.cos)), 0.0);
     }
 }

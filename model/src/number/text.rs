@@ -61,14 +61,14 @@ impl fmt::Display for NotExact {
 impl core::error::Error for NotExact {}
 
 /// Longer texts are refused: no plan needs them.
-const MOST_BYTES: usize = 1 << 16;
+const MAX_BYTES: usize = 1 << 16;
 
 impl FromStr for Exact {
     type Err = NotExact;
 
     /// Reads what [`fmt::Display`] writes.
     fn from_str(text: &str) -> Result<Self, NotExact> {
-        if text.len() > MOST_BYTES {
+        if text.len() > MAX_BYTES {
             return Err(NotExact);
         }
         let mut terms: BTreeMap<Monomial, Rational> = BTreeMap::new();
@@ -168,8 +168,8 @@ mod tests {
     #[test]
     fn constants_read_back() {
         let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
-        let a = Exact::rotor(&Angle::PiTimes(ratio(1, 5)));
-        let b = Exact::rotor(&Angle::Radians(ratio(3, 10)));
+        let a = Exact::sincos(&Angle::PiTimes(ratio(1, 5)));
+        let b = Exact::sincos(&Angle::Radians(ratio(3, 10)));
         let three = Exact::from(ratio(-3, 4));
         for constant in [
             three.clone(),

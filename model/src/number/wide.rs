@@ -10,7 +10,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::trig::sin_cos;
 use super::{Angle, Exact, Rational};
-use crate::scalar::{Divide, Rotor, Scalar};
+use crate::scalar::{Divide, Scalar, SinCosPair};
 
 /// The bits of a significand.
 const BITS: u64 = 256;
@@ -39,15 +39,15 @@ impl Wide {
     /// An exact constant.
     pub fn from_exact(constant: &Exact) -> Wide {
         let rational = &mut |value: &Rational| Some(Wide::from_rational(value));
-        let value = constant.map(rational, &mut Wide::rotor);
+        let value = constant.map(rational, &mut Wide::sincos);
         value.unwrap_or_else(Wide::zero)
     }
 
     /// Sine and cosine of an angle, each within 2⁻²⁵⁵ of the true value.
-    pub fn rotor(angle: &Angle) -> Rotor<Wide> {
+    pub fn sincos(angle: &Angle) -> SinCosPair<Wide> {
         let bits = BITS as usize + 16;
         let (sin, cos) = sin_cos(angle, bits);
-        Rotor {
+        SinCosPair {
             sin: Wide::cut(sin, -(bits as i64)),
             cos: Wide::cut(cos, -(bits as i64)),
         }
@@ -224,7 +224,7 @@ mod tests {
         let off = one.sub(&Wide::one()).magnitude();
         assert!(off < 1e-76, "{off:e}");
         let angle = Angle::Radians(Rational::new(7.into(), 5.into()));
-        let Rotor { sin, cos } = Wide::rotor(&angle);
+        let SinCosPair { sin, cos } = Wide::sincos(&angle);
         let circle = sin.mul(&sin).add(&cos.mul(&cos)).sub(&Wide::one());
         assert!(circle.magnitude() < 1e-76);
         assert!(

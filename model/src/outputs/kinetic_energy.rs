@@ -7,7 +7,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::composite::Travel;
+use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::matrix::{halved, times, total};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -54,8 +54,8 @@ impl Formula for KineticEnergy {
         // Link by link, or from the momenta.
         let (chain, qd) = (at.chain, &at.motion.qd);
         Some(vec![match at.form.travel {
-            Travel::Outward => chain.kinetic_energy(at.at, qd),
-            Travel::Inward => {
+            CompositeOrder::Outward => chain.kinetic_energy(at.at, qd),
+            CompositeOrder::Inward => {
                 let [p, _] = chain.momentum(at.at, qd);
                 halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
             }

@@ -3,7 +3,7 @@
 use num_traits::{Signed, Zero};
 
 use crate::equations::matrix::{Columns, Vector, cross, dot, opposite, scaled, zero_vector};
-use crate::equations::{Rotor, pose_of};
+use crate::equations::{SinCosPair, pose_of};
 use crate::number::recover::recovered;
 use crate::number::{Angle, Rational, Wide};
 use crate::robot::{Inertia, Placement};
@@ -20,7 +20,7 @@ pub struct Body {
 
 /// [R | p] of a placement.
 pub fn pose(placement: &Placement) -> Columns<Wide> {
-    pose_of(placement, Wide::rotor, Wide::from_rational)
+    pose_of(placement, Wide::sincos, Wide::from_rational)
 }
 
 /// Rows for columns, and the origin seen from itself.
@@ -87,7 +87,7 @@ pub fn moved(body: &Body, pose: &Columns<Wide>) -> Body {
 
 /// The turn by an angle about a unit vector: v → c v + s u × v + (1 − c) u (u·v).
 pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
-    let Rotor { sin, cos } = Wide::rotor(angle);
+    let SinCosPair { sin, cos } = Wide::sincos(angle);
     let rest = Wide::one().sub(&cos);
     let column = |k: usize| {
         let mut unit: Vector<Wide> = zero_vector();

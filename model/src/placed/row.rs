@@ -3,7 +3,7 @@
 
 use super::frame::{length, unit};
 use super::{along, is_nothing};
-use crate::equations::Rotor;
+use crate::equations::SinCosPair;
 use crate::equations::matrix::{Columns, Vector, cross, difference, dot, opposite, scaled};
 use crate::number::{Angle, Rational, Wide};
 use crate::scalar::Scalar;
@@ -187,7 +187,7 @@ fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<W
 /// Of both directions of a normal, the one nearer to the frame's own x; to its
 /// y where it is across.
 fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
-    let Rotor { sin, cos } = components(here, &x);
+    let SinCosPair { sin, cos } = components(here, &x);
     let one = Rational::from_integer(1.into());
     let backward = match is_nothing(&cos, &one) {
         true => sin.is_negative(),
@@ -198,12 +198,12 @@ fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
 
 /// θ: how far a vector across the axis is turned from the frame's x.
 fn turn(here: &Columns<Wide>, x: &Vector<Wide>) -> Angle {
-    let Rotor { sin, cos } = components(here, x);
+    let SinCosPair { sin, cos } = components(here, x);
     Angle::recovered(&sin, &cos)
 }
 
-fn components(here: &Columns<Wide>, x: &Vector<Wide>) -> Rotor<Wide> {
-    Rotor {
+fn components(here: &Columns<Wide>, x: &Vector<Wide>) -> SinCosPair<Wide> {
+    SinCosPair {
         sin: dot(&here.axes[1], x),
         cos: dot(&here.axes[0], x),
     }

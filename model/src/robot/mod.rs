@@ -135,7 +135,7 @@ pub struct Joint {
     pub inertia: Inertia<Rational>,
     /// Viscous damping b_i, N·m·s/rad or N·s/m.
     pub viscous: Rational,
-    /// Rotor inertia felt at the joint, added to D_ii, kg·m² or kg.
+    /// SinCosPair inertia felt at the joint, added to D_ii, kg·m² or kg.
     pub armature: Rational,
     /// Limits of motion and load, each optional.
     pub limits: Limits,

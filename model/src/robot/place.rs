@@ -52,7 +52,7 @@ pub enum Field {
     Inertia,
     /// Viscous damping.
     Viscous,
-    /// Rotor inertia.
+    /// SinCosPair inertia.
     Armature,
     /// Range of positions, of the limits.
     Position,

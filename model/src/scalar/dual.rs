@@ -2,7 +2,7 @@
 //! text as the formula.
 
 use super::{Divide, Scalar};
-use crate::scalar::Rotor;
+use crate::scalar::SinCosPair;
 
 /// x and ẋ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,11 +23,11 @@ impl<S: Scalar> Dual<S> {
     }
 }
 
-impl<S: Scalar> Rotor<S> {
+impl<S: Scalar> SinCosPair<S> {
     /// The pair of an angle that changes at a rate.
-    pub fn turning(self, rate: &S) -> Rotor<Dual<S>> {
-        let Rotor { sin, cos } = self;
-        Rotor {
+    pub fn turning(self, rate: &S) -> SinCosPair<Dual<S>> {
+        let SinCosPair { sin, cos } = self;
+        SinCosPair {
             sin: Dual {
                 rate: cos.mul(rate),
                 value: sin.clone(),
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_pair_stays_on_the_circle() {
-        let pair = Rotor {
+        let pair = SinCosPair {
             sin: 0.6_f64,
             cos: 0.8,
         }

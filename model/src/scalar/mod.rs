@@ -8,7 +8,7 @@
 //! - [`field`]: integers modulo 2⁶¹ − 1: what the search tells values apart by
 //! - [`prime`], [`residue`]: integers modulo a prime chosen at run time: proofs
 //! - [`dual`]: a value with its rate of change, for derivatives
-//! - [`rotor`]: sine and cosine of an angle
+//! - [`sincos_pair`]: sine and cosine of an angle
 //! - [`structural`]: sums and products without structural zeros and ones
 //! - [`count`]: counts the operations of a formula as written
 //! - `big`: a big float, the reference of tests and reports (feature `bigfloat`)
@@ -20,10 +20,10 @@ pub mod dual;
 pub mod field;
 pub mod prime;
 pub mod residue;
-pub mod rotor;
+pub mod sincos_pair;
 pub mod structural;
 
-pub use rotor::Rotor;
+pub use sincos_pair::SinCosPair;
 
 /// A commutative ring with a half, enough for every dynamics formula.
 ///

@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::prime::Prime;
-use super::{Divide, Rotor, Scalar};
+use super::{Divide, Scalar, SinCosPair};
 
 /// A residue, or a number that has met no prime yet.
 #[derive(Clone, Copy, Debug)]
@@ -60,12 +60,12 @@ impl Residue {
     /// (sin, cos) = (2t, 1 − t²) / (1 + t²), a point of the circle.
     ///
     /// The denominator is never zero if p ≡ 3 (mod 4): −1 is no square then.
-    pub fn circle_point(prime: Prime, t: u64) -> Rotor<Residue> {
+    pub fn circle_point(prime: Prime, t: u64) -> SinCosPair<Residue> {
         let (one, t) = (prime.enter(1), prime.enter(t));
         let square = prime.mul(t, t);
         let scale = prime.pow(prime.add(one, square), prime.modulus() - 2);
         let of = |x: u64| Residue(Form::Of(prime, prime.mul(x, scale)));
-        Rotor {
+        SinCosPair {
             sin: of(prime.add(t, t)),
             cos: of(prime.add(one, prime.neg(square))),
         }
@@ -246,7 +246,7 @@ mod tests {
             assert_eq!(big(&a.mul(&b), prime), rest(&x * &y));
             assert_eq!(big(&a.neg(), prime), rest(-&x));
             assert_eq!(big(&a.half().double(), prime), x);
-            let Rotor { sin, cos } = Residue::circle_point(prime, points.bits() % P);
+            let SinCosPair { sin, cos } = Residue::circle_point(prime, points.bits() % P);
             let one = sin.mul(&sin).add(&cos.mul(&cos));
             assert_eq!(one.value(prime), Some(1));
         }

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_model::equations::{Arm, Link, Rotor};
+use dalembert_model::equations::{Arm, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use serde_json::Value;
 
@@ -58,7 +58,7 @@ fn texts(json: &Value) -> Vec<String> {
 impl Extreme {
     /// The arm in any scalar, from its float parameters and the pair of a
     /// float angle.
-    pub fn arm<S>(&self, number: impl Fn(f64) -> S, pair: impl Fn(f64) -> Rotor<S>) -> Arm<S> {
+    pub fn arm<S>(&self, number: impl Fn(f64) -> S, pair: impl Fn(f64) -> SinCosPair<S>) -> Arm<S> {
         let robot = &self.robot;
         let column = |key: &str| numbers(&robot[key]);
         let [alpha, a, d, offset, mass] = ["alpha", "a", "d", "off", "m"].map(column);
@@ -72,7 +72,7 @@ impl Extreme {
                     _ => JointKind::Prismatic,
                 },
                 alpha: match robot["sa"][i].as_f64().zip(robot["ca"][i].as_f64()) {
-                    Some((sin, cos)) => Rotor {
+                    Some((sin, cos)) => SinCosPair {
                         sin: number(sin),
                         cos: number(cos),
                     },

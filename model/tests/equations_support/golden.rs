@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_model::equations::{Arm, Link, Rotor};
+use dalembert_model::equations::{Arm, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use serde_json::Value;
 
@@ -99,7 +99,7 @@ fn link(json: &Value) -> Link<f64> {
 }
 
 /// The pair of an angle, exact when within 1e-14 of a multiple of π/2.
-fn snapped(angle: f64) -> Rotor<f64> {
+fn snapped(angle: f64) -> SinCosPair<f64> {
     let (sin, cos) = libm::sincos(angle);
     let snap = |x: f64| {
         if (x - x.round()).abs() < 1e-14 {
@@ -108,7 +108,7 @@ fn snapped(angle: f64) -> Rotor<f64> {
             x
         }
     };
-    Rotor {
+    SinCosPair {
         sin: snap(sin),
         cos: snap(cos),
     }

@@ -5,7 +5,7 @@ pub mod extremes;
 pub mod golden;
 pub mod random;
 
-use dalembert_model::equations::{Arm, JointPosition, Rotor};
+use dalembert_model::equations::{Arm, JointPosition, SinCosPair};
 use dalembert_model::robot::JointKind;
 
 /// max|a − b| / max|b|; the larger of the two when b is zero.
@@ -22,7 +22,7 @@ pub fn positions(arm: &Arm<f64>, q: &[f64]) -> Vec<JointPosition<f64>> {
     let of = |(link, q): (&dalembert_model::equations::Link<f64>, &f64)| match link.kind {
         JointKind::Revolute => {
             let (sin, cos) = libm::sincos(*q);
-            JointPosition::Revolute(Rotor { sin, cos })
+            JointPosition::Revolute(SinCosPair { sin, cos })
         }
         JointKind::Prismatic => JointPosition::Prismatic(*q),
     };

@@ -2,7 +2,7 @@
 //! that no slip can hide behind a zero or a right angle.
 
 use dalembert_model::equations::matrix::Columns;
-use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, Rotor};
+use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::field::{Field, Points};
 
@@ -81,9 +81,9 @@ fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
     }
 }
 
-pub fn pair(points: &mut Points) -> Rotor<Field> {
+pub fn pair(points: &mut Points) -> SinCosPair<Field> {
     let (sin, cos) = points.circle();
-    Rotor { sin, cos }
+    SinCosPair { sin, cos }
 }
 
 pub fn triple(points: &mut Points) -> [Field; 3] {

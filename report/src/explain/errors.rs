@@ -15,7 +15,7 @@ use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::{JointState, seeded};
 
 /// The most states that are measured.
-pub const MOST_STATES: usize = 10_000;
+pub const MAX_STATES: usize = 10_000;
 
 /// A seed of its own.
 const SEED: u64 = 0xe7_91a1;
@@ -35,7 +35,7 @@ pub struct Errors {
 pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
     let (setting, function) = (&explanation.setting, explanation.function);
     let robot = setting.robot();
-    let drawn = seeded(robot, states.min(MOST_STATES), SEED);
+    let drawn = seeded(robot, states.min(MAX_STATES), SEED);
     let truth = Truth::in_setting(setting);
     let runs = at(&truth, function, drawn.iter().cloned());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
@@ -78,7 +78,7 @@ pub fn of_program(
 ) -> Vec<Errors> {
     let function = program.function;
     let truth = Truth::in_setting(setting);
-    let drawn = seeded(setting.robot(), states.min(MOST_STATES), SEED);
+    let drawn = seeded(setting.robot(), states.min(MAX_STATES), SEED);
     let joints = setting.rows().len();
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use dalembert_codegen::graph::{Edge, Graph, Node, Points, Print};
+use dalembert_codegen::graph::{Edge, Fingerprint, Graph, Node, Points};
 
 /// The operations of a graph that need not be done, by what they turn out
 /// to be.
@@ -30,7 +30,7 @@ impl Merged {
                 seen.insert(class);
             } else if live {
                 merged.operations += 1;
-                if *print == Print::zero() {
+                if *print == Fingerprint::zero() {
                     merged.vanish += 1;
                 } else if print.is_constant() {
                     merged.constant += 1;
@@ -44,9 +44,9 @@ impl Merged {
 }
 
 /// The fingerprint of every node.
-fn prints(graph: &Graph) -> Option<Vec<Print>> {
+fn prints(graph: &Graph) -> Option<Vec<Fingerprint>> {
     let points = Points::SEARCH;
-    let mut prints: Vec<Print> = Vec::with_capacity(graph.nodes.len());
+    let mut prints: Vec<Fingerprint> = Vec::with_capacity(graph.nodes.len());
     for node in &graph.nodes {
         let print = match *node {
             Node::Constant(c) => points.constant(&graph.constants[c as usize])?,
@@ -62,7 +62,7 @@ fn prints(graph: &Graph) -> Option<Vec<Print>> {
 }
 
 /// The fingerprints of a graph's results.
-pub(super) fn results(graph: &Graph) -> Option<Vec<Print>> {
+pub(super) fn results(graph: &Graph) -> Option<Vec<Fingerprint>> {
     let prints = prints(graph)?;
     let of = |edge: &Edge| prints[edge.node().index()].negate_if(edge.is_negative());
     Some(graph.outputs.iter().map(of).collect())

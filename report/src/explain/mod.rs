@@ -30,7 +30,7 @@ use steps::Row;
 
 /// The most joints for which Lagrange–Euler is written out: the graph grows
 /// with n⁴ to n⁵.
-pub const MOST_WRITTEN: usize = 8;
+pub const MAX_WRITTEN: usize = 8;
 
 /// What was found about one function of a robot.
 #[derive(Clone, Debug)]
@@ -113,7 +113,7 @@ fn exact(
     let mut fingerprints = |formulation: Formulation, graph: &Graph| {
         merged.extend(Merged::of(graph).map(|merged| (formulation, merged)));
     };
-    if robot.joints.len() <= MOST_WRITTEN {
+    if robot.joints.len() <= MAX_WRITTEN {
         let formulation = Formulation::LagrangeEuler;
         let trace = trace_in(setting, function, formulation);
         fingerprints(formulation, &trace.graph);
@@ -126,7 +126,7 @@ fn exact(
     rows.extend(steps::chain(setting, function, tuned));
     let (searched, program) = steps::searched(setting, function, request, &found)?;
     rows.extend(searched);
-    let chain = Chain::new(&portfolio::skeleton(setting), &tuned.gauge);
+    let chain = Chain::new(&portfolio::skeleton(setting), &tuned.regrouping);
     let couplings = match setting.scene() {
         None => Couplings::of(robot),
         Some(_) => None,

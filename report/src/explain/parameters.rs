@@ -1,8 +1,8 @@
-//! What became of every link's parameters in the gauge that was chosen.
+//! What became of every link's parameters in the regrouping that was chosen.
 
 use std::fmt;
 
-use dalembert_model::equations::chain::{Body, Chain, Gauge, Skeleton};
+use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
@@ -77,7 +77,7 @@ impl fmt::Display for Parameter {
 
 /// What became of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum ParameterStatus {
     /// It is zero: it always was, or all of it moved to the link before.
     Gone,
     /// It has a value, but the function does not depend on it.
@@ -97,7 +97,7 @@ pub enum Together {
 
 /// One link.
 #[derive(Clone, Debug)]
-pub struct LinkFate {
+pub struct LinkParameters {
     /// Its joint, zero-based.
     pub joint: usize,
     /// How that moves.
@@ -106,7 +106,7 @@ pub struct LinkFate {
     /// in kg, m and s, about its own origin.
     pub moved: Vec<(Parameter, f64)>,
     /// What is left, with its value, and whether the function needs it.
-    pub left: Vec<(Parameter, f64, Fate)>,
+    pub left: Vec<(Parameter, f64, ParameterStatus)>,
     /// Whether only one combination of Σ_xx and Σ_yy counts.
     pub together: Option<Together>,
     /// Where its origin lies, from the end of the step before the joint, m.
@@ -122,21 +122,22 @@ pub struct LinkFate {
 #[derive(Clone, Debug)]
 pub struct Parameters {
     /// From the base to the hand.
-    pub links: Vec<LinkFate>,
+    pub links: Vec<LinkParameters>,
     /// The unit of length, m.
     pub unit: f64,
 }
 
-impl LinkFate {
+impl LinkParameters {
     /// How many of the ten the function needs.
     pub fn needed(&self) -> usize {
-        let stays = |(_, _, fate): &&(Parameter, f64, Fate)| *fate == Fate::Stays;
+        let stays =
+            |(_, _, fate): &&(Parameter, f64, ParameterStatus)| *fate == ParameterStatus::Stays;
         self.left.iter().filter(stays).count()
     }
 }
 
 impl Parameters {
-    /// In a tuned gauge; `chain` is in it.
+    /// In a tuned regrouping; `chain` is in it.
     pub(super) fn of(
         setting: &Setting,
         function: Function,
@@ -144,7 +145,7 @@ impl Parameters {
         chain: &Chain<Exact>,
     ) -> Parameters {
         let arm = portfolio::skeleton(setting);
-        let mut metres = tuned.gauge.clone();
+        let mut metres = tuned.regrouping.clone();
         (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
         let now = Chain::new(&arm, &metres);
         let results = |chain: &Chain<Exact>| {
@@ -179,15 +180,15 @@ impl Parameters {
         };
         let freedoms = chain.freedoms();
         let links = arm.links.iter().enumerate().map(|(i, segment)| {
-            let gauge = &metres.links[i];
+            let regrouping = &metres.links[i];
             let link = &now.links[i];
             let moved = match segment.kind {
                 JointKind::Revolute => {
                     let [mass, first, second] = &link.free;
                     vec![
-                        (Parameter::Mass, mass.sub(&gauge.mass)),
-                        (Parameter::First(2), first.sub(&gauge.first)),
-                        (Parameter::Second(2), second.sub(&gauge.second)),
+                        (Parameter::Mass, mass.sub(&regrouping.mass)),
+                        (Parameter::First(2), first.sub(&regrouping.first)),
+                        (Parameter::Second(2), second.sub(&regrouping.second)),
                     ]
                 }
                 JointKind::Prismatic => seconds_moved(&arm, &metres, i),
@@ -198,18 +199,18 @@ impl Parameters {
                 let value = parameter.of(&mut body);
                 let fate = match () {
                     () if value.is_zero() => return None,
-                    () if needs(i, parameter) => Fate::Stays,
-                    () => Fate::NoEffect,
+                    () if needs(i, parameter) => ParameterStatus::Stays,
+                    () => ParameterStatus::NoEffect,
                 };
                 Some((parameter, f64::nearest(value), fate))
             });
-            LinkFate {
+            LinkParameters {
                 joint: segment.joint,
                 kind: segment.kind,
                 moved: moved.map(|(p, value)| (p, f64::nearest(&value))).collect(),
                 left: left.collect(),
                 together: together(i),
-                origin: gauge.origin.each_ref().map(f64::nearest),
+                origin: regrouping.origin.each_ref().map(f64::nearest),
                 spins_freely: link.spins_freely,
                 axes: {
                     let [less, more] = freedoms[i];
@@ -219,7 +220,7 @@ impl Parameters {
         });
         Parameters {
             links: links.collect(),
-            unit: f64::nearest(&tuned.gauge.unit),
+            unit: f64::nearest(&tuned.regrouping.unit),
         }
     }
 }
@@ -227,13 +228,13 @@ impl Parameters {
 /// The second moments that a slide gave to the link before.
 fn seconds_moved(
     arm: &Skeleton<Exact>,
-    gauge: &Gauge<Exact>,
+    regrouping: &Regrouping<Exact>,
     link: usize,
 ) -> Vec<(Parameter, Exact)> {
-    if gauge.links[link].keep_seconds {
+    if regrouping.links[link].keep_seconds {
         return Vec::new();
     }
-    let mut whole = gauge.clone();
+    let mut whole = regrouping.clone();
     whole.links[link].keep_seconds = true;
     let mut body = Chain::new(arm, &whole).links[link].body.clone();
     let seconds = (0..6).map(Parameter::Second);

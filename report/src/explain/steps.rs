@@ -1,7 +1,7 @@
 //! The steps of the pipeline, one row each, with code that can be run.
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::equations::chain::{Chain, Gauge, Skeleton};
+use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
 use dalembert_model::equations::matrix::opposite;
 use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
@@ -22,7 +22,7 @@ use dalembert_codegen::trace::Trace;
 
 /// A step of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Step {
+pub enum SearchStep {
     /// Lagrange–Euler run as it is written: what is zero or one for the robot
     /// is left out, nothing else.
     LagrangeWritten,
@@ -56,46 +56,46 @@ pub enum Step {
     Tolerance,
 }
 
-impl Step {
+impl SearchStep {
     /// A name for programs.
     pub fn key(self) -> &'static str {
         match self {
-            Step::LagrangeWritten => "lagrange_euler_written",
-            Step::LagrangeFolded => "lagrange_euler_folded",
-            Step::LagrangeFingerprints => "lagrange_euler_fingerprints",
-            Step::LagrangeEGraph => "lagrange_euler_e_graph",
-            Step::LagrangeSearch => "lagrange_euler_search",
-            Step::NewtonFolded => "newton_euler_folded",
-            Step::NewtonFingerprints => "newton_euler_fingerprints",
-            Step::ChainKept => "chain",
-            Step::ChainBase => "base_parameters",
-            Step::ChainTuned => "tuned_gauge",
-            Step::ChainUnit => "unit_of_length",
-            Step::EGraph => "e_graph",
-            Step::Search => "search",
-            Step::Plan => "plan",
-            Step::Tolerance => "tolerance",
+            SearchStep::LagrangeWritten => "lagrange_euler_written",
+            SearchStep::LagrangeFolded => "lagrange_euler_folded",
+            SearchStep::LagrangeFingerprints => "lagrange_euler_fingerprints",
+            SearchStep::LagrangeEGraph => "lagrange_euler_e_graph",
+            SearchStep::LagrangeSearch => "lagrange_euler_search",
+            SearchStep::NewtonFolded => "newton_euler_folded",
+            SearchStep::NewtonFingerprints => "newton_euler_fingerprints",
+            SearchStep::ChainKept => "chain",
+            SearchStep::ChainBase => "base_parameters",
+            SearchStep::ChainTuned => "tuned_gauge",
+            SearchStep::ChainUnit => "unit_of_length",
+            SearchStep::EGraph => "e_graph",
+            SearchStep::Search => "search",
+            SearchStep::Plan => "plan",
+            SearchStep::Tolerance => "tolerance",
         }
     }
 
     /// A name for readers.
     pub fn title(self) -> &'static str {
         match self {
-            Step::LagrangeWritten => "Lagrange–Euler, run with this robot's numbers",
-            Step::LagrangeFolded => "  traced: folded, equal expressions shared",
-            Step::LagrangeFingerprints => "  fingerprints: equal values shared",
-            Step::LagrangeEGraph => "  e-graph alone",
-            Step::LagrangeSearch => "  search alone",
-            Step::NewtonFolded => "Newton–Euler in link axes, traced",
-            Step::NewtonFingerprints => "  fingerprints",
-            Step::ChainKept => "chain form, nothing moved",
-            Step::ChainBase => "  base parameters",
-            Step::ChainTuned => "  gauge tuned link by link",
-            Step::ChainUnit => "  unit of length",
-            Step::EGraph => "  e-graph, all forms",
-            Step::Search => "  search, all forms",
-            Step::Plan => "kept in the plan",
-            Step::Tolerance => "what the tolerance admits",
+            SearchStep::LagrangeWritten => "Lagrange–Euler, run with this robot's numbers",
+            SearchStep::LagrangeFolded => "  traced: folded, equal expressions shared",
+            SearchStep::LagrangeFingerprints => "  fingerprints: equal values shared",
+            SearchStep::LagrangeEGraph => "  e-graph alone",
+            SearchStep::LagrangeSearch => "  search alone",
+            SearchStep::NewtonFolded => "Newton–Euler in link axes, traced",
+            SearchStep::NewtonFingerprints => "  fingerprints",
+            SearchStep::ChainKept => "chain form, nothing moved",
+            SearchStep::ChainBase => "  base parameters",
+            SearchStep::ChainTuned => "  gauge tuned link by link",
+            SearchStep::ChainUnit => "  unit of length",
+            SearchStep::EGraph => "  e-graph, all forms",
+            SearchStep::Search => "  search, all forms",
+            SearchStep::Plan => "kept in the plan",
+            SearchStep::Tolerance => "what the tolerance admits",
         }
     }
 }
@@ -115,7 +115,7 @@ pub enum Code {
 #[derive(Clone, Debug)]
 pub struct Row {
     /// Which.
-    pub step: Step,
+    pub step: SearchStep,
     /// What it costs.
     pub counts: Counts,
     /// What runs.
@@ -123,7 +123,7 @@ pub struct Row {
 }
 
 impl Row {
-    fn program(step: Step, program: Program) -> Row {
+    fn program(step: SearchStep, program: Program) -> Row {
         Row {
             step,
             counts: program.counts(),
@@ -131,7 +131,7 @@ impl Row {
         }
     }
 
-    fn graph(step: Step, setting: &Setting, function: Function, graph: &Graph) -> Row {
+    fn graph(step: SearchStep, setting: &Setting, function: Function, graph: &Graph) -> Row {
         Row::program(step, Program::in_setting(setting, function, graph))
     }
 }
@@ -152,23 +152,23 @@ pub(super) fn lagrange_euler(
         .filter(|(i, joint)| moves(i) && joint.kind == JointKind::Revolute);
     let mut rows = vec![
         Row {
-            step: Step::LagrangeWritten,
+            step: SearchStep::LagrangeWritten,
             counts: Counts {
                 sincos: turning.count(),
                 ..trace.traced
             },
             code: Code::Formula(Formulation::LagrangeEuler),
         },
-        row(Step::LagrangeFolded, &trace.graph),
+        row(SearchStep::LagrangeFolded, &trace.graph),
     ];
     let graphs = std::slice::from_ref(&trace.graph);
     let watch = Some(request.watch.over(function));
     // Whatever it costs in digits: that is what the row is to show.
     if let Some(found) = simplify::watched(graphs, &[], request.effort, &|_| true, watch) {
         rows.extend([
-            row(Step::LagrangeFingerprints, &found.start),
-            row(Step::LagrangeEGraph, &found.saturated),
-            row(Step::LagrangeSearch, &found.graph),
+            row(SearchStep::LagrangeFingerprints, &found.start),
+            row(SearchStep::LagrangeEGraph, &found.saturated),
+            row(SearchStep::LagrangeSearch, &found.graph),
         ]);
     }
     rows
@@ -178,41 +178,41 @@ pub(super) fn lagrange_euler(
 pub(super) fn newton_euler(setting: &Setting, function: Function, trace: &Trace) -> Vec<Row> {
     let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
     vec![
-        row(Step::NewtonFolded, &trace.graph),
+        row(SearchStep::NewtonFolded, &trace.graph),
         row(
-            Step::NewtonFingerprints,
+            SearchStep::NewtonFingerprints,
             &trace.graph.rebuild(Folding::Semantic),
         ),
     ]
 }
 
-/// The chain form in one gauge after the other, each in its cheapest form.
+/// The chain form in one regrouping after the other, each in its cheapest form.
 pub(super) fn chain(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Row> {
     let arm = portfolio::skeleton(setting);
-    let mut metres = tuned.gauge.clone();
+    let mut metres = tuned.regrouping.clone();
     (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
-    let gauges = [
-        (Step::ChainKept, kept(&arm)),
-        (Step::ChainBase, tune::start(&arm)),
-        (Step::ChainTuned, metres),
-        (Step::ChainUnit, tuned.gauge.clone()),
+    let regroupings = [
+        (SearchStep::ChainKept, kept(&arm)),
+        (SearchStep::ChainBase, tune::start(&arm)),
+        (SearchStep::ChainTuned, metres),
+        (SearchStep::ChainUnit, tuned.regrouping.clone()),
     ];
-    let row = |(step, gauge): (Step, Gauge<Exact>)| {
-        let chain = Chain::new(&arm, &gauge);
+    let row = |(step, regrouping): (SearchStep, Regrouping<Exact>)| {
+        let chain = Chain::new(&arm, &regrouping);
         let forms = function.forms().into_iter();
         let graphs = forms
             .map(|form| portfolio::trace_chain(setting, function, &chain, form, Folding::Semantic));
         let cheapest = graphs.map(|(graph, _)| graph).min_by_key(simplify::cost)?;
         Some(Row::graph(step, setting, function, &cheapest))
     };
-    gauges.into_iter().filter_map(row).collect()
+    regroupings.into_iter().filter_map(row).collect()
 }
 
-/// The gauge in which every link keeps what it has; origins as for base
+/// The regrouping in which every link keeps what it has; origins as for base
 /// parameters.
-pub(super) fn kept(arm: &Skeleton<Exact>) -> Gauge<Exact> {
-    let mut gauge = Gauge::base(arm);
-    for (segment, link) in arm.links.iter().zip(&mut gauge.links) {
+pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
+    let mut regrouping = Regrouping::base(arm);
+    for (segment, link) in arm.links.iter().zip(&mut regrouping.links) {
         let body = segment.body.moved(&opposite(&link.origin));
         match segment.kind {
             JointKind::Revolute => {
@@ -222,7 +222,7 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Gauge<Exact> {
             JointKind::Prismatic => link.keep_seconds = true,
         }
     }
-    gauge
+    regrouping
 }
 
 /// The search over all forms, nothing replayed.
@@ -244,12 +244,12 @@ pub(super) fn searched(
 ) -> Result<(Vec<Row>, Program), GenerateError> {
     let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
     let simplified = &found.simplified;
-    let mut rows = vec![row(Step::EGraph, &simplified.saturated)];
+    let mut rows = vec![row(SearchStep::EGraph, &simplified.saturated)];
     let mut last = Program::in_setting(setting, function, &simplified.graph);
-    rows.push(Row::program(Step::Search, last.clone()));
+    rows.push(Row::program(SearchStep::Search, last.clone()));
     if let Some(entry) = search::replay(setting, function, request)? {
         last = entry.program.clone();
-        rows.push(Row::program(Step::Plan, last.clone()));
+        rows.push(Row::program(SearchStep::Plan, last.clone()));
     }
     Ok((rows, last))
 }
@@ -261,7 +261,7 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
         let text = Lowered::parse(&certificate.text, function, scalar)
             .map_err(|error| GenerateError::Text(function, scalar, error.to_string()))?;
         Ok(Row {
-            step: Step::Tolerance,
+            step: SearchStep::Tolerance,
             counts: text.counts(),
             code: Code::Emitted(Box::new(text), scalar),
         })

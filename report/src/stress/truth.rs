@@ -1,7 +1,7 @@
 //! The reference: the link-frame recursion over a big float of 134 digits, at
 //! the exact parameters and the exact binary state.
 
-use dalembert_model::equations::{Arm, Formulation, Rotor};
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::{Angle, Exact};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -76,7 +76,7 @@ pub fn number(constant: &Exact) -> Big {
             Angle::PiTimes(multiple) => Big::sin_cos_pi(multiple),
             Angle::Radians(radians) => Big::sin_cos_of(radians),
         };
-        Rotor { sin, cos }
+        SinCosPair { sin, cos }
     });
     // Every rational has its big float.
     value.unwrap_or_else(Big::zero)

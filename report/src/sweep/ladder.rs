@@ -3,11 +3,11 @@
 //! From the largest tolerance down: where nothing more can be left out, less
 //! tolerance leaves out nothing either, and no search is needed.
 
-use dalembert_codegen::certify::attack::attack;
 use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::{Admitted, Frame};
+use dalembert_codegen::certify::choose::{Admitted, ErrorBudget};
+use dalembert_codegen::certify::falsify::falsify;
 use dalembert_codegen::certify::prune::Settings;
-use dalembert_codegen::certify::sensitivity::Fineness;
+use dalembert_codegen::certify::sensitivity::BoundEffort;
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::simplify::Effort;
 
@@ -40,7 +40,7 @@ const SHARE: f64 = 1.0 / 16.0;
 /// The variants of one function, tolerance by tolerance.
 pub struct Ladder<'a> {
     options: Options,
-    frame: &'a Frame<'a>,
+    frame: &'a ErrorBudget<'a>,
     waiting: &'a dyn Waiting,
     settings: Settings,
     /// The exact program in every scalar.
@@ -49,14 +49,18 @@ pub struct Ladder<'a> {
 
 impl<'a> Ladder<'a> {
     /// For a function in its box.
-    pub fn new(options: Options, frame: &'a Frame<'a>, waiting: &'a dyn Waiting) -> Ladder<'a> {
+    pub fn new(
+        options: Options,
+        frame: &'a ErrorBudget<'a>,
+        waiting: &'a dyn Waiting,
+    ) -> Ladder<'a> {
         waiting.begin("exact");
         Ladder {
             options,
             frame,
             waiting,
             settings: Settings::of(options.effort),
-            exact: frame.unedited(&ScalarType::ALL, Fineness::CERTIFY),
+            exact: frame.unedited(&ScalarType::ALL, BoundEffort::CERTIFY),
         }
     }
 
@@ -113,7 +117,7 @@ impl<'a> Ladder<'a> {
         for certificate in variants.into_iter().flat_map(|v| v.certificates) {
             let polynomials = (!exact).then(|| {
                 self.frame
-                    .with_polynomials(&certificate, &tolerances, Fineness::CERTIFY)
+                    .with_polynomials(&certificate, &tolerances, BoundEffort::CERTIFY)
             });
             points.push(self.point(tolerance, certificate)?);
             let found = polynomials.and_then(Result::ok);
@@ -148,7 +152,7 @@ impl<'a> Ladder<'a> {
             .map(|scalars| {
                 let found = fruitful.then(|| {
                     self.frame
-                        .choose(&tolerances, &scalars, &self.settings, Fineness::CERTIFY)
+                        .choose(&tolerances, &scalars, &self.settings, BoundEffort::CERTIFY)
                 });
                 match found {
                     Some(Ok(found)) => found,
@@ -165,10 +169,10 @@ impl<'a> Ladder<'a> {
     }
 
     fn point(&self, tolerance: f64, certificate: Certificate) -> Result<Point, SweepError> {
-        let (observed, mut violation) = self.attacked(&certificate)?;
+        let (observed, mut violation) = self.falsified(&certificate)?;
         let mut rounding_observed = None;
         if certificate.scalar == ScalarType::F32 {
-            let (observed, other) = self.attacked(&certificate.of_rounding())?;
+            let (observed, other) = self.falsified(&certificate.of_rounding())?;
             rounding_observed = observed;
             violation = violation.or(other);
         }
@@ -181,19 +185,19 @@ impl<'a> Ladder<'a> {
     }
 
     /// The largest error that is seen, and one above E.
-    fn attacked(
+    fn falsified(
         &self,
         certificate: &Certificate,
     ) -> Result<(Option<f64>, Option<String>), SweepError> {
-        let attack = attack(certificate, self.options.samples, self.options.climbs, 1)
+        let falsification = falsify(certificate, self.options.samples, self.options.climbs, 1)
             .map_err(|error| SweepError::Text(error.to_string()))?;
-        let largest = || attack.observed.iter().copied().fold(0.0, f64::max);
-        let observed = (attack.states > 0).then(largest);
-        let violation = attack.violation.map(|(index, state)| {
+        let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
+        let observed = (falsification.states > 0).then(largest);
+        let violation = falsification.violation.map(|(index, state)| {
             format!(
                 "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",
                 certificate.emitted.entry(index),
-                attack.observed[index],
+                falsification.observed[index],
                 certificate.bounds[index].total()
             )
         });

@@ -10,7 +10,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::{Budget, relative};
+use super::{BoxEffort, relative};
 use crate::certify::form::{Forms, Scratch};
 use crate::certify::input_box::InputBox;
 use crate::graph::Graph;
@@ -21,7 +21,7 @@ pub(super) fn branch_and_bound(
     whole: &InputBox,
     scales: &[f64],
     goal: f64,
-    budget: Budget,
+    budget: BoxEffort,
 ) -> Vec<f64> {
     let forms = Forms::new(graph, whole.joints());
     let mut search = Search {

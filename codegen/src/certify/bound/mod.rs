@@ -8,28 +8,28 @@ mod boxes;
 
 use super::distinct::Distinct;
 use super::expand::expand;
-use super::grid::{self, Aim, Closeness};
+use super::grid::{self, Aim, GridEffort};
 use super::input_box::InputBox;
 use crate::graph::Graph;
 use boxes::branch_and_bound;
 
 /// How much work a bound may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Budget {
+pub struct BoxEffort {
     /// Sub-boxes evaluated at most.
     pub boxes: usize,
     /// Points of a grid at most; 0 for none.
     pub points: usize,
 }
 
-impl Budget {
+impl BoxEffort {
     /// For certificates.
-    pub const CERTIFY: Budget = Budget {
+    pub const CERTIFY: BoxEffort = BoxEffort {
         boxes: 300_000,
         points: 1 << 24,
     };
     /// For a search that asks often.
-    pub const GLANCE: Budget = Budget {
+    pub const QUICK: BoxEffort = BoxEffort {
         boxes: 20_000,
         points: 1 << 22,
     };
@@ -43,7 +43,7 @@ pub fn magnitudes(
     whole: &InputBox,
     scales: &[f64],
     goal: f64,
-    budget: Budget,
+    budget: BoxEffort,
 ) -> Vec<f64> {
     let (graph, scales, distinct) = once(graph, scales);
     // Close enough to the goal to tell how far from it.
@@ -59,7 +59,7 @@ pub fn magnitudes_within(
     graph: &Graph,
     whole: &InputBox,
     limits: &[f64],
-    budget: Budget,
+    budget: BoxEffort,
 ) -> Option<Vec<f64>> {
     let (graph, limits, distinct) = once(graph, limits);
     let aims = limits.iter().map(|&limit| Aim::Within(limit));
@@ -89,14 +89,14 @@ fn written_out(
     graph: &Graph,
     whole: &InputBox,
     aims: impl Iterator<Item = Aim>,
-    budget: Budget,
+    budget: BoxEffort,
 ) -> Option<Vec<f64>> {
     if budget.points == 0 {
         return None;
     }
     let polynomials = expand(graph, whole)?;
     let sliding = grid::sliding(graph, whole.joints());
-    let closeness = Closeness::fine(budget.points);
+    let closeness = GridEffort::fine(budget.points);
     let mut most = Vec::new();
     for (polynomial, aim) in polynomials.iter().zip(aims) {
         let found = grid::magnitude(polynomial, whole, &sliding, aim, closeness)?;
@@ -142,13 +142,14 @@ mod tests {
             velocity: vec![Interval::ZERO],
             acceleration: vec![Interval::symmetric(30.0)],
         };
-        let bound = |limits: &InputBox| magnitudes(&graph, limits, &[1.0], 0.0, Budget::GLANCE)[0];
+        let bound =
+            |limits: &InputBox| magnitudes(&graph, limits, &[1.0], 0.0, BoxEffort::QUICK)[0];
         assert_eq!(bound(&limits), 0.0);
         let zero = Builder::new(Folding::Syntactic).finish(&[Value::Constant(Exact::from(
             Rational::from_integer(0.into()),
         ))]);
         assert_eq!(
-            magnitudes(&zero, &limits, &[0.0], 0.0, Budget::GLANCE),
+            magnitudes(&zero, &limits, &[0.0], 0.0, BoxEffort::QUICK),
             [0.0]
         );
         // Nor is there a step from one subnormal to the next.
@@ -169,7 +170,7 @@ mod tests {
             velocity: vec![Interval::ZERO],
             acceleration: vec![Interval::symmetric(30.0)],
         };
-        for budget in [Budget::GLANCE, Budget::CERTIFY] {
+        for budget in [BoxEffort::QUICK, BoxEffort::CERTIFY] {
             let bound = magnitudes(&graph, &limits, &[1.0], 0.0, budget)[0];
             assert!((1.2e-3..1.3e-3).contains(&bound), "{bound:e}");
         }

@@ -10,7 +10,7 @@ use crate::certify::definite::least_eigenvalue_with;
 use crate::certify::input_box::InputBox;
 use crate::certify::ranges::ranges_with;
 use crate::certify::scale;
-use crate::certify::sensitivity::Fineness;
+use crate::certify::sensitivity::BoundEffort;
 use crate::graph::Folding;
 use crate::plan::{SceneKey, input_hash};
 use crate::program::Trig;
@@ -188,7 +188,7 @@ impl Certificate {
     /// by the fine one.
     fn check_bounds(&self, subject: &Subject<'_>) -> Result<Vec<Split>, Refuted> {
         let mut found: Option<Vec<Split>> = None;
-        for fineness in [Fineness::GLANCE, Fineness::CERTIFY] {
+        for fineness in [BoundEffort::QUICK, BoundEffort::CERTIFY] {
             let sensitivity = subject.sensitivity(fineness);
             let next = subject.bounds(self.scalar, &subject.model(fineness), &sensitivity);
             let best = match found {

@@ -54,7 +54,7 @@ use super::sines::turns_freely;
 use crate::approximate::edits::Stage;
 use crate::bound::Split;
 use crate::bound::interval::Interval;
-use crate::certify::sensitivity::Fineness;
+use crate::certify::sensitivity::BoundEffort;
 use crate::plan::SceneKey;
 use crate::program::{Library, Program, ScalarType};
 use crate::scene::Setting;
@@ -162,7 +162,7 @@ impl Certificate {
             relative_to: None,
             sines: &[],
         };
-        let fineness = Fineness::CERTIFY;
+        let fineness = BoundEffort::CERTIFY;
         let sensitivity = subject.sensitivity(fineness);
         let bounds = subject.bounds(scalar, &subject.model(fineness), &sensitivity);
         let lambda_min = subject.least_eigenvalue(scalar);

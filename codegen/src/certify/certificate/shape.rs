@@ -8,7 +8,7 @@
 use dalembert_model::robot::JointKind;
 
 use super::{Certificate, Refuted, WrongInput};
-use crate::approximate::edits::Place;
+use crate::approximate::edits::EditSite;
 use crate::function::Argument;
 use crate::program::Input;
 use crate::program::kernel::{Kernel, Term};
@@ -36,7 +36,7 @@ pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<(), 
         checker.program(&name, &stage.program)?;
         for edit in &stage.edits {
             checker.operand(&name, &edit.value, stage.program.steps.len())?;
-            if let Place::Input(input) = edit.place {
+            if let EditSite::Input(input) = edit.place {
                 checker.input(&name, input)?;
             }
         }

@@ -9,7 +9,7 @@ use crate::bound::Split;
 use crate::certify::bound::{magnitudes, relative};
 use crate::certify::definite::least_eigenvalue_with;
 use crate::certify::input_box::InputBox;
-use crate::certify::sensitivity::{Fineness, Sensitivity};
+use crate::certify::sensitivity::{BoundEffort, Sensitivity};
 use crate::plan::{SceneKey, input_hash};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::Setting;
@@ -37,7 +37,7 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// The largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
-    pub fn model(&self, fineness: Fineness) -> Vec<f64> {
+    pub fn model(&self, fineness: BoundEffort) -> Vec<f64> {
         if !has_edits(self.stages) {
             return vec![0.0; self.scales.len()];
         }
@@ -64,7 +64,7 @@ impl Subject<'_> {
     }
 
     /// What bounds of the emitted program's rounding need.
-    pub fn sensitivity(&self, fineness: Fineness) -> Sensitivity {
+    pub fn sensitivity(&self, fineness: BoundEffort) -> Sensitivity {
         Sensitivity::of(self.emitted, self.limits, fineness)
     }
 

@@ -10,7 +10,7 @@ use std::fmt;
 use dalembert_model::number::{Exact, Extent};
 
 use super::Certificate;
-use crate::approximate::edits::{Edit, Place, Stage};
+use crate::approximate::edits::{Edit, EditSite, Stage};
 use crate::program::{Operand, Operation, Program};
 use std::collections::BTreeMap;
 
@@ -149,12 +149,12 @@ impl Sizes {
         &mut self,
         place: &str,
         program: &Program,
-        edits: &BTreeMap<Place, &Edit>,
+        edits: &BTreeMap<EditSite, &Edit>,
     ) -> Result<(), TooMuch> {
         for (index, step) in program.steps.iter().enumerate() {
-            let left = self.operand(&step.left, Place::Left(index), edits);
-            let right = self.operand(&step.right, Place::Right(index), edits);
-            let value = match edits.get(&Place::Step(index)) {
+            let left = self.operand(&step.left, EditSite::Left(index), edits);
+            let right = self.operand(&step.right, EditSite::Right(index), edits);
+            let value = match edits.get(&EditSite::Step(index)) {
                 Some(edit) => self.read(&edit.value),
                 None => operate(step.operation, left, right),
             };
@@ -170,12 +170,12 @@ impl Sizes {
     fn operand(
         &self,
         operand: &Operand,
-        place: Place,
-        edits: &BTreeMap<Place, &Edit>,
+        place: EditSite,
+        edits: &BTreeMap<EditSite, &Edit>,
     ) -> (Size, bool) {
         match (edits.get(&place), operand) {
             (Some(edit), _) => self.read(&edit.value),
-            (None, Operand::Input(input)) => match edits.get(&Place::Input(*input)) {
+            (None, Operand::Input(input)) => match edits.get(&EditSite::Input(*input)) {
                 Some(edit) => self.read(&edit.value),
                 None => (None, false),
             },

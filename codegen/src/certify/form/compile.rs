@@ -9,7 +9,7 @@ use crate::graph::{Graph, Node};
 use crate::program::{AngleSum, Input};
 
 /// Above this much work a product, rates are taken as plain intervals.
-const MOST_PRODUCTS: usize = 400_000;
+const MAX_PRODUCTS: usize = 400_000;
 
 impl Forms {
     /// `None` if keeping the rates apart would be too much work.
@@ -59,7 +59,7 @@ impl Forms {
                 Node::Quotient(..) => return None,
                 Node::Product(a, b) => {
                     products += slots[a.index()].len() * slots[b.index()].len();
-                    if rates && products > MOST_PRODUCTS {
+                    if rates && products > MAX_PRODUCTS {
                         return None;
                     }
                     for (left, &x) in &slots[a.index()] {

@@ -65,7 +65,7 @@ const CUT: f64 = 0.3;
 const LEAST: f64 = 1e-15;
 
 /// The largest relative step from a bound that could not be shown to the next.
-const MOST_STEP: f64 = 0.15;
+const MAX_STEP: f64 = 0.15;
 
 /// d·δ of the first cells is π over this. Coarser ones are cut sooner or later.
 const FIRST: usize = 8;
@@ -76,7 +76,7 @@ const FINEST: f64 = 0.09;
 
 /// How much work a bound may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Closeness {
+pub(super) struct GridEffort {
     /// Points at most; with none, no angle is looked at.
     pub points: usize,
     /// What a bound exceeds a value that is taken by, relative.
@@ -85,10 +85,10 @@ pub(super) struct Closeness {
     pub starts: usize,
 }
 
-impl Closeness {
+impl GridEffort {
     /// For bounds that count by themselves.
-    pub(super) fn fine(points: usize) -> Closeness {
-        Closeness {
+    pub(super) fn fine(points: usize) -> GridEffort {
+        GridEffort {
             points,
             close: 0.02,
             starts: 12,
@@ -124,7 +124,7 @@ pub(super) fn magnitude(
     limits: &InputBox,
     sliding: &[bool],
     aim: Aim,
-    closeness: Closeness,
+    closeness: GridEffort,
 ) -> Option<f64> {
     let range = |key: Key| range(key, limits);
     let polynomial = harmonics(polynomial, limits.joints())?;
@@ -148,7 +148,7 @@ pub(super) fn magnitude(
     }
     // Of the circles only the size matters, for what lies between points.
     let (Aim::Least(goal) | Aim::Within(goal)) = aim;
-    let rough = Closeness {
+    let rough = GridEffort {
         points: closeness.points / 16,
         ..closeness
     };
@@ -163,7 +163,7 @@ fn bound(
     limits: &InputBox,
     whole: Option<f64>,
     aim: Aim,
-    closeness: Closeness,
+    closeness: GridEffort,
 ) -> f64 {
     let points = closeness.points;
     let crude = layout.crude(0, &layout.coefficients);
@@ -213,7 +213,7 @@ fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
     let mut next = (taken * (1.0 + more) + slack).max(LEAST * crude);
     while f64::MIN_POSITIVE < next && next < crude {
         tries.push(next);
-        more = (2.0 * more).min(MOST_STEP);
+        more = (2.0 * more).min(MAX_STEP);
         next *= 1.0 + more;
     }
     tries

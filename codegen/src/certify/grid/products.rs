@@ -19,7 +19,7 @@ use std::cell::RefCell;
 use super::cells::Cells;
 use super::harmonics::multiple;
 use super::layout::Layout;
-use super::{Closeness, climb, least_shown, range, tries};
+use super::{GridEffort, climb, least_shown, range, tries};
 use crate::bound::interval::Interval;
 use crate::certify::expand::{Key, Polynomial};
 use crate::certify::input_box::InputBox;
@@ -41,7 +41,7 @@ const MAX_TERMS: usize = 200_000;
 const SMALL: f64 = 0.01;
 
 /// Points of a climb that ranks an angle.
-const GLANCES: usize = 1 << 12;
+const QUICK_POINTS: usize = 1 << 12;
 
 /// What products of high degrees may come to by themselves, against all.
 const ASIDE: f64 = 0.04;
@@ -84,7 +84,7 @@ impl Products<'_> {
     pub(in crate::certify) fn sum(
         &self,
         products: &[Product],
-        closeness: Closeness,
+        closeness: GridEffort,
     ) -> Option<Largest> {
         if self.limits.joints() > MAX_JOINTS || closeness.points == 0 {
             return None;
@@ -268,7 +268,7 @@ impl<'a> Sum<'a> {
 
     /// The least bound that was shown, if it is less than without angles: of one
     /// angle, then of one more as long as that may help.
-    fn shown(mut self, of: &Products<'_>, closeness: Closeness) -> Option<f64> {
+    fn shown(mut self, of: &Products<'_>, closeness: GridEffort) -> Option<f64> {
         let crude = self.crude(0, &self.layout.coefficients);
         self.put_aside(ASIDE * crude);
         let (mut first, mut best) = (Vec::new(), None::<f64>);
@@ -280,7 +280,7 @@ impl<'a> Sum<'a> {
                 let mut order = first.clone();
                 order.push(joint);
                 self.order(of, &order);
-                let taken = self.climbed(of.limits, order.len(), GLANCES, 2);
+                let taken = self.climbed(of.limits, order.len(), QUICK_POINTS, 2);
                 if next.is_none_or(|(least, _)| taken < least) {
                     next = Some((taken, joint));
                 }
@@ -308,7 +308,7 @@ impl<'a> Sum<'a> {
         of: &Products<'_>,
         depth: usize,
         known: f64,
-        closeness: Closeness,
+        closeness: GridEffort,
     ) -> Option<f64> {
         let least = self.climbed(of.limits, depth, closeness.points, closeness.starts);
         let tries = tries(least, 0.0, known, closeness.close);
@@ -362,7 +362,7 @@ impl<'a> Sum<'a> {
     }
 
     /// How large each polynomial is where the sum is about largest.
-    fn taken(&self, limits: &InputBox, closeness: Closeness) -> Vec<f64> {
+    fn taken(&self, limits: &InputBox, closeness: GridEffort) -> Vec<f64> {
         let depth = self.layout.joints.len();
         let mut cells = self.cells(limits, depth, &|_, _| false);
         cells.points = closeness.points;
@@ -502,7 +502,7 @@ mod tests {
                 limits: &limits,
                 sliding: &[false; 2],
             };
-            let closeness = Closeness {
+            let closeness = GridEffort {
                 points: 1 << 18,
                 close: 0.02,
                 starts: 4,

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::approximate::edits::{Edit, Place};
+use crate::approximate::edits::{Edit, EditSite};
 use crate::program::{Input, Operand, Operation, Program};
 use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
@@ -177,9 +177,9 @@ impl Nodes {
         let mut all: Vec<Edit> = pairs
             .filter_map(|(node, edit)| {
                 let place = if node < inputs {
-                    Place::Input(self.inputs[node])
+                    EditSite::Input(self.inputs[node])
                 } else {
-                    Place::Step(node - inputs)
+                    EditSite::Step(node - inputs)
                 };
                 Some(match (*edit)? {
                     Value::Known(c) => Edit::constant(place, decimal(c)),
@@ -199,8 +199,8 @@ impl Nodes {
                 continue;
             }
             for (place, now, was) in [
-                (Place::Left(step), op.left, was.left),
-                (Place::Right(step), op.right, was.right),
+                (EditSite::Left(step), op.left, was.left),
+                (EditSite::Right(step), op.right, was.right),
             ] {
                 if let Value::Known(c) = now
                     && now != was

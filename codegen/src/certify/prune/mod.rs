@@ -6,8 +6,8 @@
 //! sampled positions, there as the certificate measures them. What the search
 //! finds counts only if [`bound`](super::bound) certifies it. The edited
 //! program is then simplified, which may save more, and edited again. In
-//! which gauge the exact program is matters more than how small it is there
-//! (`certify/gauge.rs`).
+//! which regrouping the exact program is matters more than how small it is there
+//! (`certify/regrouping.rs`).
 //!
 //! - `search`: guesses, each certified
 //! - `greedy`: the ranking
@@ -26,13 +26,13 @@ mod price;
 mod search;
 mod tally;
 
-use super::bound::Budget;
+use super::bound::BoxEffort;
 use super::input_box::InputBox;
 use crate::approximate::edits::{Stage, has_edits};
 use crate::program::Program;
 use crate::random::Random;
 use crate::simplify::Effort;
-use crate::watch::Vigil;
+use crate::watch::FunctionWatch;
 use motions::Motions;
 pub use omissions::{Omission, omissions};
 use search::Search;
@@ -56,10 +56,10 @@ pub struct Settings {
     pub stages: usize,
     /// Other values tried in the place of each, those that run most alike.
     pub alike: usize,
-    /// Rounds in which a gauge is looked for that leaves less after pruning.
+    /// Rounds in which a regrouping is looked for that leaves less after pruning.
     pub sweeps: usize,
     /// For the certificates that decide.
-    pub budget: Budget,
+    pub budget: BoxEffort,
     /// How much the simplifier may do between stages.
     pub effort: Effort,
     /// Whether constants are corrected for what is left out.
@@ -77,7 +77,7 @@ impl Default for Settings {
             stages: 3,
             alike: 4,
             sweeps: 0,
-            budget: Budget::GLANCE,
+            budget: BoxEffort::QUICK,
             effort: Effort::Quick,
             refit: true,
             work: None,
@@ -105,7 +105,7 @@ impl Settings {
         stages: 4,
         alike: 4,
         sweeps: 2,
-        budget: Budget::GLANCE,
+        budget: BoxEffort::QUICK,
         effort: Effort::Thorough,
         refit: true,
         work: None,
@@ -173,7 +173,7 @@ pub fn watched(
     limits: &InputBox,
     allowances: &[f64],
     settings: &Settings,
-    watch: Option<Vigil<'_>>,
+    watch: Option<FunctionWatch<'_>>,
 ) -> Pruned {
     let tally = Tally::new(settings, watch);
     let nothing = Pruned {

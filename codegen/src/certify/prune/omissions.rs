@@ -5,8 +5,8 @@ use std::fmt;
 use dalembert_model::number::{Exact, Rounded};
 
 use super::Pruned;
-use crate::approximate::edits::{Edit, Place, Stage, difference};
-use crate::certify::bound::{Budget, magnitudes};
+use crate::approximate::edits::{Edit, EditSite, Stage, difference};
+use crate::certify::bound::{BoxEffort, magnitudes};
 use crate::certify::input_box::InputBox;
 use crate::graph::Folding;
 use crate::program::text::input_name;
@@ -43,7 +43,7 @@ impl Pruned {
             };
             let ones = vec![1.0; alone.program.outputs.len()];
             let graph = difference(std::slice::from_ref(&alone));
-            omission.errors = magnitudes(&graph, limits, &ones, 0.0, Budget::GLANCE);
+            omission.errors = magnitudes(&graph, limits, &ones, 0.0, BoxEffort::QUICK);
         }
         omissions
     }
@@ -96,8 +96,8 @@ const DEPTH: usize = 2;
 
 fn words(program: &Program, edit: &Edit) -> String {
     let place = match edit.place {
-        Place::Input(input) => input_name(input),
-        Place::Step(step) | Place::Left(step) | Place::Right(step) => {
+        EditSite::Input(input) => input_name(input),
+        EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => {
             expression(program, &Operand::Step(step), DEPTH + 1).0
         }
     };

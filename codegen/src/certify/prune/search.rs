@@ -24,7 +24,7 @@ const SHARE: f64 = 0.8;
 
 /// An output whose certified error is less than this part of its allowance
 /// may use more of it; the bound is not tight there.
-const ROOM: f64 = 0.88;
+const USED_ENOUGH: f64 = 0.88;
 
 /// Guesses that are added as long as none was certified, and how much less each
 /// leaves out.
@@ -132,7 +132,7 @@ impl Search<'_> {
             let worst = ratios.iter().copied().fold(0.0, f64::max);
             for (share, ratio) in shares.iter_mut().zip(ratios) {
                 let ratio = if best.is_none() { worst } else { ratio };
-                *share = match ratio < ROOM {
+                *share = match ratio < USED_ENOUGH {
                     true => (1.1 * *share).min(1.0),
                     false => (*share / libm::pow(ratio.min(5.0), 0.9) * 0.99).min(1.5),
                 };

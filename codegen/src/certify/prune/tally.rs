@@ -5,18 +5,18 @@ use std::cell::Cell;
 use super::Settings;
 use crate::certify::work::Meter;
 use crate::program::Program;
-use crate::watch::{Part, Vigil};
+use crate::watch::{FunctionWatch, Part};
 
 /// How far a search for omissions has come.
 pub(super) struct Tally<'a> {
-    watch: Option<Vigil<'a>>,
+    watch: Option<FunctionWatch<'a>>,
     done: Cell<usize>,
     rounds: usize,
     meter: Meter,
 }
 
 impl<'a> Tally<'a> {
-    pub(super) fn new(settings: &Settings, watch: Option<Vigil<'a>>) -> Tally<'a> {
+    pub(super) fn new(settings: &Settings, watch: Option<FunctionWatch<'a>>) -> Tally<'a> {
         Tally {
             watch,
             done: Cell::new(0),

@@ -6,7 +6,7 @@
 use super::gradient::Gradient;
 use super::together::{Together, Written};
 use crate::certify::expand::visit;
-use crate::certify::grid::{self, Aim, Closeness};
+use crate::certify::grid::{self, Aim, GridEffort};
 use crate::certify::input_box::InputBox;
 use crate::graph::Edge;
 use crate::program::{Input, Program};
@@ -56,7 +56,7 @@ impl Extremes {
         let graph = &gradient.graph;
         let sliding = grid::sliding(graph, limits.joints());
         let each = points.min(TOGETHER * points / graph.outputs.len().max(1));
-        let closeness = Closeness {
+        let closeness = GridEffort {
             points: if each < FEWEST { 0 } else { each },
             close: CLOSE,
             starts: STARTS,

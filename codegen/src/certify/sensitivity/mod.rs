@@ -31,7 +31,7 @@ mod intervals;
 mod magnitudes;
 mod together;
 
-use super::bound::Budget;
+use super::bound::BoxEffort;
 use super::distinct::Distinct;
 use super::input_box::InputBox;
 use crate::program::{Operand, Program, ScalarType};
@@ -42,9 +42,9 @@ pub(super) use intervals::{Constants, forward};
 /// How fine a bound is: the finer, the tighter and the dearer. Every one is
 /// sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fineness {
+pub struct BoundEffort {
     /// For the bound of the edits.
-    pub budget: Budget,
+    pub budget: BoxEffort,
     /// Sub-boxes of the rounding bound by intervals.
     pub boxes: usize,
     /// Points of a grid for each value and adjoint that rounding counts with.
@@ -53,17 +53,17 @@ pub struct Fineness {
     pub together: usize,
 }
 
-impl Fineness {
+impl BoundEffort {
     /// For certificates: seconds for a six-joint arm.
-    pub const CERTIFY: Fineness = Fineness {
-        budget: Budget::CERTIFY,
+    pub const CERTIFY: BoundEffort = BoundEffort {
+        budget: BoxEffort::CERTIFY,
         boxes: 512,
         points: 1 << 14,
         together: 1 << 19,
     };
     /// For who waits, as a compiler does.
-    pub const GLANCE: Fineness = Fineness {
-        budget: Budget {
+    pub const QUICK: BoundEffort = BoundEffort {
+        budget: BoxEffort {
             boxes: 2_000,
             points: 1 << 18,
         },
@@ -130,13 +130,13 @@ pub struct Sensitivity {
     program: Program,
     distinct: Distinct,
     limits: InputBox,
-    fineness: Fineness,
+    fineness: BoundEffort,
     extremes: Option<Extremes>,
 }
 
 impl Sensitivity {
     /// Of a program over a box.
-    pub fn of(program: &Program, limits: &InputBox, fineness: Fineness) -> Sensitivity {
+    pub fn of(program: &Program, limits: &InputBox, fineness: BoundEffort) -> Sensitivity {
         let steps = program.outputs.iter().map(|output| match &output.value {
             Operand::Step(index) => Some(*index),
             _ => None,
@@ -157,7 +157,7 @@ impl Sensitivity {
     }
 
     /// Whether it is of this program, over its box, and as fine.
-    pub fn is_of(&self, program: &Program, limits: &InputBox, fineness: Fineness) -> bool {
+    pub fn is_of(&self, program: &Program, limits: &InputBox, fineness: BoundEffort) -> bool {
         self.of == *program && self.limits == *limits && self.fineness == fineness
     }
 

@@ -18,7 +18,7 @@ use super::gradient::{Adjoints, Gradient};
 use super::intervals::{Constants, is_exact, read};
 use crate::bound::interval::Interval;
 use crate::certify::expand::Polynomial;
-use crate::certify::grid::{self, Closeness, Largest, Product, Products};
+use crate::certify::grid::{self, GridEffort, Largest, Product, Products};
 use crate::certify::input_box::InputBox;
 use crate::graph::Edge;
 use crate::program::{Input, Operand, Operation, Program, ScalarType};
@@ -40,7 +40,7 @@ const FEWEST: usize = 1 << 12;
 const NARROW: f64 = 2.0;
 
 /// A value may be this much larger by errors and still round as if it were not.
-const ROOM: f64 = 1.0 + 1e-4;
+const GROWTH: f64 = 1.0 + 1e-4;
 
 /// The bounds of one output.
 #[derive(Clone, Debug, Default)]
@@ -116,7 +116,7 @@ impl<'a> Written<'a> {
             limits: &limits,
             sliding,
         };
-        let closeness = Closeness {
+        let closeness = GridEffort {
             points: self
                 .points
                 .min(OUTPUTS * self.points / program.outputs.len().max(1)),
@@ -201,7 +201,7 @@ fn arithmetic(
             list.push(Product {
                 weight: 1.0,
                 left: Some(value),
-                cap: binade(most[value] * ROOM),
+                cap: binade(most[value] * GROWTH),
                 right: adjoint.node().index(),
             });
         }

@@ -14,7 +14,7 @@ use crate::graph::rules::folding::{BY_FINGERPRINT, BY_SHAPE, NORMAL_FORM};
 use crate::graph::rules::pattern::{Algebra, InBuilder, Pattern, is_constant};
 use crate::graph::{Builder, Folding, Value};
 use crate::program::Input;
-use crate::simplify::classes::{Classes, Way};
+use crate::simplify::classes::{Classes, ENode};
 use crate::simplify::discover;
 
 /// Residues.
@@ -176,9 +176,9 @@ fn discovery_finds_every_kind_of_way_in_its_table() {
                 discover::multiples(&mut classes, &[inputs[0], target], &program)
             }
         };
-        let new: Vec<Way> = classes.get(target).ways.clone();
+        let new: Vec<ENode> = classes.get(target).ways.clone();
         let new = new.into_iter().filter(|way| !known.contains(way));
-        let new: Vec<Way> = new.collect();
+        let new: Vec<ENode> = new.collect();
         assert!(found > 0, "{}", rule.name);
         assert!(
             new.iter().any(|&way| is_kind(rule, way)),
@@ -193,7 +193,7 @@ fn discovery_finds_every_kind_of_way_in_its_table() {
 }
 
 /// A class is a value up to sign: its sums and differences are one kind.
-fn is_kind(rule: &Rule, way: Way) -> bool {
+fn is_kind(rule: &Rule, way: ENode) -> bool {
     let product = rule.to.starts_with("(*");
-    product == matches!(way, Way::Product(..))
+    product == matches!(way, ENode::Product(..))
 }

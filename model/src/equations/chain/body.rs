@@ -4,7 +4,7 @@ use super::{Rotation, apply};
 use crate::equations::matrix::{
     Vector, minus, negative, plus, scaled, sum, times, twice, zero_vector,
 };
-use crate::equations::{Link, Rotor};
+use crate::equations::{Link, SinCosPair};
 use crate::robot::Inertia;
 use crate::scalar::Scalar;
 
@@ -125,7 +125,7 @@ impl<S: Scalar> Body<S> {
 
     /// Turned about z by a variable angle. With k = s·(Σxx − Σyy) + 2c·Σxy:
     /// Σxx′ = Σxx − s·k, Σyy′ = Σyy + s·k, Σxy′ = c·k − Σxy.
-    pub fn turned_z(&self, theta: &Rotor<S>) -> Self {
+    pub fn turned_z(&self, theta: &SinCosPair<S>) -> Self {
         let (s, c, old) = (&theta.sin, &theta.cos, &self.second);
         let [x, y] = theta.turn(&self.first[0], &self.first[1]);
         let [xz, yz] = theta.turn(&old.xz, &old.yz);

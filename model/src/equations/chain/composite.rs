@@ -8,7 +8,7 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use super::recursion::{Couple, Motion, Spin};
+use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Body, Chain, Displacement};
 use crate::equations::matrix::{
@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 
 /// Which way the products for D travel; the values are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Travel {
+pub enum CompositeOrder {
     /// Joint twists go out to the composite bodies.
     Outward,
     /// Composite momenta come in to the joints.
@@ -97,20 +97,20 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// D, n×n, armature on the diagonal.
-    pub fn inertia(&self, travel: Travel) -> Vec<Vec<S>> {
+    pub fn inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
         let n = self.chain.links.len();
         let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
         symmetric(n, |i, k| columns[i][k].clone())
     }
 
     /// D_0k … D_kk.
-    fn inertia_column(&self, k: usize, travel: Travel) -> Vec<S> {
+    fn inertia_column(&self, k: usize, travel: CompositeOrder) -> Vec<S> {
         let (mut force, mut moment) = self.momentum(k);
         let mut column = Vec::with_capacity(k + 1);
         for i in (0..=k).rev() {
             let load = match travel {
-                Travel::Inward => self.chain.load(i, &force, &moment),
-                Travel::Outward => self.project(i, k, &force, &moment),
+                CompositeOrder::Inward => self.chain.load(i, &force, &moment),
+                CompositeOrder::Outward => self.project(i, k, &force, &moment),
             };
             let load = self.in_metres(k, load);
             column.push(if i == k {
@@ -118,7 +118,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             } else {
                 load
             });
-            if travel == Travel::Inward && i > 0 {
+            if travel == CompositeOrder::Inward && i > 0 {
                 (force, moment) = self.chain.to_previous(i, &self.at[i], &force, &moment);
             }
         }
@@ -154,10 +154,10 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// c, length n.
-    pub fn gravity(&self, travel: Travel) -> Vec<S> {
+    pub fn gravity(&self, travel: CompositeOrder) -> Vec<S> {
         let mut c = Vec::with_capacity(self.chain.links.len());
         match travel {
-            Travel::Outward => {
+            CompositeOrder::Outward => {
                 let mut gravity = self.chain.gravity.clone();
                 for (i, link) in self.chain.links.iter().enumerate() {
                     gravity = link.inward(&self.at[i], &gravity);
@@ -174,15 +174,15 @@ impl<'a, S: Scalar> Composite<'a, S> {
                     });
                 }
             }
-            Travel::Inward => {
+            CompositeOrder::Inward => {
                 // The weight of all links about each origin, links summed.
                 let rest = zeros(self.chain.links.len());
                 return self.chain.inverse_dynamics(
                     self.at,
                     &rest,
                     &rest,
-                    Spin::Column,
-                    Couple::SecondMoments,
+                    AccelerationForm::Column,
+                    MomentForm::SecondMoments,
                 );
             }
         }
@@ -192,7 +192,13 @@ impl<'a, S: Scalar> Composite<'a, S> {
     /// τ, length n, without armature and damping: what a joint does to the
     /// joints before it and to its own composite, plus what the motion of the
     /// joints before, and gravity, do to that composite.
-    pub fn torques(&self, gravity: &Vector<S>, qd: &[S], qdd: &[S], spin: Spin) -> Vec<S> {
+    pub fn torques(
+        &self,
+        gravity: &Vector<S>,
+        qd: &[S],
+        qdd: &[S],
+        spin: AccelerationForm,
+    ) -> Vec<S> {
         let chain = self.chain;
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
         let n = chain.links.len();
@@ -203,7 +209,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             // The motion of frame i with its own joint at rest.
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
-            let (force, moment) = still.wrench(body, Couple::SecondMoments);
+            let (force, moment) = still.wrench(body, MomentForm::SecondMoments);
             own.push(chain.load(i, &force, &moment));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
             let mut turn = still.omega.clone().map(|x| twice(&x));

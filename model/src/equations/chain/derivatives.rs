@@ -8,9 +8,9 @@
 
 use alloc::vec::Vec;
 
-use super::composite::{Composite, Travel};
+use super::composite::{Composite, CompositeOrder};
 use super::momentum::{Velocity, tensor};
-use super::recursion::{Couple, Motion, Spin};
+use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::{
@@ -54,7 +54,7 @@ struct Joint<S> {
 
 impl<S: Scalar> Composite<'_, S> {
     /// ∂τ/∂q and ∂τ/∂q̇, each n×n.
-    pub fn slopes(&self, qd: &[S], qdd: &[S], travel: Travel) -> Slopes<S> {
+    pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
         let joints = self.own_slopes(qd, qdd);
         let n = joints.len();
         let blank = || alloc::vec![alloc::vec![S::zero(); n]; n];
@@ -66,8 +66,8 @@ impl<S: Scalar> Composite<'_, S> {
             slopes.position[i][i] = joint.position.0.clone();
             slopes.velocity[i][i] = joint.velocity.0.clone();
             match travel {
-                Travel::Inward => self.inward_slopes(i, &joints, &mut slopes),
-                Travel::Outward => self.outward_slopes(i, &joints, &mut slopes),
+                CompositeOrder::Inward => self.inward_slopes(i, &joints, &mut slopes),
+                CompositeOrder::Outward => self.outward_slopes(i, &joints, &mut slopes),
             }
         }
         let chain = self.chain;
@@ -132,7 +132,7 @@ impl<S: Scalar> Composite<'_, S> {
     fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
-        let motions = chain.motions(self.at, qd, qdd, Spin::Column);
+        let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
         let mut flow = Flow {
             momentum: zero_vector(),
             moment: [zero_vector(), zero_vector(), zero_vector()],
@@ -144,7 +144,7 @@ impl<S: Scalar> Composite<'_, S> {
         let mut joints = Vec::with_capacity(chain.links.len());
         for (i, link) in chain.links.iter().enumerate().rev() {
             flow = flow.with(&Flow::of(&link.body, &velocities[i]));
-            let (force, moment) = motions[i].wrench(&link.body, Couple::SecondMoments);
+            let (force, moment) = motions[i].wrench(&link.body, MomentForm::SecondMoments);
             load = load.with(&Wrench { force, moment });
             joints.push(self.own(i, &velocities[i], &motions[i], &flow, &load));
             flow = flow.carried(link, &self.at[i]);

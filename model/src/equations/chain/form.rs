@@ -2,18 +2,18 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Travel;
-use super::recursion::{Couple, Spin};
+use super::composite::CompositeOrder;
+use super::recursion::{AccelerationForm, MomentForm};
 
 /// One association of the chain formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form {
     /// How U is formed.
-    pub spin: Spin,
+    pub spin: AccelerationForm,
     /// How a link's own moment is formed.
-    pub couple: Couple,
+    pub couple: MomentForm,
     /// Which way D and c travel.
-    pub travel: Travel,
+    pub travel: CompositeOrder,
     /// Whether h comes from composite bodies, or from the recursion.
     pub composite_h: bool,
 }
@@ -23,15 +23,17 @@ impl Form {
     /// not, and where something travels, or not; the usually cheapest first.
     pub fn all(recursion: bool, travels: bool) -> Vec<Form> {
         let mut forms = Vec::new();
-        for travel in [Travel::Outward, Travel::Inward] {
+        for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
             for composite_h in [false, true] {
-                for spin in [Spin::Column, Spin::Rates] {
-                    for couple in [Couple::SecondMoments, Couple::Euler] {
+                for spin in [AccelerationForm::Column, AccelerationForm::Rates] {
+                    for couple in [MomentForm::SecondMoments, MomentForm::Euler] {
                         // A choice that nothing reads.
                         let idle = (!recursion
-                            && (spin == Spin::Rates || couple == Couple::Euler || composite_h))
-                            || (!travels && travel == Travel::Inward)
-                            || (composite_h && couple == Couple::Euler);
+                            && (spin == AccelerationForm::Rates
+                                || couple == MomentForm::Euler
+                                || composite_h))
+                            || (!travels && travel == CompositeOrder::Inward)
+                            || (composite_h && couple == MomentForm::Euler);
                         if !idle {
                             forms.push(Form {
                                 spin,

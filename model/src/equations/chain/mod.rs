@@ -3,7 +3,7 @@
 //! - this file: [`Chain`]: constant rotation, constant offset, then the joint
 //! - [`skeleton`]: what moves and what is constant, locked joints merged
 //! - [`body`]: mass, first and second moments about a frame's origin
-//! - [`gauge`]: the freedom that leaves the dynamics alone: where an origin
+//! - [`regrouping`]: the freedom that leaves the dynamics alone: where an origin
 //!   lies on its axis, which parameters a link keeps, the unit of length
 //! - [`pose`]: the chain at a position; the axes in which each link is seen
 //! - `momentum`: energies and momenta; `twist`: twists and wrenches
@@ -19,11 +19,11 @@ pub mod body;
 pub mod composite;
 pub mod derivatives;
 mod form;
-pub mod gauge;
 mod momentum;
 mod passivity;
 pub mod pose;
 pub mod recursion;
+pub mod regrouping;
 pub mod skeleton;
 mod twist;
 
@@ -31,11 +31,11 @@ use alloc::vec::Vec;
 
 pub use body::Body;
 pub use form::Form;
-pub use gauge::{Gauge, LinkGauge};
 pub use pose::Displacement;
+pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 
-use super::Rotor;
+use super::SinCosPair;
 use super::matrix::{Vector, difference, dot, opposite, plus, scaled, sum, times, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -68,13 +68,13 @@ pub struct ChainLink<S> {
     /// Direction of the slide in the axes of frame i; z for a revolute joint.
     pub axis: Vector<S>,
     /// The pair of the constant added to q (revolute).
-    pub theta: Rotor<S>,
+    pub theta: SinCosPair<S>,
     /// The link, about the origin and in the axes of its frame.
     pub body: Body<S>,
     /// Mass, first and second moment along the axis that the link could keep
     /// (revolute): its own and what arrived from the links after it.
     pub free: [S; 3],
-    /// Rotor inertia felt at the joint.
+    /// SinCosPair inertia felt at the joint.
     pub armature: S,
     /// Viscous damping b_i.
     pub viscous: S,
@@ -86,15 +86,15 @@ pub struct ChainLink<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// The chain of a skeleton in a gauge.
-    pub fn new(skeleton: &Skeleton<S>, gauge: &Gauge<S>) -> Chain<S> {
+    /// The chain of a skeleton in a regrouping.
+    pub fn new(skeleton: &Skeleton<S>, regrouping: &Regrouping<S>) -> Chain<S> {
         let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
-        // How far the gauge moved the origin before.
+        // How far the regrouping moved the origin before.
         let mut shift: Vector<S> = zero_vector();
-        for (segment, gauge) in skeleton.links.iter().zip(&gauge.links) {
+        for (segment, regrouping) in skeleton.links.iter().zip(&regrouping.links) {
             let step = match segment.kind {
-                JointKind::Revolute => apply(&segment.rotation, &gauge.origin),
-                JointKind::Prismatic => gauge.origin.clone(),
+                JointKind::Revolute => apply(&segment.rotation, &regrouping.origin),
+                JointKind::Prismatic => regrouping.origin.clone(),
             };
             links.push(ChainLink {
                 kind: segment.kind,
@@ -102,14 +102,14 @@ impl<S: Scalar> Chain<S> {
                 offset: sum(&difference(&segment.offset, &shift), &step),
                 axis: segment.axis.clone(),
                 theta: segment.theta.clone(),
-                body: segment.body.moved(&opposite(&gauge.origin)),
+                body: segment.body.moved(&opposite(&regrouping.origin)),
                 free: zero_vector(),
                 armature: segment.armature.clone(),
                 viscous: segment.viscous.clone(),
                 spins_freely: false,
-                axes: gauge.axes,
+                axes: regrouping.axes,
             });
-            shift = gauge.origin.clone();
+            shift = regrouping.origin.clone();
         }
         let mut chain = Chain {
             gravity: skeleton.gravity.clone(),
@@ -117,8 +117,8 @@ impl<S: Scalar> Chain<S> {
             per_unit: S::one(),
         };
         chain.free_spin();
-        chain.regroup(gauge);
-        chain.change_unit(&gauge.unit, &gauge.per_unit);
+        chain.regroup(regrouping);
+        chain.change_unit(&regrouping.unit, &regrouping.per_unit);
         chain
     }
 
@@ -222,7 +222,7 @@ fn identity<S: Scalar>() -> Rotation<S> {
     core::array::from_fn(|i| core::array::from_fn(|j| if i == j { S::one() } else { S::zero() }))
 }
 
-fn turn_x<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
+fn turn_x<S: Scalar>(angle: &SinCosPair<S>) -> Rotation<S> {
     let (s, c) = (&angle.sin, &angle.cos);
     [
         [S::one(), S::zero(), S::zero()],
@@ -231,7 +231,7 @@ fn turn_x<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
     ]
 }
 
-fn turn_y<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
+fn turn_y<S: Scalar>(angle: &SinCosPair<S>) -> Rotation<S> {
     let (s, c) = (&angle.sin, &angle.cos);
     [
         [c.clone(), S::zero(), s.clone()],
@@ -240,7 +240,7 @@ fn turn_y<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
     ]
 }
 
-fn turn_z<S: Scalar>(angle: &Rotor<S>) -> Rotation<S> {
+fn turn_z<S: Scalar>(angle: &SinCosPair<S>) -> Rotation<S> {
     let (s, c) = (&angle.sin, &angle.cos);
     [
         [c.clone(), s.neg(), S::zero()],

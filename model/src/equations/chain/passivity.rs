@@ -9,7 +9,7 @@
 
 use alloc::vec::Vec;
 
-use super::recursion::{Couple, Motion, from_column};
+use super::recursion::{MomentForm, Motion, from_column};
 use super::{Chain, ChainLink, Displacement};
 use crate::equations::matrix::{
     Vector, cross, dot, halved, plus, scaled, sum, times, twice, zero_vector,
@@ -101,6 +101,6 @@ impl<S: Scalar> Chain<S> {
             let link = &self.links[i];
             plus(&times(&link.armature, &a[i]), &times(&link.viscous, &v[i]))
         };
-        self.torques(at, &motions, Couple::SecondMoments, drive)
+        self.torques(at, &motions, MomentForm::SecondMoments, drive)
     }
 }

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 
 use super::{Chain, Rotation};
 use crate::equations::matrix::{Vector, times};
-use crate::equations::{JointPosition, Rotor};
+use crate::equations::{JointPosition, SinCosPair};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -20,14 +20,14 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub enum Displacement<S> {
     /// (sin θ_i, cos θ_i)
-    Turn(Rotor<S>),
+    Turn(SinCosPair<S>),
     /// q_i in the chain's unit of length.
     Slide(S),
 }
 
 /// A link's place among links that turn about parallel axes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Place {
+struct FramePlacement {
     /// The first link of the group and the last that turns.
     group: [usize; 2],
     /// Whether the axis points against that of the first.
@@ -42,7 +42,7 @@ impl<S: Scalar> Chain<S> {
     /// By how many joints the frame of each link may turn less, and more, than
     /// its link.
     pub fn freedoms(&self) -> Vec<[i32; 2]> {
-        let bounds = |(i, place): (usize, &Option<Place>)| match place {
+        let bounds = |(i, place): (usize, &Option<FramePlacement>)| match place {
             Some(place) => self.bounds(i, place),
             None => [0, 0],
         };
@@ -63,7 +63,7 @@ impl<S: Scalar> Chain<S> {
         groups
     }
 
-    fn bounds(&self, i: usize, place: &Place) -> [i32; 2] {
+    fn bounds(&self, i: usize, place: &FramePlacement) -> [i32; 2] {
         let [_, last] = place.group;
         let followed = self.links[last + 1..]
             .iter()
@@ -74,8 +74,8 @@ impl<S: Scalar> Chain<S> {
         [-(place.index as i32), (place.count - place.index) as i32]
     }
 
-    fn places(&self) -> Vec<Option<Place>> {
-        let mut places: Vec<Option<Place>> = Vec::with_capacity(self.links.len());
+    fn places(&self) -> Vec<Option<FramePlacement>> {
+        let mut places: Vec<Option<FramePlacement>> = Vec::with_capacity(self.links.len());
         let mut start = 0;
         for (i, link) in self.links.iter().enumerate() {
             if link.kind == JointKind::Prismatic {
@@ -84,7 +84,7 @@ impl<S: Scalar> Chain<S> {
             }
             let before = places.iter().flatten().next_back().cloned();
             let place = match (sense(&link.rotation), before) {
-                (Some(opposite), Some(before)) => Place {
+                (Some(opposite), Some(before)) => FramePlacement {
                     group: [start, i],
                     opposite: before.opposite != opposite,
                     index: before.index + 1,
@@ -92,7 +92,7 @@ impl<S: Scalar> Chain<S> {
                 },
                 _ => {
                     start = i;
-                    Place {
+                    FramePlacement {
                         group: [i, i],
                         opposite: false,
                         index: 1,
@@ -116,7 +116,7 @@ impl<S: Scalar> Chain<S> {
     /// is seen, and how those turn: θ_i as pairs, and slides in its unit.
     pub fn posed(&self, position: &[JointPosition<S>]) -> (Chain<S>, Vec<Displacement<S>>) {
         let places = self.places();
-        let angles: Vec<Option<Rotor<S>>> = self
+        let angles: Vec<Option<SinCosPair<S>>> = self
             .links
             .iter()
             .zip(position)
@@ -127,12 +127,12 @@ impl<S: Scalar> Chain<S> {
             })
             .collect();
         // θ_a + … + θ_b about the axis of link a, of the group's links only.
-        let sum = |from: usize, to: usize, place: &Place| {
+        let sum = |from: usize, to: usize, place: &FramePlacement| {
             let members = (place.group[0]..=place.group[1]).filter_map(|j| {
                 let member = places[j].as_ref()?;
                 (member.index > from && member.index <= to).then_some((j, member))
             });
-            members.fold(None, |sum: Option<Rotor<S>>, (j, member)| {
+            members.fold(None, |sum: Option<SinCosPair<S>>, (j, member)| {
                 let angle = angles[j].clone()?;
                 let angle = if member.opposite {
                     inverse(&angle)
@@ -147,7 +147,7 @@ impl<S: Scalar> Chain<S> {
         };
         // The turn from joint `from` to joint `to` of the group, about the
         // axis of the place.
-        let between = |from: usize, to: usize, place: &Place| {
+        let between = |from: usize, to: usize, place: &FramePlacement| {
             let turn = match from <= to {
                 true => sum(from, to, place),
                 false => sum(to, from, place).map(|turn| inverse(&turn)),
@@ -157,7 +157,7 @@ impl<S: Scalar> Chain<S> {
         let mut chain = self.clone();
         let mut at = Vec::with_capacity(position.len());
         // Which turn of the group the frame before has made; its own.
-        let mut before: Option<(usize, Place)> = None;
+        let mut before: Option<(usize, FramePlacement)> = None;
         for (i, (q, place)) in position.iter().zip(&places).enumerate() {
             let link = &mut chain.links[i];
             if let Some((seen, own)) = &before
@@ -209,21 +209,21 @@ fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
     }
 }
 
-fn still<S: Scalar>() -> Rotor<S> {
-    Rotor {
+fn still<S: Scalar>() -> SinCosPair<S> {
+    SinCosPair {
         sin: S::zero(),
         cos: S::one(),
     }
 }
 
-fn inverse<S: Scalar>(turn: &Rotor<S>) -> Rotor<S> {
-    Rotor {
+fn inverse<S: Scalar>(turn: &SinCosPair<S>) -> SinCosPair<S> {
+    SinCosPair {
         sin: turn.sin.neg(),
         cos: turn.cos.clone(),
     }
 }
 
-fn turned<S: Scalar>(v: &mut Vector<S>, by: &Rotor<S>) {
+fn turned<S: Scalar>(v: &mut Vector<S>, by: &SinCosPair<S>) {
     let [x, y] = by.turn(&v[0], &v[1]);
     (v[0], v[1]) = (x, y);
 }

@@ -15,7 +15,7 @@ use crate::scalar::Scalar;
 
 /// How a link's U is formed; the values are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Spin {
+pub enum AccelerationForm {
     /// The column along a revolute axis is the one before, turned: it does
     /// not depend on the joint's own motion. It gives ω̇_x, ω̇_y and ω_y².
     Column,
@@ -25,7 +25,7 @@ pub enum Spin {
 
 /// How the moment of a link's own motion is formed; the values are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Couple {
+pub enum MomentForm {
     /// The antisymmetric part of U Σ.
     SecondMoments,
     /// I ω̇ + ω × (I ω).
@@ -67,7 +67,7 @@ impl<S: Scalar> Motion<S> {
         at: &Displacement<S>,
         rate: &S,
         acceleration: &S,
-        spin: Spin,
+        spin: AccelerationForm,
     ) -> Self {
         let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
         match link.kind {
@@ -85,11 +85,11 @@ impl<S: Scalar> Motion<S> {
                 let axis = link.axis_before();
                 let along = plus(&dot(&axis, &self.omega_dot), acceleration);
                 let (omega_dot, u) = match spin {
-                    Spin::Column => {
+                    AccelerationForm::Column => {
                         let column = link.inward(at, &self.u_times(&axis));
                         from_column(|i, j| times(&omega[i], &omega[j]), &along, column)
                     }
-                    Spin::Rates => {
+                    AccelerationForm::Rates => {
                         let turned_dot = link.inward(at, &self.omega_dot);
                         let omega_dot = [
                             plus(&turned_dot[0], &times(&omega[1], rate)),
@@ -111,7 +111,7 @@ impl<S: Scalar> Motion<S> {
     }
 
     /// Force and moment of a body in this motion.
-    pub(super) fn wrench(&self, body: &Body<S>, couple: Couple) -> (Vector<S>, Vector<S>) {
+    pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> (Vector<S>, Vector<S>) {
         let force = sum(
             &scaled(&body.mass, &self.acceleration),
             &self.u_times(&body.first),
@@ -124,9 +124,9 @@ impl<S: Scalar> Motion<S> {
     }
 
     /// ∫ r × (U r) dm
-    fn couple(&self, body: &Body<S>, form: Couple) -> Vector<S> {
+    fn couple(&self, body: &Body<S>, form: MomentForm) -> Vector<S> {
         match form {
-            Couple::SecondMoments => {
+            MomentForm::SecondMoments => {
                 let sigma = &body.second;
                 let u = |row: usize, column: usize| &self.u[column][row];
                 let part = |a: &S, x: &S, b: &S, y: &S, c: &S, p: &S, q: &S| {
@@ -151,7 +151,7 @@ impl<S: Scalar> Motion<S> {
                     ),
                 ]
             }
-            Couple::Euler => {
+            MomentForm::Euler => {
                 let sigma = &body.second;
                 // I = tr(Σ)·1 − Σ
                 let tensor = crate::robot::Inertia {
@@ -227,8 +227,8 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         qd: &[S],
         qdd: &[S],
-        spin: Spin,
-        couple: Couple,
+        spin: AccelerationForm,
+        couple: MomentForm,
     ) -> Vec<S> {
         let motions = self.motions(at, qd, qdd, spin);
         let drive = |i: usize| {
@@ -246,7 +246,7 @@ impl<S: Scalar> Chain<S> {
         &self,
         at: &[Displacement<S>],
         motions: &[Motion<S>],
-        couple: Couple,
+        couple: MomentForm,
         drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
         let mut torques = Vec::with_capacity(self.links.len());
@@ -270,7 +270,7 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         qd: &[S],
         qdd: &[S],
-        spin: Spin,
+        spin: AccelerationForm,
     ) -> Vec<Motion<S>> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
         let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());

@@ -1,4 +1,4 @@
-//! A chain before its gauge is chosen: one segment a joint that moves.
+//! A chain before its regrouping is chosen: one segment a joint that moves.
 //!
 //! A locked joint is a constant step like any other. It contributes a
 //! rotation and an offset, its body joins the link before it (or the base,
@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
 use crate::equations::matrix::{Vector, plus, sum, zero_vector};
-use crate::equations::{Arm, JointPosition, Rotor};
+use crate::equations::{Arm, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
@@ -36,12 +36,12 @@ pub struct Segment<S> {
     /// Direction of the slide in the axes of the frame; z for a revolute joint.
     pub axis: Vector<S>,
     /// The pair of the constant added to q (revolute).
-    pub theta: Rotor<S>,
+    pub theta: SinCosPair<S>,
     /// The constant step along the axis of a revolute joint.
     pub d: S,
     /// What moves with it, about the origin and in the axes of the frame.
     pub body: Body<S>,
-    /// Rotor inertia felt at the joint.
+    /// SinCosPair inertia felt at the joint.
     pub armature: S,
     /// Viscous damping b_i.
     pub viscous: S,
@@ -114,7 +114,7 @@ impl<S: Scalar> Skeleton<S> {
                     segment.axis = apply(&turned, &unit_z());
                     segment.offset = sum(&moved, &apply(&turned, &slide));
                     let turn = product(&turned, &turn_z(&link.theta));
-                    segment.theta = Rotor {
+                    segment.theta = SinCosPair {
                         sin: S::zero(),
                         cos: S::one(),
                     };
@@ -153,12 +153,12 @@ impl<S: Scalar> Segment<S> {
         let turn = if opposite {
             straight[1][1] = S::one().neg();
             straight[2][2] = S::one().neg();
-            Rotor {
+            SinCosPair {
                 sin: sin.neg(),
                 cos,
             }
         } else {
-            Rotor { sin, cos }
+            SinCosPair { sin, cos }
         };
         self.theta = turn.compose(&self.theta);
         self.rotation = straight;

@@ -83,7 +83,7 @@ pub fn inverse_dynamics<S: Scalar>(
     for i in (0..n).rev() {
         let (link, motion) = (&arm.links[i], &motions[i]);
         // The step to the next link; ⁿR_{n+1} = 1.
-        let next = (i + 1 < n).then(|| Step::new(arm, at, i + 1));
+        let next = (i + 1 < n).then(|| LinkStep::new(arm, at, i + 1));
         let force_here = match &next {
             Some(next) => next.to_previous(&force),
             None => force.clone(),
@@ -154,7 +154,7 @@ fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) 
     };
     for i in 0..arm.links.len() {
         let before = if i == 0 { &base } else { &motions[i - 1] };
-        let step = Step::new(arm, at, i);
+        let step = LinkStep::new(arm, at, i);
         let motion = match arm.convention {
             Convention::Standard => standard(&step, before, &qd[i], &qdd[i]),
             Convention::Modified => modified(&step, before, &qd[i], &qdd[i]),
@@ -165,7 +165,7 @@ fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) 
 }
 
 /// Table 2 as it stands: the joint moves along z_{i−1}, before the rotation X.
-fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.link.lever_here(&step.at.d);
     let of_lever = |omega: &Vector<S>, omega_dot: &Vector<S>| {
         sum(&cross(omega_dot, &lever), &centripetal(omega, &lever))
@@ -202,7 +202,7 @@ fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> M
 
 /// The same for modified DH: the joint moves along z_i, after the rotation X,
 /// and the lever P_i belongs to the previous link.
-fn modified<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+fn modified<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.lever_before();
     let of_lever = sum(
         &cross(&before.omega_dot, &lever),
@@ -234,15 +234,15 @@ fn plus_z<S: Scalar>(v: &Vector<S>, s: &S) -> Vector<S> {
 }
 
 /// The step from frame i−1 to frame i.
-struct Step<'a, S> {
+struct LinkStep<'a, S> {
     convention: Convention,
     link: &'a Link<S>,
     at: &'a DhVariables<S>,
 }
 
-impl<'a, S: Scalar> Step<'a, S> {
+impl<'a, S: Scalar> LinkStep<'a, S> {
     fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>], i: usize) -> Self {
-        Step {
+        LinkStep {
             convention: arm.convention,
             link: &arm.links[i],
             at: &at[i],

@@ -57,7 +57,7 @@ struct Ranked {
 }
 
 /// The candidates that are ranked again before one is taken.
-const AGAIN: usize = 24;
+const RANKED_AGAIN: usize = 24;
 
 /// In place of an allowance of zero, where nothing may go.
 const TINY: f64 = 1e-12;
@@ -119,7 +119,7 @@ impl<'a> Greedy<'a> {
                 let live = self.scratch.live().to_vec();
                 ranked
                     .retain(|c| state.edits[c.node].is_none() && live[c.node] && !refused[c.node]);
-                let count = AGAIN.min(ranked.len());
+                let count = RANKED_AGAIN.min(ranked.len());
                 let first = &mut ranked[..count];
                 let again: Vec<_> = first.iter().map(|c| (c.node, c.value)).collect();
                 let scores = self.scores(state, &columns, &fit, &again, (before, paid));

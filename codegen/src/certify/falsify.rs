@@ -18,7 +18,7 @@ use crate::states::JointState;
 
 /// The largest errors that were seen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Attack {
+pub struct Falsification {
     /// Of each output, relative to its T.
     pub observed: Vec<f64>,
     /// The first output that errs more than is claimed, and where.
@@ -31,13 +31,13 @@ pub struct Attack {
 ///
 /// # Errors
 /// A text of the certificate cannot be read.
-pub fn attack(
+pub fn falsify(
     certificate: &Certificate,
     samples: usize,
     climbs: usize,
     seed: u64,
-) -> Result<Attack, TextError> {
-    let mut attacker = Attacker::new(certificate)?;
+) -> Result<Falsification, TextError> {
+    let mut falsifier = Falsifier::new(certificate)?;
     let limits = &certificate.limits;
     let outputs = certificate.scales.len();
     let mut random = Random::new(seed);
@@ -47,7 +47,7 @@ pub fn attack(
         let count = left.min(BLOCK);
         left -= count;
         let states: Vec<JointState> = (0..count).map(|_| draw(limits, &mut random)).collect();
-        let errors = attacker.errors(&states);
+        let errors = falsifier.errors(&states);
         for (worst, errors) in worst.iter_mut().zip(errors) {
             for (error, state) in errors.into_iter().zip(&states) {
                 if error > worst.0 {
@@ -68,13 +68,13 @@ pub fn attack(
             };
             let mut climbing = random.clone();
             climb(limits, from, MOVES, &mut climbing, &mut |state| {
-                let errors = attacker.errors(std::slice::from_ref(state));
+                let errors = falsifier.errors(std::slice::from_ref(state));
                 errors[output][0]
             });
             random.bits();
         }
     }
-    Ok(attacker.attack)
+    Ok(falsifier.falsification)
 }
 
 /// States that are run at once: their columns stay in a processor's cache.
@@ -84,26 +84,26 @@ const BLOCK: usize = 128;
 const MOVES: usize = 600;
 
 /// Both texts, and what was seen of them.
-struct Attacker<'c> {
+struct Falsifier<'c> {
     certificate: &'c Certificate,
     emitted: Lowered,
     exact: Lowered,
     granted: Vec<Rounding>,
-    attack: Attack,
+    falsification: Falsification,
 }
 
-impl<'c> Attacker<'c> {
-    fn new(certificate: &'c Certificate) -> Result<Attacker<'c>, TextError> {
+impl<'c> Falsifier<'c> {
+    fn new(certificate: &'c Certificate) -> Result<Falsifier<'c>, TextError> {
         let Certificate { text: printed, .. } = certificate;
         let function = certificate.emitted.function;
         let program = &certificate.stages[0].program;
         let limits = &certificate.limits;
-        Ok(Attacker {
+        Ok(Falsifier {
             certificate,
             emitted: Lowered::parse(printed, function, certificate.scalar)?,
             exact: program.lower(ScalarType::F64, |_| None),
             granted: rounding(program, ScalarType::F64, limits, 64),
-            attack: Attack {
+            falsification: Falsification {
                 observed: vec![0.0; certificate.scales.len()],
                 violation: None,
                 states: 0,
@@ -124,7 +124,7 @@ impl<'c> Attacker<'c> {
                 single.into_iter().map(wide).collect()
             }
         };
-        self.attack.states += states.len();
+        self.falsification.states += states.len();
         let mut all = Vec::with_capacity(emitted.len());
         for (i, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
             let granted = self.granted[i].arithmetic + self.granted[i].sincos;
@@ -137,9 +137,9 @@ impl<'c> Attacker<'c> {
                     false => f64::INFINITY,
                 };
                 let error = relative(error, self.certificate.scales[i]);
-                self.attack.observed[i] = self.attack.observed[i].max(error);
-                if error > bound && self.attack.violation.is_none() {
-                    self.attack.violation = Some((i, state.clone()));
+                self.falsification.observed[i] = self.falsification.observed[i].max(error);
+                if error > bound && self.falsification.violation.is_none() {
+                    self.falsification.violation = Some((i, state.clone()));
                 }
                 errors.push(error);
             }

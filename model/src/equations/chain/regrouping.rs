@@ -14,9 +14,9 @@ use crate::equations::matrix::{Vector, scaled, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// The gauge of one link, in metres and kilograms.
+/// The regrouping of one link, in metres and kilograms.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LinkGauge<S> {
+pub struct LinkRegrouping<S> {
     /// Where the frame's origin lies, from the end of the step before the
     /// joint, in the axes of the frame: on the axis for a revolute joint,
     /// anywhere for a prismatic one.
@@ -35,22 +35,22 @@ pub struct LinkGauge<S> {
     pub axes: i32,
 }
 
-/// The gauge of a chain.
+/// The regrouping of a chain.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gauge<S> {
+pub struct Regrouping<S> {
     /// One a link.
-    pub links: Vec<LinkGauge<S>>,
+    pub links: Vec<LinkRegrouping<S>>,
     /// The unit of length, in metres.
     pub unit: S,
     /// Its inverse.
     pub per_unit: S,
 }
 
-impl<S: Scalar> Gauge<S> {
+impl<S: Scalar> Regrouping<S> {
     /// Base parameters in metres: a revolute link keeps nothing that can
     /// move, and its origin lies after the constant step along the axis.
     pub fn base(skeleton: &Skeleton<S>) -> Self {
-        let links = skeleton.links.iter().map(|link| LinkGauge {
+        let links = skeleton.links.iter().map(|link| LinkRegrouping {
             origin: match link.kind {
                 JointKind::Revolute => [S::zero(), S::zero(), link.d.clone()],
                 JointKind::Prismatic => zero_vector(),
@@ -61,7 +61,7 @@ impl<S: Scalar> Gauge<S> {
             keep_seconds: false,
             axes: 0,
         });
-        Gauge {
+        Regrouping {
             links: links.collect(),
             unit: S::one(),
             per_unit: S::one(),
@@ -71,19 +71,19 @@ impl<S: Scalar> Gauge<S> {
 
 impl<S: Scalar> Chain<S> {
     /// Moves over what each link does not keep, from the hand to the base.
-    pub(super) fn regroup(&mut self, gauge: &Gauge<S>) {
+    pub(super) fn regroup(&mut self, regrouping: &Regrouping<S>) {
         for i in (0..self.links.len()).rev() {
             let link = &self.links[i];
             let (moving, arriving) = match link.kind {
                 JointKind::Revolute => {
-                    let moving = on_axis(&link.body, &gauge.links[i]);
+                    let moving = on_axis(&link.body, &regrouping.links[i]);
                     let arriving = moving.carried(&link.rotation, &link.offset);
                     (moving, arriving)
                 }
                 JointKind::Prismatic => {
                     // Second moments without mass have no place, only axes,
                     // and these are shared.
-                    let moving = second_moments(&link.body, &gauge.links[i]);
+                    let moving = second_moments(&link.body, &regrouping.links[i]);
                     (moving.clone(), moving)
                 }
             };
@@ -115,7 +115,7 @@ impl<S: Scalar> Chain<S> {
     }
 }
 
-fn on_axis<S: Scalar>(body: &Body<S>, keep: &LinkGauge<S>) -> Body<S> {
+fn on_axis<S: Scalar>(body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
     let mut moving = Body::zero();
     moving.mass = body.mass.sub(&keep.mass);
     moving.first[2] = body.first[2].sub(&keep.first);
@@ -123,7 +123,7 @@ fn on_axis<S: Scalar>(body: &Body<S>, keep: &LinkGauge<S>) -> Body<S> {
     moving
 }
 
-fn second_moments<S: Scalar>(body: &Body<S>, keep: &LinkGauge<S>) -> Body<S> {
+fn second_moments<S: Scalar>(body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
     let mut moving = Body::zero();
     if !keep.keep_seconds {
         moving.second = body.second.clone();

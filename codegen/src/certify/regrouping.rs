@@ -1,8 +1,8 @@
-//! The exact program to prune: in the gauge that leaves least.
+//! The exact program to prune: in the regrouping that leaves least.
 //!
 //! The smallest exact program shares so much that every value matters to many
-//! outputs, and its gauge makes entries vanish that a tolerance would drop
-//! anyway. A descent over the gauges, link by link as for the exact program,
+//! outputs, and its regrouping makes entries vanish that a tolerance would drop
+//! anyway. A descent over the regroupings, link by link as for the exact program,
 //! but by what is left after pruning, finds a better one. Prices are of
 //! samples; what comes out is an equal program like any other, and whoever
 //! uses it shows that again.
@@ -11,7 +11,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use dalembert_model::equations::chain::Gauge;
+use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
 use super::input_box::InputBox;
@@ -20,14 +20,14 @@ use crate::portfolio;
 use crate::program::Program;
 use crate::scene::Setting;
 use crate::simplify::{Effort, simplify};
-use crate::watch::{Part, Vigil};
+use crate::watch::{FunctionWatch, Part};
 
-/// What a look at every gauge and the closer one at a few take: samples, and
+/// What a look at every regrouping and the closer one at a few take: samples, and
 /// how much of the allowances their errors may use. The fewer the samples, the
 /// more they miss.
 const LOOKS: [(usize, f64); 2] = [(16, 0.45), (40, 0.7)];
 
-/// Gauges that are looked at closer, in each round.
+/// Regroupings that are looked at closer, in each round.
 const CLOSER: usize = 12;
 
 /// An exact program that pruning is about to leave less of than of the given
@@ -38,7 +38,7 @@ pub(super) fn descend(
     limits: &InputBox,
     allowances: &[f64],
     settings: &Settings,
-    watch: Option<Vigil<'_>>,
+    watch: Option<FunctionWatch<'_>>,
 ) -> Option<Program> {
     let (function, effort) = (program.function, Effort::Thorough);
     if settings.sweeps == 0 || portfolio::skeleton(setting).links.is_empty() {
@@ -51,26 +51,28 @@ pub(super) fn descend(
         watch,
     };
     let tuned = portfolio::tuned(setting, function, effort, None, &[], watch);
-    let mut best: Option<(Gauge<Exact>, Program)> = None;
+    let mut best: Option<(Regrouping<Exact>, Program)> = None;
     let mut price = descent.price(program, LOOKS[1]);
     for round in 0..settings.sweeps {
         if let Some(watch) = watch {
             let counts = best.as_ref().map(|(_, program)| program.counts());
             watch.step(Part::Omissions, [round, settings.sweeps], counts);
         }
-        let from = best.as_ref().map_or(&tuned.gauge, |(gauge, _)| gauge);
-        let mut gauges = portfolio::gauges(setting, from);
+        let from = best
+            .as_ref()
+            .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
+        let mut regroupings = portfolio::regroupings(setting, from);
         if round == 0 {
-            gauges.insert(0, from.clone());
+            regroupings.insert(0, from.clone());
         }
-        let mut looks = parallel(&gauges, |gauge| {
+        let mut looks = parallel(&regroupings, |regrouping| {
             if descent.is_over() {
                 return None;
             }
-            let graph = portfolio::in_gauge(setting, function, gauge, tuned.form);
+            let graph = portfolio::in_gauge(setting, function, regrouping, tuned.form);
             let graph = simplify(&[graph], &[], Effort::Quick, &|_| true)?.graph;
             let program = program.with_graph(&graph);
-            Some((descent.price(&program, LOOKS[0]), gauge, program))
+            Some((descent.price(&program, LOOKS[0]), regrouping, program))
         });
         looks.sort_by_key(|look| look.0);
         looks.truncate(CLOSER);
@@ -78,13 +80,13 @@ pub(super) fn descend(
             Some(descent.price(program, LOOKS[1]))
         });
         let pairs = prices.into_iter().zip(looks);
-        let Some((found, (_, gauge, program))) = pairs.min_by_key(|pair| pair.0) else {
+        let Some((found, (_, regrouping, program))) = pairs.min_by_key(|pair| pair.0) else {
             break;
         };
         if found >= price {
             break;
         }
-        (price, best) = (found, Some((gauge.clone(), program)));
+        (price, best) = (found, Some((regrouping.clone(), program)));
     }
     best.map(|(_, program)| program)
 }
@@ -93,7 +95,7 @@ struct Descent<'a> {
     limits: &'a InputBox,
     allowances: &'a [f64],
     settings: &'a Settings,
-    watch: Option<Vigil<'a>>,
+    watch: Option<FunctionWatch<'a>>,
 }
 
 impl Descent<'_> {

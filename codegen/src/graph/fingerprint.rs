@@ -8,7 +8,7 @@
 //! of that. Points 0 and 1 share the constant angles: a node with
 //! equal values there does not depend on the state.
 
-use dalembert_model::equations::Rotor;
+use dalembert_model::equations::SinCosPair;
 use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::scalar::field::Field;
 use dalembert_model::scalar::{Divide, Scalar};
@@ -20,43 +20,43 @@ pub const POINTS: usize = 3;
 
 /// The values of one node at every point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Print(pub [Field; POINTS]);
+pub struct Fingerprint(pub [Field; POINTS]);
 
-impl Print {
+impl Fingerprint {
     /// The print of zero.
     pub fn zero() -> Self {
-        Print([Field::zero(); POINTS])
+        Fingerprint([Field::zero(); POINTS])
     }
-    fn zip(&self, other: &Print, f: impl Fn(&Field, &Field) -> Field) -> Print {
-        Print(core::array::from_fn(|i| f(&self.0[i], &other.0[i])))
+    fn zip(&self, other: &Fingerprint, f: impl Fn(&Field, &Field) -> Field) -> Fingerprint {
+        Fingerprint(core::array::from_fn(|i| f(&self.0[i], &other.0[i])))
     }
     /// Of a sum.
-    pub fn add(&self, other: &Print) -> Print {
+    pub fn add(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::add)
     }
     /// Of a difference.
-    pub fn sub(&self, other: &Print) -> Print {
+    pub fn sub(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::sub)
     }
     /// Of a product.
-    pub fn mul(&self, other: &Print) -> Print {
+    pub fn mul(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::mul)
     }
     /// Of a quotient. A divisor that is zero at a point has a chance of 2⁻⁶¹
     /// if it is not zero everywhere.
-    pub fn div(&self, other: &Print) -> Print {
+    pub fn div(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::div)
     }
     /// Of the negated node.
-    pub fn neg(&self) -> Print {
-        Print(self.0.map(|x| x.neg()))
+    pub fn neg(&self) -> Fingerprint {
+        Fingerprint(self.0.map(|x| x.neg()))
     }
     /// Of the node, negated if `negative`.
-    pub fn negate_if(&self, negative: bool) -> Print {
+    pub fn negate_if(&self, negative: bool) -> Fingerprint {
         if negative { self.neg() } else { *self }
     }
     /// The print up to sign, and whether it had to be negated.
-    pub fn canonical(&self) -> (Print, bool) {
+    pub fn canonical(&self) -> (Fingerprint, bool) {
         let negated = self.neg();
         if negated < *self {
             (negated, true)
@@ -82,8 +82,8 @@ impl Points {
     pub const SEARCH: Points = Points { seed: 0x5eed };
 
     /// The print of an input.
-    pub fn input(&self, input: Input) -> Print {
-        Print(core::array::from_fn(|point| self.input_at(input, point)))
+    pub fn input(&self, input: Input) -> Fingerprint {
+        Fingerprint(core::array::from_fn(|point| self.input_at(input, point)))
     }
 
     fn input_at(&self, input: Input, point: usize) -> Field {
@@ -101,15 +101,15 @@ impl Points {
         }
     }
 
-    fn joint(&self, joint: usize, point: usize) -> Rotor<Field> {
+    fn joint(&self, joint: usize, point: usize) -> SinCosPair<Field> {
         circle(mix([self.seed, point as u64, 1, joint as u64]))
     }
 
     /// The print of a constant; `None` if a denominator is divisible by the
     /// prime (no decimal's is).
-    pub fn constant(&self, value: &Exact) -> Option<Print> {
+    pub fn constant(&self, value: &Exact) -> Option<Fingerprint> {
         if let Some(rational) = value.as_rational() {
-            return Field::from_rational(rational).map(|x| Print([x; POINTS]));
+            return Field::from_rational(rational).map(|x| Fingerprint([x; POINTS]));
         }
         let mut print = [Field::zero(); POINTS];
         for (point, x) in print.iter_mut().enumerate() {
@@ -118,7 +118,7 @@ impl Points {
                 circle(mix([self.seed, shared as u64, 5, hash_angle(angle)]))
             })?;
         }
-        Some(Print(print))
+        Some(Fingerprint(print))
     }
 
     /// Whether the search cannot tell a constant from zero: the prime divides
@@ -130,9 +130,9 @@ impl Points {
     }
 }
 
-fn circle(parameter: u64) -> Rotor<Field> {
+fn circle(parameter: u64) -> SinCosPair<Field> {
     let (sin, cos) = Field::circle_point(Field::new(parameter));
-    Rotor { sin, cos }
+    SinCosPair { sin, cos }
 }
 
 /// One well-mixed word from several (SplitMix64 over the words).
