@@ -57,9 +57,15 @@ pub fn limits(generated: &Generated) -> String {
             .counts
             .operations()
             .saturating_sub(refused.counts.operations());
+        let [error, taken] = [refused.error, refused.taken].map(|u| format!("{u:.0}"));
+        // The limit holds for every result; the largest error may be another's.
+        let price = match error == taken {
+            true => format!("a result that is less exact; the worst stays at about {taken} u"),
+            false => format!("an error of about {error} u instead of {taken}"),
+        };
         text += &format!(
-            "\n{}: {fewer} operations fewer with an error of about {:.0} u instead of {:.0}: `--prefer operations`\n",
-            function.function, refused.error, refused.taken
+            "\n{}: {fewer} operations fewer with {price}: `--prefer operations`\n",
+            function.function
         );
     }
     text
