@@ -38,7 +38,6 @@ fn rows(robot: &Robot) -> Vec<String> {
         "alpha",
         "mass",
         "centre of mass",
-        "",
     ];
     let mut cells = vec![head.map(str::to_owned)];
     cells.extend(
@@ -52,16 +51,21 @@ fn rows(robot: &Robot) -> Vec<String> {
         let lengths = cells.iter().map(|row| row[column].chars().count());
         lengths.max().unwrap_or(0)
     };
-    let widths: [usize; 8] = core::array::from_fn(width);
+    let widths: [usize; 7] = core::array::from_fn(width);
     rows.extend(cells.iter().map(|row| {
         let cells = row.iter().zip(widths);
         let padded = cells.map(|(cell, width)| format!("{cell:width$}"));
         padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     }));
+    // Below the table: such a sentence is wider than what is left beside it.
+    rows.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
+        let why = joint.inertia.impossible(&joint.mass)?;
+        Some(format!("joint {}: {why}", i + 1))
+    }));
     rows
 }
 
-fn row(index: usize, joint: &Joint) -> [String; 8] {
+fn row(index: usize, joint: &Joint) -> [String; 7] {
     let plus = |constant: String| match constant.as_str() {
         "0" => format!("q{}", index + 1),
         constant => format!("q{} + {constant}", index + 1),
@@ -75,7 +79,6 @@ fn row(index: usize, joint: &Joint) -> [String; 8] {
         true => angle(&joint.alpha),
         false => format!("{}, beta {}", angle(&joint.alpha), angle(&joint.beta)),
     };
-    let body = joint.inertia.impossible(&joint.mass).unwrap_or_default();
     [
         format!("{} {name}", index + 1).trim_end().to_owned(),
         theta,
@@ -84,7 +87,6 @@ fn row(index: usize, joint: &Joint) -> [String; 8] {
         twist,
         number(&joint.mass),
         format!("({})", joint.com.each_ref().map(number).join(", ")),
-        body.to_owned(),
     ]
 }
 

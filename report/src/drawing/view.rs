@@ -89,7 +89,18 @@ impl View {
         page.text([x, from[1] - 5.0], &format!("{bar} m"));
     }
 
-    /// Where gravity pulls, unless along the line of sight.
+    /// How much of a vector comes towards who looks: right × up points there.
+    fn toward_the_eye(&self, vector: &Vector<f64>) -> f64 {
+        let [right, up] = self.coordinates;
+        let depth = 3 - right - up;
+        match (right + 1) % 3 == up {
+            true => vector[depth],
+            false => -vector[depth],
+        }
+    }
+
+    /// Where gravity pulls; ⊙ and ⊗ along the line of sight, towards the eye and
+    /// away from it.
     pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Page) {
         let square: f64 = gravity.iter().map(|g| g * g).sum();
         let size = libm::sqrt(square);
@@ -101,7 +112,8 @@ impl View {
         let [right, up] = self.coordinates.map(|k| 34.0 * gravity[k] / size);
         let to = [from[0] + right, from[1] - up];
         match right.abs() + up.abs() < 1.0 {
-            true => page.label(from, "g ⊙"),
+            true if self.toward_the_eye(gravity) > 0.0 => page.label(from, "g ⊙"),
+            true => page.label(from, "g ⊗"),
             false => {
                 page.arrow("b", from, to);
                 page.label(to, "g");
