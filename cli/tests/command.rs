@@ -191,7 +191,7 @@ fn verify_refuses_wrong_states() {
         (r#"{"states": [7]}"#, "a state is an object"),
         (
             r#"{"states": [{"q": [0, 0], "torque": [1, 2]}]}"#,
-            "did you mean `tau`?",
+            "torques that q, qd and qdd give are `tau`",
         ),
         (
             r#"{"states": [{"q": [0, 0]}]}"#,
