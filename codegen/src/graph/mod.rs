@@ -1,7 +1,7 @@
 //! The formulas as one hash-consed graph with exact constants.
 //!
 //! - this file: [`Graph`], its nodes and edges
-//! - [`mod@print`]: semantic fingerprints: values at random points of a prime field
+//! - [`fingerprint`]: semantic fingerprints: values at random points of a prime field
 //! - [`builder`]: the smart constructors: folding and sharing
 //! - [`symbol`]: the scalar that traces the equations into a builder
 //! - [`rules`]: what the constructors fold, as data
