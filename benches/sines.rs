@@ -4,7 +4,8 @@
 //! rounds in turn, which hold on a busy machine too.
 //!
 //! `cargo bench --bench sines`: polynomials take 0.53 of libm's time, all angles
-//! together 0.69, std's sines 1.24 (x86-64, medians of three runs).
+//! together 0.69, std's sines 1.24 (x86-64; the 0.69 from the same functions in a loop of
+//! its own, not yet from this bench).
 //!
 //! Then six angles' sines and cosines by `dalembert_sines`, of libm's time for
 //! the same: f64 0.29 and f32 0.20 in a plain build, 0.22 and 0.19 with
