@@ -32,15 +32,11 @@ impl Formula for Coriolis {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("h"),
-        given_as: None,
         choices: Some(Choices {
             recursion: true,
             travel: false,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -34,17 +34,12 @@ impl Formula for CoriolisMatrix {
             1 => "N·s",
             _ => "N·m·s",
         },
-        scale: ErrorScale::None,
-        given: None,
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: false,
         }),
-        starts_from_recursion: false,
         by_differences: true,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -37,13 +37,7 @@ impl Formula for RotationInertia {
         shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
-        given: None,
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -74,13 +68,7 @@ impl Formula for TranslationInertia {
         shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
-        given: None,
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -113,13 +101,7 @@ impl Formula for RotationCoriolis {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
-        given: None,
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -150,13 +132,7 @@ impl Formula for TranslationCoriolis {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
-        given: None,
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -31,16 +31,13 @@ impl Formula for Christoffel {
         // Twice per metre where both rates are of length, the force once.
         unit: |at| kilograms(turns(at) - 1),
         scale: ErrorScale::Coefficient,
-        given: None,
         given_as: Some((Quantity::Coriolis, contract)),
         choices: Some(Choices {
             recursion: false,
             travel: false,
         }),
-        starts_from_recursion: false,
         by_differences: true,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::equations::forward::solved;
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -35,17 +35,12 @@ impl Formula for Acceleration {
             0 => "m/s²",
             _ => "rad/s²",
         },
-        scale: ErrorScale::None,
         given: Some("forward_dynamics"),
-        given_as: None,
         choices: Some(Choices {
             recursion: true,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     const INVERTS_INERTIA: bool = true;

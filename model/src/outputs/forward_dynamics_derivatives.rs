@@ -10,7 +10,7 @@ use super::function::Definition;
 use super::inertia_inverse::InertiaInverse;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, Index};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::equations::forward::{against, free, inverted, solved};
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -94,14 +94,9 @@ impl Formula for AccelerationByPosition {
             [Index::Sliding, Index::Turning] => "m/s²",
             _ => "1/s²",
         },
-        scale: ErrorScale::None,
         given: Some("dqdd_dq"),
-        given_as: None,
         choices: CHOICES,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -31,15 +31,11 @@ impl Formula for Gravity {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("c"),
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -31,15 +31,12 @@ impl Formula for Inertia {
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
         given: Some("D"),
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
         definite: true,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::equations::forward::{free, inverted};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -34,17 +34,12 @@ impl Formula for InertiaInverse {
             1 => "1/(kg·m)",
             _ => "1/(kg·m²)",
         },
-        scale: ErrorScale::None,
         given: Some("inertia_inverse"),
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -54,15 +54,12 @@ impl Formula for Torque {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("tau"),
-        given_as: None,
         choices: Some(Choices {
             recursion: true,
             travel: false,
         }),
         starts_from_recursion: true,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -41,17 +41,12 @@ impl Formula for TorqueByPosition {
             1 => "N",
             _ => "N·m",
         },
-        scale: ErrorScale::None,
         given: Some("dtau_dq"),
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -94,17 +89,12 @@ impl Formula for TorqueByVelocity {
             1 => "N·s",
             _ => "N·m·s",
         },
-        scale: ErrorScale::None,
         given: Some("dtau_dqd"),
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use super::{Argument, Axis, Index, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -33,14 +33,9 @@ impl Formula for Jacobian {
             [Index::Fixed(3..), Index::Sliding] => "1/m",
             _ => "1",
         },
-        scale: ErrorScale::None,
         given: Some("jacobian"),
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
         feels_base: true,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

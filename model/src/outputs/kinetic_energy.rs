@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::matrix::{halved, times, total};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -32,17 +32,12 @@ impl Formula for KineticEnergy {
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::SCALAR,
         unit: |_| "J",
-        scale: ErrorScale::None,
         given: Some("kinetic"),
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: true,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, Axis, ErrorScale, Index, Quantity, Shape, Written};
+use super::{Argument, Axis, Index, Quantity, Shape, Written};
 use crate::equations::kinematics::poses;
 use crate::equations::matrix::Columns;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -34,14 +34,8 @@ impl Formula for LinkPoses {
             [.., Index::Fixed(3)] => "m",
             _ => "1",
         },
-        scale: ErrorScale::None,
-        given: None,
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
         feels_base: true,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

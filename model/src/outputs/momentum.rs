@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -33,17 +33,11 @@ impl Formula for Momentum {
             0 => "kg·m/s",
             _ => "kg·m²/s",
         },
-        scale: ErrorScale::None,
-        given: None,
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: false,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -75,17 +69,11 @@ impl Formula for MomentumSlope {
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::VECTOR,
         unit: load,
-        scale: ErrorScale::None,
-        given: None,
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: false,
         }),
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -36,16 +36,12 @@ impl Formula for Passivity {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
-        given: None,
-        given_as: None,
         choices: Some(Choices {
             recursion: false,
             travel: false,
         }),
-        starts_from_recursion: false,
         by_differences: true,
-        definite: false,
-        feels_base: false,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

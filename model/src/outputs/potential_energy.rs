@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, ErrorScale, Quantity, Shape, Written};
+use super::{Argument, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -30,14 +30,9 @@ impl Formula for PotentialEnergy {
         arguments: &[Argument::Position],
         shape: Shape::SCALAR,
         unit: |_| "J",
-        scale: ErrorScale::None,
         given: Some("potential"),
-        given_as: None,
-        choices: None,
-        starts_from_recursion: false,
-        by_differences: false,
-        definite: false,
         feels_base: true,
+        ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -47,6 +47,27 @@ pub(super) struct Facts {
     pub feels_base: bool,
 }
 
+impl Facts {
+    /// What is said of most quantities; a file says the rest, and what differs.
+    pub(super) const PLAIN: Facts = Facts {
+        field: "",
+        letter: "",
+        symbol: "",
+        summary: "",
+        arguments: &[],
+        shape: Shape::SCALAR,
+        unit: |_| "",
+        scale: ErrorScale::None,
+        given: None,
+        given_as: None,
+        choices: None,
+        starts_from_recursion: false,
+        by_differences: false,
+        definite: false,
+        feels_base: false,
+    };
+}
+
 /// Which associations of the chain formulas matter to a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Choices {
