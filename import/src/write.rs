@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use dalembert_model::number::parse::write_decimal;
-use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Placement, Position, suggested_name};
+use dalembert_model::robot::suggested_name;
+use dalembert_model::robot::values::{list, number, placement, position};
 use num_traits::{Signed, Zero};
 
 use crate::Options;
@@ -69,14 +68,18 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems)
     };
     line(text, "kind", &quoted(kind));
     line(text, "placement", &placement(&link.placement));
-    line(text, "axis", &list(joint.axis.iter().map(|x| &x.value)));
+    line(
+        text,
+        "axis",
+        &list(joint.axis.iter().map(|x| number(&x.value))),
+    );
     line(text, "mass", &number(&link.mass));
-    line(text, "com", &list(&link.body.com));
+    line(text, "com", &list(link.body.com.iter().map(number)));
     let i = &link.body.inertia;
     line(
         text,
         "inertia",
-        &list([&i.xx, &i.yy, &i.zz, &i.xy, &i.yz, &i.xz]),
+        &list([&i.xx, &i.yy, &i.zz, &i.xy, &i.yz, &i.xz].map(number)),
     );
     if let Some(damping) = joint.damping.as_ref().filter(|b| !b.value.is_zero()) {
         line(text, "viscous", &number(&damping.value));
@@ -122,35 +125,6 @@ fn limit_of(
     );
     problems.note(&limit.span, message, "it is left out: nothing would move");
     None
-}
-
-fn placement(value: &Placement) -> String {
-    let rpy = value.rpy.each_ref().map(angle).join(", ");
-    format!("{{ xyz = {}, rpy = [{rpy}] }}", list(&value.xyz))
-}
-
-fn position(value: &Position) -> String {
-    match value {
-        Position::Angle(value) => angle(value),
-        Position::Length(value) => number(value),
-    }
-}
-
-fn angle(value: &Angle) -> String {
-    match value {
-        Angle::Radians(value) => number(value),
-        value if value.is_zero() => "0".to_owned(),
-        value => format!("\"{value}\""),
-    }
-}
-
-fn number(value: &Rational) -> String {
-    write_decimal(value).unwrap_or_else(|| format!("\"{value}\""))
-}
-
-fn list<'v>(values: impl IntoIterator<Item = &'v Rational>) -> String {
-    let values: Vec<String> = values.into_iter().map(number).collect();
-    format!("[{}]", values.join(", "))
 }
 
 fn line(text: &mut String, key: &str, value: &str) {

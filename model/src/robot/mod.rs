@@ -9,6 +9,7 @@
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
 //! - `units`: sizes that were probably meant in another unit
 //! - `body`: which inertia tensors a body can have
+//! - [`values`]: numbers, angles and placements as robot files have them
 //! - `write`: the robot file that says the same ([`write`](write())), and its hash
 
 mod body;
@@ -17,6 +18,7 @@ mod place;
 mod placement;
 mod units;
 mod validate;
+pub mod values;
 mod write;
 
 use alloc::format;

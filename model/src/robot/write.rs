@@ -10,8 +10,8 @@ use core::fmt::Write;
 
 use num_traits::Zero;
 
-use super::{Convention, Joint, JointKind, Placement, Position, Robot};
-use crate::number::parse::write_decimal;
+use super::values::{angle, list, number, placement, position};
+use super::{Convention, Joint, JointKind, Robot};
 use crate::number::{Angle, Rational};
 
 /// Writes a robot as a robot file.
@@ -29,7 +29,7 @@ pub fn write(robot: &Robot) -> String {
         Convention::Modified => "\"modified\"",
     };
     line(&mut text, "convention", convention);
-    line(&mut text, "gravity", &list([x, y, z]));
+    line(&mut text, "gravity", &list([x, y, z].map(number)));
     for (key, value) in [("base", &robot.base), ("tool", &robot.tool)] {
         if let Some(value) = value {
             line(&mut text, key, &placement(value));
@@ -86,12 +86,12 @@ fn write_joint(text: &mut String, joint: &Joint) {
     }
     line(text, "mass", &number(&joint.mass));
     let [x, y, z] = &joint.com;
-    line(text, "com", &list([x, y, z]));
+    line(text, "com", &list([x, y, z].map(number)));
     let i = &joint.inertia;
     line(
         text,
         "inertia",
-        &list([&i.xx, &i.yy, &i.zz, &i.xy, &i.yz, &i.xz]),
+        &list([&i.xx, &i.yy, &i.zz, &i.xy, &i.yz, &i.xz].map(number)),
     );
     for (key, value) in [("viscous", &joint.viscous), ("armature", &joint.armature)] {
         if !value.is_zero() {
@@ -136,43 +136,6 @@ fn line(text: &mut String, key: &str, value: &str) {
     text.push_str(" = ");
     text.push_str(value);
     text.push('\n');
-}
-
-fn list<const N: usize>(values: [&Rational; N]) -> String {
-    let mut text = String::from("[");
-    for (i, value) in values.into_iter().enumerate() {
-        if i > 0 {
-            text.push_str(", ");
-        }
-        text.push_str(&number(value));
-    }
-    text.push(']');
-    text
-}
-
-fn placement(value: &Placement) -> String {
-    let [x, y, z] = &value.xyz;
-    let rpy = value.rpy.each_ref().map(angle).join(", ");
-    format!("{{ xyz = {}, rpy = [{rpy}] }}", list([x, y, z]))
-}
-
-fn number(value: &Rational) -> String {
-    write_decimal(value).unwrap_or_else(|| format!("\"{value}\""))
-}
-
-fn angle(value: &Angle) -> String {
-    match value {
-        Angle::Radians(value) => number(value),
-        value if value.is_zero() => String::from("0"),
-        value => format!("\"{value}\""),
-    }
-}
-
-fn position(value: &Position) -> String {
-    match value {
-        Position::Angle(value) => angle(value),
-        Position::Length(value) => number(value),
-    }
 }
 
 /// A TOML basic string.

@@ -6,9 +6,7 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use super::{Float, Scene};
-use crate::number::parse::write_decimal;
-use crate::number::{Angle, Rational};
-use crate::robot::Position;
+use crate::robot::values::{list, number, position};
 
 /// Writes a scene as its table in a robot file, `[scene.NAME]`, joints by
 /// number.
@@ -101,23 +99,5 @@ impl Scene {
             let _ = write!(text, "{byte:02x}");
         }
         text
-    }
-}
-
-fn list(items: impl Iterator<Item = String>) -> String {
-    let items: Vec<String> = items.collect();
-    format!("[{}]", items.join(", "))
-}
-
-fn number(value: &Rational) -> String {
-    write_decimal(value).unwrap_or_else(|| format!("\"{value}\""))
-}
-
-fn position(at: &Position) -> String {
-    match at {
-        Position::Length(value) => number(value),
-        Position::Angle(Angle::Radians(value)) => number(value),
-        Position::Angle(angle) if angle.is_zero() => "0".to_string(),
-        Position::Angle(angle) => format!("\"{angle}\""),
     }
 }
