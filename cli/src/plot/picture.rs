@@ -6,6 +6,8 @@
 
 use std::fmt::Write;
 
+use dalembert_report::drawing::escaped;
+
 use super::axis::Axis;
 
 const WIDTH: f64 = 720.0;
@@ -182,9 +184,4 @@ impl Picture {
             escaped(text)
         );
     }
-}
-
-/// Text as XML has it.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
 }

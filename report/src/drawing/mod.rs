@@ -8,7 +8,7 @@
 //! - `table`: the DH rows, masses and centres as text
 //!
 //! A link's inertia is drawn as the solid ellipsoid of uniform density that has it.
-//! Bodies that no link can have are said in the table. The same robot and position
+//! Bodies that no link can have are named below the table. The same robot and position
 //! give the same bytes: sines are libm's, numbers have one decimal.
 
 mod outline;
@@ -23,6 +23,7 @@ use dalembert_model::robot::{Convention, JointKind, Robot};
 use nalgebra::DVector;
 
 use page::Page;
+pub use page::escaped;
 use view::View;
 
 /// The arm at a position, as SVG.

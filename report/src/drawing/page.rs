@@ -151,7 +151,7 @@ impl Page {
 }
 
 /// Text as XML has it; what XML cannot have is replaced.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let plain = text
         .chars()
         .map(|c| if c.is_control() { '\u{fffd}' } else { c });
