@@ -152,14 +152,7 @@ fn body(urdf: &Urdf, moving: &Moving) -> Option<(Rational, Body)> {
         });
         short(parts.sum())
     };
-    let inertia = Inertia {
-        xx: entry(0, 0),
-        yy: entry(1, 1),
-        zz: entry(2, 2),
-        xy: entry(0, 1),
-        yz: entry(1, 2),
-        xz: entry(0, 2),
-    };
+    let inertia = Inertia::symmetric(entry);
     let com = centre.clone().map(short);
     Some((total, Body { com, inertia }))
 }

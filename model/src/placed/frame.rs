@@ -74,14 +74,7 @@ pub fn moved(body: &Body, pose: &Columns<Wide>) -> Body {
     let entry = |i: usize, k: usize| recovered(&turned(i, k), &moments);
     Body {
         com: com.each_ref().map(|x| recovered(x, &size)),
-        inertia: Inertia {
-            xx: entry(0, 0),
-            yy: entry(1, 1),
-            zz: entry(2, 2),
-            xy: entry(0, 1),
-            yz: entry(1, 2),
-            xz: entry(0, 2),
-        },
+        inertia: Inertia::symmetric(entry),
     }
 }
 

@@ -161,6 +161,18 @@ pub struct Inertia<S> {
 }
 
 impl<S> Inertia<S> {
+    /// From the entries of row i and column k, zero-based, with i ≤ k.
+    pub fn symmetric(entry: impl Fn(usize, usize) -> S) -> Self {
+        Inertia {
+            xx: entry(0, 0),
+            yy: entry(1, 1),
+            zz: entry(2, 2),
+            xy: entry(0, 1),
+            yz: entry(1, 2),
+            xz: entry(0, 2),
+        }
+    }
+
     /// Every entry through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Inertia<T> {
         Inertia {

@@ -5,7 +5,6 @@ use crate::equations::matrix::{
     Vector, cross, difference, dot, opposite, plus, scaled, sum, tensor_times, zero_vector,
 };
 use crate::equations::newton_euler::Wrench;
-use crate::robot::Inertia;
 use crate::scalar::Divide;
 
 /// A velocity or acceleration of a frame: angular, and of its origin.
@@ -68,16 +67,7 @@ impl<S: Divide> Articulated<S> {
     pub(super) fn of(link: &Link<S>, velocity: &Motion<S>) -> (Self, Wrench<S>) {
         let (mass, com) = (&link.mass, &link.com);
         let first = scaled(mass, com);
-        let Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        } = &link.inertia;
-        let about_centre: Block<S> =
-            [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| row.map(S::clone));
+        let about_centre: Block<S> = link.inertia.rows();
         // I + m (s̄·s̄ 1 − s̄ s̄ᵀ) = I − [m s̄]× [s̄]×
         let steiner = rows_crossed(&columns_crossed(&first, &unit()), com);
         let negated = steiner.map(|row| opposite(&row));

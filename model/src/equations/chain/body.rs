@@ -27,7 +27,7 @@ impl<S: Scalar> Body<S> {
         Body {
             mass: S::zero(),
             first: zero_vector(),
-            second: symmetric(|_, _| S::zero()),
+            second: Inertia::symmetric(|_, _| S::zero()),
         }
     }
 
@@ -37,7 +37,7 @@ impl<S: Scalar> Body<S> {
         let tensor = &link.inertia;
         let half = plus(&plus(&tensor.xx, &tensor.yy), &tensor.zz).half();
         let first = scaled(&link.mass, &link.com);
-        let second = symmetric(|i, j| {
+        let second = Inertia::symmetric(|i, j| {
             let about_centre = if i == j {
                 minus(&half, entry(tensor, i, i))
             } else {
@@ -72,7 +72,9 @@ impl<S: Scalar> Body<S> {
         Body {
             mass: plus(&self.mass, &other.mass),
             first: sum(&self.first, &other.first),
-            second: symmetric(|i, j| plus(entry(&self.second, i, j), entry(&other.second, i, j))),
+            second: Inertia::symmetric(|i, j| {
+                plus(entry(&self.second, i, j), entry(&other.second, i, j))
+            }),
         }
     }
 
@@ -81,7 +83,7 @@ impl<S: Scalar> Body<S> {
         Body {
             mass: negative(&self.mass),
             first: self.first.clone().map(|x| negative(&x)),
-            second: symmetric(|i, j| negative(entry(&self.second, i, j))),
+            second: Inertia::symmetric(|i, j| negative(entry(&self.second, i, j))),
         }
     }
 
@@ -102,7 +104,9 @@ impl<S: Scalar> Body<S> {
         Body {
             mass: self.mass.clone(),
             first: apply(rotation, &self.first),
-            second: symmetric(|i, j| crate::equations::matrix::dot(&half[i], &rotation[j])),
+            second: Inertia::symmetric(|i, j| {
+                crate::equations::matrix::dot(&half[i], &rotation[j])
+            }),
         }
     }
 
@@ -112,7 +116,7 @@ impl<S: Scalar> Body<S> {
         Body {
             mass: self.mass.clone(),
             // ∫ (r + p)(r + p)ᵀ = Σ + s pᵀ + p (s + m p)ᵀ
-            second: symmetric(|i, j| {
+            second: Inertia::symmetric(|i, j| {
                 let mixed = plus(
                     &times(&self.first[i], &offset[j]),
                     &times(&offset[i], &first[j]),
@@ -173,17 +177,5 @@ pub fn entry<S>(tensor: &Inertia<S>, i: usize, j: usize) -> &S {
         (0, 1) => &tensor.xy,
         (1, 2) => &tensor.yz,
         _ => &tensor.xz,
-    }
-}
-
-/// A symmetric tensor from its entries with i ≤ j.
-pub fn symmetric<S>(entry: impl Fn(usize, usize) -> S) -> Inertia<S> {
-    Inertia {
-        xx: entry(0, 0),
-        yy: entry(1, 1),
-        zz: entry(2, 2),
-        xy: entry(0, 1),
-        yz: entry(1, 2),
-        xz: entry(0, 2),
     }
 }
