@@ -8,12 +8,12 @@
 use std::fs;
 use std::path::Path;
 
+use dalembert_codegen::approximate::sines::within;
 use dalembert_codegen::backend::{MathPath, function};
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::scale;
-use dalembert_codegen::certify::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::certify::sines::within;
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::bound::scale;
+use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
+use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan;

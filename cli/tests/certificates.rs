@@ -6,7 +6,7 @@ mod support;
 
 use std::path::Path;
 
-use dalembert_codegen::certify::certificate::format;
+use dalembert_codegen::certificate::format;
 use support::run;
 
 /// Torques of the PUMA over the box of its file.

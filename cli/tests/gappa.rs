@@ -7,7 +7,7 @@ mod support;
 use std::fs;
 use std::process::Command;
 
-use dalembert_codegen::certify::certificate::format;
+use dalembert_codegen::certificate::format;
 use support::{robot, run, temporary};
 
 /// Exact but for rounding, in a box.

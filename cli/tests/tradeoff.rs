@@ -3,7 +3,7 @@
 
 mod support;
 
-use dalembert_codegen::certify::certificate::format::text_hash;
+use dalembert_codegen::certificate::format::text_hash;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -11,19 +11,23 @@
 //! - `function`: the functions that can be generated
 //! - `program`: straight-line code, its inputs, scalars, counts and text
 //! - `graph`: the formulas as a graph with exact constants and fingerprints
-//! - `bound`: rigorous bounds
+//! - `interval`: intervals, rounded outward
+//! - `split`: the error of emitted code by cause
 //! - `watch`: watching a long search, and ending it early
 //! - `simplify`: fewer operations, same function
 //! - `scene`: the robot in its setting: locked joints, results asked for
 //! - `trace`: the equations as a graph
 //! - `portfolio`: the formulations to start from, tuned to the robot
 //! - `schedule`: from a graph to straight-line code
-//! - `approximate`: programs with less work in them, and how far they are off
+//! - `edits`: programs with less work in them, and how far they are off
 //! - `sincos`: sine and cosine by polynomials with proved errors
 //! - `backend`: flat Rust, printed and read back
 //! - `verify`: proofs and checks
 //! - `plan`: programs kept from a long search
-//! - `certify`: bounds of what was left out and of what rounding costs
+//! - `bound`: rigorous bounds of what was left out and of what rounding costs
+//! - `certificate`: claims about emitted code, their check and their text
+//! - `falsify`: attempts to refute them
+//! - `approximate`: the lossy search
 //! - `emit`: the module of a robot: header, documentation, functions
 //! - `generate`: the one function that macro, build script and command call
 //!
@@ -38,17 +42,23 @@ pub mod backend;
 #[doc(hidden)]
 pub mod bound;
 #[doc(hidden)]
-pub mod certify;
+pub mod certificate;
 #[doc(hidden)]
 pub mod clauses;
 #[doc(hidden)]
+pub mod edits;
+#[doc(hidden)]
 pub mod emit;
+#[doc(hidden)]
+pub mod falsify;
 #[doc(hidden)]
 pub mod function;
 #[doc(hidden)]
 pub mod generate;
 #[doc(hidden)]
 pub mod graph;
+#[doc(hidden)]
+pub mod interval;
 #[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
@@ -65,6 +75,8 @@ pub mod schedule;
 pub mod simplify;
 #[doc(hidden)]
 pub mod sincos;
+#[doc(hidden)]
+pub mod split;
 #[doc(hidden)]
 pub mod states;
 #[doc(hidden)]

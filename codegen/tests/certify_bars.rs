@@ -4,12 +4,12 @@
 
 mod support;
 
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::definite::least_eigenvalue;
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::prune::{Settings, prune};
-use dalembert_codegen::certify::scale;
+use dalembert_codegen::approximate::prune::{Settings, prune};
+use dalembert_codegen::bound::definite::least_eigenvalue;
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::bound::scale;
+use dalembert_codegen::certificate::Certificate;
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;

@@ -1,15 +1,15 @@
 //! No certificate is violated, and none is much too large: pruned variants of
 //! four robots, run at corners, random states and where a climb ends. The
-//! whole campaign is in `src/certify/README.md`; this is its smaller dose.
+//! whole campaign is in `src/certificate/README.md`; this is its smaller dose.
 
 mod support;
 
-use dalembert_codegen::certify::bound::BoxEffort;
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::ErrorBudget;
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::prune::Settings;
-use dalembert_codegen::certify::sensitivity::BoundEffort;
+use dalembert_codegen::approximate::choose::ErrorBudget;
+use dalembert_codegen::approximate::prune::Settings;
+use dalembert_codegen::bound::magnitude::BoxEffort;
+use dalembert_codegen::bound::sensitivity::BoundEffort;
+use dalembert_codegen::certificate::Certificate;
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;

@@ -2,14 +2,14 @@
 
 mod support;
 
-use dalembert_codegen::approximate::edits::{Edit, EditSite, Stage, difference};
-use dalembert_codegen::approximate::text::{read_edit, write_edit};
-use dalembert_codegen::certify::bound::{BoxEffort, magnitudes};
-use dalembert_codegen::certify::certificate::{Certificate, Refuted, format};
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
-use dalembert_codegen::certify::ranges::{Finding, ranges};
+use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::bound::magnitude::{BoxEffort, magnitudes};
+use dalembert_codegen::bound::ranges::{Finding, ranges};
+use dalembert_codegen::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::edits::text::{read_edit, write_edit};
+use dalembert_codegen::edits::{Edit, EditSite, Stage, difference};
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::graph::Folding;
 use dalembert_codegen::portfolio::Start;
@@ -240,7 +240,7 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     // The whole circle, and a part of it.
     let mut part = case.limits.clone();
     for q in &mut part.position {
-        *q = dalembert_codegen::bound::interval::Interval::new(-0.5, 0.25).unwrap();
+        *q = dalembert_codegen::interval::Interval::new(-0.5, 0.25).unwrap();
     }
     let (whole, boxes) = (bound(1 << 16, &case.limits), bound(0, &case.limits));
     for i in 0..3 {
@@ -282,7 +282,7 @@ fn what_a_scalar_cannot_hold_is_found() {
     let none = ranges(&program, ScalarType::F32, &limits, 8).findings;
     assert_eq!(none, []);
     for rate in &mut limits.velocity {
-        *rate = dalembert_codegen::bound::interval::Interval::symmetric(1e25);
+        *rate = dalembert_codegen::interval::Interval::symmetric(1e25);
     }
     let overflow = ranges(&program, ScalarType::F32, &limits, 8).findings;
     assert!(matches!(overflow[0], Finding::Overflow { .. }) && overflow[0].is_error());

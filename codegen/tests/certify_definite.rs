@@ -2,21 +2,21 @@
 
 mod support;
 
-use dalembert_codegen::approximate::edits::{Edit, EditSite, Stage};
-use dalembert_codegen::certify::certificate::{Certificate, Refuted};
-use dalembert_codegen::certify::definite::{Indefinite, least_eigenvalue};
-use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
-use dalembert_codegen::certify::sample::draw;
-use dalembert_codegen::certify::scale;
+use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
+use dalembert_codegen::bound::definite::{Indefinite, least_eigenvalue};
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::bound::sample::draw;
+use dalembert_codegen::bound::scale;
+use dalembert_codegen::certificate::{Certificate, Refuted};
+use dalembert_codegen::edits::{Edit, EditSite, Stage};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::graph::Folding;
-use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
+use dalembert_codegen::plan::{Edited, Entry, Plan};
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Program, ScalarType};
 use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
 use dalembert_codegen::states::JointState;
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Options, Reading, parse};
@@ -120,7 +120,7 @@ fn a_plan_keeps_the_least_eigenvalue() {
     assert!(!admitted.stages.is_empty() && claim.lambda_min.is_some_and(|least| least > 0.0));
     let text = Plan {
         robot: robot.name.clone(),
-        input: plan::input_hash(robot),
+        input: input_hash(robot),
         entries: vec![Entry {
             start: request.start,
             scalar: claim.scalar,

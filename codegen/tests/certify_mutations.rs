@@ -7,12 +7,13 @@ mod support;
 
 use std::collections::HashMap;
 
-use dalembert_codegen::certify::certificate::{Certificate, format};
+use dalembert_codegen::certificate::{Certificate, format};
 use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::plan::{Edited, Entry, Plan, input_hash};
+use dalembert_codegen::plan::{Edited, Entry, Plan};
 use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::random::Random;
 use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::input_hash;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::JointState;
 use dalembert_codegen::verify::floating::Runtime;
@@ -197,8 +198,8 @@ fn is_true(claim: &Certificate, setting: &Setting) -> bool {
     let mut random = Random::new(7);
     let limits = &claim.limits;
     (0..400).all(|index| {
-        let mut draw = |ranges: &[dalembert_codegen::bound::interval::Interval]| {
-            let one = |x: &dalembert_codegen::bound::interval::Interval| {
+        let mut draw = |ranges: &[dalembert_codegen::interval::Interval]| {
+            let one = |x: &dalembert_codegen::interval::Interval| {
                 let at = match index % 4 {
                     0 => random.unit(),
                     _ => random.below(2) as f64,

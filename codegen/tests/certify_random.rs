@@ -3,12 +3,12 @@
 
 mod support;
 
-use dalembert_codegen::approximate::edits::Stage;
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::ErrorBudget;
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::prune::{Pruned, Settings, prune};
+use dalembert_codegen::approximate::choose::ErrorBudget;
+use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::certificate::Certificate;
+use dalembert_codegen::edits::Stage;
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Program, ScalarType};

@@ -3,16 +3,16 @@
 
 mod support;
 
+use dalembert_codegen::approximate::sines::within;
 use dalembert_codegen::backend::{MathPath, function};
-use dalembert_codegen::bound::interval::Interval;
-use dalembert_codegen::certify::certificate::{Certificate, Refuted, format};
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::input_box::InputBox;
-use dalembert_codegen::certify::scale;
-use dalembert_codegen::certify::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::certify::sines::within;
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::bound::scale;
+use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
+use dalembert_codegen::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::interval::Interval;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::kernel::Term;
 use dalembert_codegen::program::{AngleSum, Literal, Program, ScalarType};

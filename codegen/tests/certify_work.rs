@@ -4,9 +4,9 @@ mod support;
 
 use std::time::{Duration, Instant};
 
-use dalembert_codegen::certify::certificate::format;
-use dalembert_codegen::certify::certificate::{Certificate, Refuted};
-use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::certificate::format;
+use dalembert_codegen::certificate::{Certificate, Refuted};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;

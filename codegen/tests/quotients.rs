@@ -3,7 +3,7 @@
 
 mod support;
 
-use dalembert_codegen::certify::certificate::format;
+use dalembert_codegen::certificate::format;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::program::{Operand, Operation, Program};

@@ -4,9 +4,9 @@ mod support;
 
 use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::plan::{self, Entry, Plan, SceneKey};
+use dalembert_codegen::plan::{Entry, Plan};
 use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::exact::{Disproof, prove_in};
 use dalembert_codegen::verify::floating::Runtime;
@@ -290,7 +290,7 @@ fn plans_tell_scenes_apart() {
     let first = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
     let mut kept = Plan {
         robot: robot.name.clone(),
-        input: plan::input_hash(&robot),
+        input: input_hash(&robot),
         entries: Vec::new(),
     };
     kept.insert(Entry {

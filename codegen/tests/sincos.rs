@@ -3,12 +3,12 @@
 
 mod support;
 
-use dalembert_codegen::bound::Split;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::split::Split;
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;

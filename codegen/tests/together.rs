@@ -4,7 +4,7 @@
 mod support;
 
 use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::certify::certificate::{Refuted, format};
+use dalembert_codegen::certificate::{Refuted, format};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::program::Library;
@@ -92,7 +92,7 @@ fn certificates_name_the_library() {
     let alone = certificate.calling(Library::Libm);
     alone.check_in(&setting).unwrap();
     assert_eq!(alone.bounds, certificate.bounds);
-    let mixed = dalembert_codegen::certify::certificate::Certificate {
+    let mixed = dalembert_codegen::certificate::Certificate {
         text: alone.text.clone(),
         ..certificate.clone()
     };

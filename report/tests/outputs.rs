@@ -6,8 +6,9 @@ mod support;
 
 use dalembert_codegen::function::{Argument, Function, Quantity};
 use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::plan::{Entry, Plan, input_hash};
+use dalembert_codegen::plan::{Entry, Plan};
 use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::scene::input_hash;
 use dalembert_codegen::states::{JointState, SEED, STATES, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::reference::{JointVectors, Reference};

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The files of a crate by their module's path, `certify::grid`.
+/// The files of a crate by their module's path, `bound::grid`.
 pub struct Crate {
     pub name: String,
     /// The files that each file uses.

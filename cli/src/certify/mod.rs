@@ -1,13 +1,13 @@
 //! `dalembert certify`: a certificate checked again, part by part.
 
-use dalembert_codegen::bound::interval::Interval;
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::certificate::format::{self, MAX_BYTES};
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::gappa;
-use dalembert_codegen::certify::input_box::InputBox;
+use dalembert_codegen::bound::input_box::InputBox;
+use dalembert_codegen::certificate::Certificate;
+use dalembert_codegen::certificate::format::{self, MAX_BYTES};
+use dalembert_codegen::certificate::gappa;
 use dalembert_codegen::emit::figures::inside;
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::generate::GenerateError;
+use dalembert_codegen::interval::Interval;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;

@@ -2,8 +2,9 @@
 
 use dalembert_codegen::generate::early::price;
 use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
-use dalembert_codegen::plan::{self, Edited, Entry, Plan, SceneKey};
+use dalembert_codegen::plan::{Edited, Entry, Plan};
 use dalembert_codegen::program::{Program, ScalarType};
+use dalembert_codegen::scene::{SceneKey, input_hash};
 use dalembert_model::robot::Robot;
 
 /// The plan with the programs in it, and what is to be said of it. Those of
@@ -15,7 +16,7 @@ pub fn plan(
     generated: &Generated,
     kept: Option<Plan>,
 ) -> (Plan, Vec<String>) {
-    let input = plan::input_hash(robot);
+    let input = input_hash(robot);
     let mut plan = kept.filter(|plan| plan.input == input).unwrap_or(Plan {
         robot: robot.name.clone(),
         input,

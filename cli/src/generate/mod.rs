@@ -9,7 +9,7 @@ mod files;
 mod keep;
 pub mod report;
 
-use dalembert_codegen::certify::certificate::format;
+use dalembert_codegen::certificate::format;
 use dalembert_codegen::emit::Layout;
 use dalembert_codegen::generate::{GenerateError, Generated, Request};
 use dalembert_codegen::scene::Setting;

@@ -1,9 +1,9 @@
 //! What a person wants to know about generated code: counts, errors, what a
 //! tolerance admitted, proofs.
 
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::Admitted;
-use dalembert_codegen::certify::prune::omissions;
+use dalembert_codegen::approximate::choose::Admitted;
+use dalembert_codegen::approximate::prune::omissions;
+use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::emit::figures::bound_of;
 use dalembert_codegen::generate::{Generated, Request};
 use dalembert_codegen::program::Counts;

@@ -11,12 +11,12 @@ mod report;
 
 use std::path::Path;
 
-use dalembert_codegen::certify::choose::ErrorBudget;
+use dalembert_codegen::approximate::choose::ErrorBudget;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::plan::{self, Plan, SceneKey};
+use dalembert_codegen::plan::{self, Plan};
 use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};
@@ -123,7 +123,7 @@ fn identity(
     options: Options,
 ) -> String {
     let scene = scene.map(SceneKey::of);
-    let robot = plan::input_hash(&reading.robot);
+    let robot = input_hash(&reading.robot);
     format!("{robot}\n{scene:?}\n{relative_to:?}\n{options:?}\n{exact:?}")
 }
 

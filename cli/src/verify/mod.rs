@@ -8,8 +8,8 @@
 mod given;
 mod show;
 
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::falsify::{Falsification, falsify};
+use dalembert_codegen::certificate::Certificate;
+use dalembert_codegen::falsify::{Falsification, falsify};
 use dalembert_codegen::generate::{GenerateError, Generated};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::{SEED, STATES, seeded};

@@ -1,7 +1,14 @@
-//! Programs with less work in them, and how far they are off.
+//! The lossy search: the cheapest program that a tolerance admits.
 //!
-//! - [`edits`]: what was left out, and the program of its error
-//! - [`text`]: edits as plans and certificates write them
+//! - [`prune`]: the cheapest edits that a bound admits; `regrouping`: the exact
+//!   program that they leave least of
+//! - [`sines`]: polynomials for sines, as exact as a tolerance needs
+//! - [`choose`]: the cheapest variant, with its certificate
+//!
+//! Nothing here decides what is true: what comes out is claimed in a certificate,
+//! whose check knows nothing of the search.
 
-pub mod edits;
-pub mod text;
+pub mod choose;
+pub mod prune;
+mod regrouping;
+pub mod sines;

@@ -8,8 +8,8 @@ use std::fmt::Write;
 
 use super::GeneratedFunction;
 use super::variant::held;
-use crate::bound::interval::Interval;
 use crate::function::Argument;
+use crate::interval::Interval;
 use crate::program::ScalarType;
 use crate::scene::Setting;
 use crate::sincos;

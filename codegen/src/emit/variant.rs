@@ -4,14 +4,14 @@ use std::cmp::Reverse;
 
 use super::figures::{at_least, bound as up, inside};
 use super::scale;
-use crate::bound::Split;
-use crate::bound::interval::Interval;
-use crate::certify::certificate::Certificate;
-use crate::certify::choose::Admitted;
-use crate::certify::prune::{Omission, omissions};
+use crate::approximate::choose::Admitted;
+use crate::approximate::prune::{Omission, omissions};
+use crate::certificate::Certificate;
 use crate::function::Argument;
+use crate::interval::Interval;
 use crate::program::ScalarType;
 use crate::scene::Setting;
+use crate::split::Split;
 
 /// A line each: the certificate, the box, what was left out.
 pub(super) fn describe(admitted: &Admitted, setting: &Setting, scalar: ScalarType) -> Vec<String> {

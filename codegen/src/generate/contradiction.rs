@@ -5,7 +5,7 @@
 //! against the robot's own recursion in 256 bits. How far it may be off follows
 //! from its own numbers ([`running`]); with a tolerance, from its certificate.
 
-use crate::certify::certificate::Refuted;
+use crate::certificate::Refuted;
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;
 use crate::scene::Setting;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::certify::certificate::Refuted;
-use crate::certify::choose::ToleranceError;
+use crate::approximate::choose::ToleranceError;
+use crate::certificate::Refuted;
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::scene::SettingError;

@@ -21,15 +21,14 @@ pub mod tolerate;
 
 use dalembert_model::robot::Robot;
 
+pub use crate::approximate::choose::{ToleranceError, Unbounded};
 use crate::backend::read::TextError;
-pub use crate::certify::choose::{ToleranceError, Unbounded};
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::Function;
-use crate::plan;
 use crate::program::{Library, Lowered, ScalarType};
-use crate::scene::Setting;
+use crate::scene::{Setting, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
 use crate::verify::exact::prove_in;
@@ -71,7 +70,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         return Err(GenerateError::Contents);
     }
     if let Some(plan) = &request.plan
-        && plan.input != plan::input_hash(robot)
+        && plan.input != input_hash(robot)
     {
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });

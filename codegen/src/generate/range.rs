@@ -7,8 +7,8 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use super::GenerateError;
-use crate::certify::input_box::InputBox;
-use crate::certify::ranges::{Finding, ranges};
+use crate::bound::input_box::InputBox;
+use crate::bound::ranges::{Finding, ranges};
 use crate::function::Argument;
 use crate::graph::Points;
 use crate::program::{Operand, Program, ScalarType};

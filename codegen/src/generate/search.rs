@@ -6,11 +6,11 @@ use dalembert_model::number::Exact;
 use super::{GenerateError, Prefer, Request};
 use crate::function::Function;
 use crate::graph::Graph;
-use crate::plan::{self, Entry};
+use crate::plan::Entry;
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Limit, Source, Start, Sums, Variant};
 use crate::program::{Counts, Program};
-use crate::scene::Setting;
+use crate::scene::{SceneKey, Setting};
 use crate::simplify::{self, Effort, Simplified, Stage};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
@@ -36,7 +36,7 @@ pub fn replay<'r>(
     }
     match (found, scene) {
         // A program of the scene as it was is a program of another scene.
-        (Some(entry), Some(scene)) if entry.scene != Some(plan::SceneKey::of(scene)) => {
+        (Some(entry), Some(scene)) if entry.scene != Some(SceneKey::of(scene)) => {
             Err(GenerateError::StaleScene {
                 scene: scene.name.clone(),
             })

@@ -6,16 +6,17 @@
 
 use dalembert_model::scene::Tolerance;
 
-use crate::certify::certificate::Certificate;
-use crate::certify::choose::{Admitted, Claim, ErrorBudget, NoPolynomials, ToleranceError};
-use crate::certify::prune::Settings;
-use crate::certify::sensitivity::BoundEffort;
-use crate::certify::work::Meter;
+use crate::approximate::choose::{Admitted, Claim, ErrorBudget, NoPolynomials, ToleranceError};
+use crate::approximate::prune::Settings;
+use crate::bound::sensitivity::BoundEffort;
+use crate::bound::work::Meter;
+use crate::certificate::Certificate;
 use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, Request};
-use crate::plan::{Edited, SceneKey};
+use crate::plan::Edited;
 use crate::portfolio::Start;
 use crate::program::{Program, ScalarType};
+use crate::scene::SceneKey;
 use crate::scene::Setting;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;

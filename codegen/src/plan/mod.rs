@@ -17,12 +17,13 @@ pub(crate) mod write;
 
 pub use parse::PlanError;
 
-use crate::approximate::edits;
-use crate::bound::Split;
+use crate::edits;
 use crate::function::Function;
 use crate::portfolio::{Source, Start};
 use crate::program::{Program, ScalarType};
+use crate::scene::SceneKey;
 use crate::simplify::Stage;
+use crate::split::Split;
 use dalembert_model::scene::Scene;
 
 /// The programs kept for a robot.
@@ -73,26 +74,6 @@ pub struct Edited {
     pub lambda_min: Option<f64>,
 }
 
-/// Which scene an entry is for. The hash of a plan is the robot's alone, so
-/// that a scene can be added; an edited scene shows in its own.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SceneKey {
-    /// Its name.
-    pub name: String,
-    /// Its [`short_hash`](Scene::short_hash).
-    pub hash: String,
-}
-
-impl SceneKey {
-    /// Of a scene.
-    pub fn of(scene: &Scene) -> SceneKey {
-        SceneKey {
-            name: scene.name.clone(),
-            hash: scene.short_hash(),
-        }
-    }
-}
-
 /// What tells the entries of a plan apart.
 type Key<'e> = (Option<&'e str>, Function, &'static str, ScalarType);
 
@@ -124,10 +105,4 @@ impl Plan {
         self.entries.push(entry);
         self.entries.sort_by(|a, b| a.key().cmp(&b.key()));
     }
-}
-
-/// The hash of a robot as plans write it.
-pub fn input_hash(robot: &dalembert_model::robot::Robot) -> String {
-    let hash = robot.input_hash();
-    hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -6,11 +6,12 @@ use std::fmt;
 use dalembert_model::robot::Robot;
 
 use super::variant::Variant;
-use super::{Entry, Plan, SceneKey};
+use super::{Entry, Plan};
 use crate::function::Function;
 use crate::portfolio::{Source, Start};
 use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
+use crate::scene::SceneKey;
 use crate::simplify::Stage;
 
 /// What is wrong with a plan's text.

@@ -3,11 +3,11 @@
 //! that of D's least eigenvalue where D was edited.
 
 use super::{Edited, Entry};
-use crate::approximate::edits::{Edit, Stage, has_edits};
-use crate::approximate::text::read_edit;
-use crate::bound::Split;
+use crate::edits::text::read_edit;
+use crate::edits::{Edit, Stage, has_edits};
 use crate::program::text::{read_results, read_step, without_quotient};
 use crate::program::{Program, has_inertia};
+use crate::split::Split;
 
 /// A variant that is being read.
 pub(super) struct Variant {

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::{Edited, Plan};
-use crate::approximate::text::write_edit;
-use crate::bound::Split;
+use crate::edits::text::write_edit;
 use crate::program::text::write_steps;
+use crate::split::Split;
 
 impl Plan {
     /// The text; [`Plan::parse`] reads it back.

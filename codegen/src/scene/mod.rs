@@ -16,6 +16,7 @@
 //! entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
+mod key;
 mod motion;
 
 use std::fmt;
@@ -27,6 +28,7 @@ use dalembert_model::robot::{Position, Robot, Severity};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
+pub use key::{SceneKey, input_hash};
 pub use motion::motion;
 
 use crate::function::{Argument, Function, Quantity};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::forms::{Centre, Form, Need};
 use super::proof::{Errors, prove};
 use super::series::{FARTHEST, Fit};
-use crate::bound::interval::Interval;
+use crate::interval::Interval;
 use crate::program::ScalarType;
 use crate::program::kernel::Kernel;
 use crate::sincos::reduction;

@@ -21,7 +21,7 @@ mod tests;
 
 use std::fmt;
 
-use crate::bound::interval::Interval;
+use crate::interval::Interval;
 use crate::program::kernel::Kernel;
 use crate::program::{AngleSum, Library, Program, ScalarType, Trig};
 use choose::Candidates;

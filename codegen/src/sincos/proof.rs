@@ -9,7 +9,7 @@
 //! **Rounding.** Every operation gives (x ∘ y)(1 + δ) + η. The error of a
 //! result is exactly Σ r_step·ā_step with adjoints ā that mix computed and
 //! exact operands; both are in the intervals here (see
-//! [`crate::certify::sensitivity`]), so the sum over sub-ranges bounds it.
+//! [`crate::bound::sensitivity`]), so the sum over sub-ranges bounds it.
 //!
 //! **Reduction.** Where whole turns are taken off first, both hold for what
 //! is left of the angle, and a sine moves no more than its angle.
@@ -20,7 +20,7 @@ use num_traits::One;
 use super::poly::Poly;
 use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
-use crate::bound::interval::Interval;
+use crate::interval::Interval;
 use crate::program::kernel::{Kernel, Term, Value};
 use crate::program::scalar_type::underflow;
 use crate::program::{Operation, ScalarType};

@@ -6,7 +6,7 @@
 
 use dalembert_model::number::{Angle, Rational, Rounded};
 
-use crate::bound::interval::Interval;
+use crate::interval::Interval;
 use crate::program::kernel::{ANGLE, Kernel, KernelStep, Term, literal};
 use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operand, Operation, ScalarType};

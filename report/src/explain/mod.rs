@@ -19,10 +19,9 @@ use crate::couplings::Couplings;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, tolerate};
 use dalembert_codegen::graph::Graph;
-use dalembert_codegen::plan;
 use dalembert_codegen::portfolio;
 use dalembert_codegen::program::Program;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::{Setting, input_hash};
 use dalembert_codegen::trace::trace_in;
 use merged::Merged;
 use parameters::Parameters;
@@ -76,7 +75,7 @@ pub fn explain(
 /// Those of [`generate`](dalembert_codegen::generate::generate).
 pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
     if let Some(plan) = &request.plan
-        && plan.input != plan::input_hash(robot)
+        && plan.input != input_hash(robot)
     {
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });

@@ -3,11 +3,11 @@
 //! From the largest tolerance down: where nothing more can be left out, less
 //! tolerance leaves out nothing either, and no search is needed.
 
-use dalembert_codegen::certify::certificate::Certificate;
-use dalembert_codegen::certify::choose::{Admitted, ErrorBudget};
-use dalembert_codegen::certify::falsify::falsify;
-use dalembert_codegen::certify::prune::Settings;
-use dalembert_codegen::certify::sensitivity::BoundEffort;
+use dalembert_codegen::approximate::choose::{Admitted, ErrorBudget};
+use dalembert_codegen::approximate::prune::Settings;
+use dalembert_codegen::bound::sensitivity::BoundEffort;
+use dalembert_codegen::certificate::Certificate;
+use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::simplify::Effort;
 

@@ -11,7 +11,7 @@ pub mod rungs;
 
 use std::fmt;
 
-use dalembert_codegen::certify::certificate::Certificate;
+use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::program::{Counts, ScalarType};
 use dalembert_codegen::sincos;
 

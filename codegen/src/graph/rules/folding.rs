@@ -1,5 +1,5 @@
 //! What the builder folds while a graph grows: the left side never becomes a
-//! node of its own. [`prune::price`](crate::certify::prune) applies the same
+//! node of its own. [`prune::price`](crate::approximate::prune) applies the same
 //! rules to an edited program without building it.
 //!
 //! The builder's code is the fast form of these tables; the tests hold it

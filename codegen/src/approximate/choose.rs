@@ -1,0 +1,515 @@
+//! Choosing: the cheapest variant of a function that a tolerance admits.
+//!
+//! What rounding and sines cost is set aside first, twice over, since the
+//! program that is left is another one; [`prune`] may use the rest. What comes
+//! out is certified as a whole, and only that decides: as long as E is above
+//! the tolerance, more is set aside, and in the end nothing is left out.
+
+use std::cell::RefCell;
+use std::fmt;
+use std::rc::Rc;
+
+use dalembert_model::scene::{Scale, Tolerance};
+
+use crate::approximate::prune::{self, Settings};
+use crate::approximate::regrouping;
+use crate::approximate::sines;
+use crate::bound::definite::{Indefinite, least_eigenvalue};
+use crate::bound::input_box::{InputBox, MissingLimit};
+use crate::bound::scale;
+use crate::bound::sensitivity::BoundEffort;
+use crate::bound::sensitivity::Sensitivity;
+use crate::bound::turns::sine_positions;
+use crate::bound::work::Meter;
+use crate::certificate::subject::Subject;
+use crate::certificate::{Certificate, Refuted};
+use crate::edits::{Stage, has_edits};
+use crate::function::{Argument, Function};
+use crate::program::{Program, ScalarType, has_inertia};
+use crate::scene::Setting;
+use crate::sincos::TooAccurate;
+use crate::split::Split;
+use crate::watch::{FunctionWatch, Part};
+
+/// What errors of a function are bounded in and relative to.
+#[derive(Clone, Debug)]
+pub struct ErrorBudget<'a> {
+    /// The full model.
+    pub setting: &'a Setting,
+    /// The exact program.
+    pub exact: &'a Program,
+    /// Where bounds hold.
+    pub limits: InputBox,
+    /// T of each output.
+    pub scales: Vec<f64>,
+    /// What T is.
+    pub relative_to: Scale,
+    /// Who waits, if anybody does.
+    watch: Option<FunctionWatch<'a>>,
+    /// Of the programs asked for last.
+    sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
+}
+
+/// The exact program's sensitivity and a variant's or two.
+const KEPT: usize = 3;
+
+/// A variant that meets its tolerance.
+#[derive(Clone, Debug)]
+pub struct Admitted {
+    /// What was edited, program after program; none if nothing was.
+    pub stages: Vec<Stage>,
+    /// The program to emit.
+    pub program: Program,
+    /// One a scalar, as they were asked for.
+    pub certificates: Vec<Certificate>,
+    /// What is claimed of each with libm's sines, which plans keep.
+    pub libm: Vec<Claim>,
+}
+
+/// What is claimed of a variant in a scalar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// The scalar.
+    pub scalar: ScalarType,
+    /// E of each output.
+    pub bounds: Vec<Split>,
+    /// [`Certificate::lambda_min`].
+    pub lambda_min: Option<f64>,
+}
+
+/// Why no variant meets a tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToleranceError {
+    /// Errors of such a function have no bound.
+    Function(Unbounded),
+    /// A limit that a bound needs.
+    Missing(MissingLimit),
+    /// The actuators are no measure of its outputs.
+    Scale(scale::NoScale),
+    /// The full model's D cannot be shown to be positive definite.
+    Indefinite(Indefinite),
+    /// It would take more work than may be done.
+    Work {
+        /// Units of work that were allowed.
+        limit: u64,
+        /// The scene's name.
+        scene: String,
+    },
+    /// Already what sines and rounding cost cannot be shown to be less.
+    Above {
+        /// The output's name.
+        entry: String,
+        /// In which scalar.
+        scalar: ScalarType,
+        /// The output's tolerance.
+        tolerance: f64,
+        /// What can be shown of the exact program.
+        bound: Split,
+    },
+}
+
+/// Why errors of a function have no bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unbounded {
+    /// It reads an argument that no box bounds.
+    Reads(Argument),
+    /// Its program divides.
+    Divides,
+}
+
+impl Unbounded {
+    /// What a function is, whatever its program.
+    pub fn of(function: Function) -> Option<Unbounded> {
+        let mut arguments = function.arguments().into_iter();
+        let other = arguments.find(|argument| !Argument::STATE.contains(argument));
+        match function.inverts_inertia() {
+            true => Some(Unbounded::Divides),
+            false => other.map(Unbounded::Reads),
+        }
+    }
+
+    fn find(program: &Program) -> Option<Unbounded> {
+        let divides = program.divides().then_some(Unbounded::Divides);
+        divides.or_else(|| Unbounded::of(program.function))
+    }
+}
+
+impl fmt::Display for Unbounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unbounded::Divides => f.write_str("it divides by what depends on the state")?,
+            Unbounded::Reads(argument) => {
+                write!(f, "no box bounds its argument `{}`", argument.name())?;
+            }
+        }
+        f.write_str(
+            ", so its errors have no certified bound; what has one is what it is made of: give \
+             the tolerance to `inverse_dynamics`, or to `manipulator_equation` for D, h and c",
+        )
+    }
+}
+
+impl fmt::Display for ToleranceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ToleranceError::Function(why) => why.fmt(f),
+            ToleranceError::Missing(missing) => missing.fmt(f),
+            ToleranceError::Scale(why) => why.fmt(f),
+            ToleranceError::Work { limit, scene } => write!(
+                f,
+                "what the tolerance allows was not found within {limit} units of work, about as \
+                 much as may be done while a compiler waits: run `dalembert generate ROBOT.toml \
+                 --scene {scene} --effort thorough --save-plan` once; with its plan nothing is \
+                 searched for"
+            ),
+            ToleranceError::Indefinite(why) => write!(f, "the full model: {why}"),
+            ToleranceError::Above {
+                entry,
+                scalar,
+                tolerance,
+                bound,
+            } => write!(
+                f,
+                "no variant in {scalar} can be certified to keep {entry} within {tolerance:.1e}: with nothing \
+                 left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
+                 allow more{}",
+                bound.rounding,
+                bound.sincos,
+                match scalar {
+                    ScalarType::F32 => ", or choose a wider scalar",
+                    ScalarType::F64 => "",
+                }
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ToleranceError {}
+
+/// Why a variant gets no polynomials for its sines.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoPolynomials {
+    /// None is as exact as what is left of the tolerance.
+    TooAccurate(TooAccurate),
+    /// Their errors with those of the rest are too much.
+    Above(ToleranceError),
+    /// D with their errors cannot be shown to be positive definite.
+    Indefinite,
+}
+
+impl fmt::Display for NoPolynomials {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoPolynomials::TooAccurate(why) => why.fmt(f),
+            NoPolynomials::Above(why) => why.fmt(f),
+            NoPolynomials::Indefinite => {
+                f.write_str("with their errors D cannot be shown to be positive definite")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoPolynomials {}
+
+impl<'a> ErrorBudget<'a> {
+    /// The box of a setting, and T over it.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Missing`] limits, or a program that cannot be read back.
+    pub fn new(
+        setting: &'a Setting,
+        exact: &'a Program,
+        relative_to: Scale,
+    ) -> Result<ErrorBudget<'a>, ToleranceError> {
+        Unbounded::find(exact).map_or(Ok(()), |why| Err(ToleranceError::Function(why)))?;
+        let limits = InputBox::within(setting, exact.function).map_err(ToleranceError::Missing)?;
+        let scales = match relative_to {
+            Scale::Actuator => {
+                scale::actuator(setting.robot(), exact).map_err(ToleranceError::Scale)?
+            }
+            Scale::Range => scale::range(exact, &limits),
+        };
+        Ok(ErrorBudget {
+            setting,
+            exact,
+            limits,
+            scales,
+            relative_to,
+            watch: None,
+            sensitivities: RefCell::default(),
+        })
+    }
+
+    /// The same under a watch: where it is over, a search ends with its best.
+    pub fn watched(self, watch: FunctionWatch<'a>) -> ErrorBudget<'a> {
+        ErrorBudget {
+            watch: Some(watch),
+            ..self
+        }
+    }
+
+    /// The tolerance of each output.
+    pub fn tolerances(&self, tolerance: &Tolerance) -> Vec<f64> {
+        scale::tolerances(self.exact, tolerance)
+    }
+
+    /// What bounds of a program's rounding need: found once for the scalars, the
+    /// sines and the tolerances of the same program.
+    fn sensitivity(&self, program: &Program, fineness: BoundEffort) -> Rc<Sensitivity> {
+        let mut known = self.sensitivities.borrow_mut();
+        let found = known
+            .iter()
+            .position(|s| s.is_of(program, &self.limits, fineness));
+        let found = match found {
+            Some(index) => known.remove(index),
+            None => Rc::new(Sensitivity::of(program, &self.limits, fineness)),
+        };
+        known.truncate(KEPT - 1);
+        known.insert(0, found.clone());
+        found
+    }
+
+    /// What is claimed of a variant.
+    fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
+        Subject {
+            setting: self.setting,
+            stages,
+            emitted,
+            limits: &self.limits,
+            scales: &self.scales,
+            relative_to: Some(self.relative_to),
+            sines: &[],
+        }
+    }
+
+    /// The exact program's certificates, whatever they come to.
+    pub fn unedited(&self, scalars: &[ScalarType], fineness: BoundEffort) -> Admitted {
+        self.certified(&[], self.exact, scalars, fineness)
+    }
+
+    fn certified(
+        &self,
+        stages: &[Stage],
+        emitted: &Program,
+        scalars: &[ScalarType],
+        fineness: BoundEffort,
+    ) -> Admitted {
+        // What the scalars share, then each of them.
+        let tell = |done| {
+            if let Some(watch) = self.watch {
+                let rounds = [done, 1 + scalars.len()];
+                watch.step(Part::Bounds, rounds, Some(emitted.counts()));
+            }
+        };
+        tell(0);
+        let subject = self.subject(stages, emitted);
+        let model = subject.model(fineness);
+        let sensitivity = self.sensitivity(emitted, fineness);
+        let certificate = |(index, &scalar)| {
+            tell(1 + index);
+            Certificate {
+                lambda_min: subject.least_eigenvalue(scalar),
+                ..subject.claim(scalar, subject.bounds(scalar, &model, &sensitivity))
+            }
+        };
+        let certificates = scalars.iter().enumerate().map(certificate);
+        Admitted::of(stages, emitted, certificates.collect())
+    }
+
+    /// The variant of a plan, with its claims: program and edits are proved to
+    /// belong together, bounds are not found anew.
+    ///
+    /// # Errors
+    /// What [`Certificate::check_in`] would find.
+    pub fn replayed(
+        &self,
+        stages: &[Stage],
+        emitted: &Program,
+        claims: &[Claim],
+    ) -> Result<Admitted, Refuted> {
+        let first = stages.first().map_or(emitted, |stage| &stage.program);
+        if first != self.exact {
+            return Err(Refuted::Step(0));
+        }
+        let subject = self.subject(stages, emitted);
+        let mut certificates = Vec::new();
+        for claim in claims {
+            let certificate = Certificate {
+                lambda_min: claim.lambda_min,
+                ..subject.claim(claim.scalar, claim.bounds.clone())
+            };
+            certificate.check_programs(self.setting)?;
+            certificates.push(certificate);
+        }
+        Ok(Admitted::of(stages, emitted, certificates))
+    }
+
+    /// The cheapest variant found of which every output in every scalar is
+    /// certified to stay within its tolerance.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Above`] if the exact program is not.
+    pub fn choose(
+        &self,
+        tolerances: &[f64],
+        scalars: &[ScalarType],
+        settings: &Settings,
+        fineness: BoundEffort,
+    ) -> Result<Admitted, ToleranceError> {
+        let meter = Meter::new(settings.work);
+        let spent = || match settings.work {
+            Some(limit) if meter.is_over() => Err(ToleranceError::Work {
+                limit,
+                scene: (self.setting.scene()).map_or(String::new(), |scene| scene.name.clone()),
+            }),
+            _ => Ok(()),
+        };
+        let unedited = self.unedited(scalars, fineness);
+        unedited.within(tolerances)?;
+        spent()?;
+        let mut start: Option<Option<Program>> = None;
+        for aside in [2.0, 8.0] {
+            let Some(allowances) = self.allowances(tolerances, scalars, aside, fineness) else {
+                break;
+            };
+            let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
+            let start = start.get_or_insert_with(|| {
+                regrouping::descend(self.setting, exact, limits, &allowances, settings, watch)
+            });
+            let start = start.as_ref();
+            let pruned = prune::watched(exact, start, limits, &allowances, settings, watch);
+            spent()?;
+            if pruned.stages.is_empty() {
+                break;
+            }
+            let variant = self.certified(&pruned.stages, &pruned.program, scalars, fineness);
+            if variant.within(tolerances).is_ok() && variant.is_definite() {
+                return Ok(variant);
+            }
+            if watch.is_some_and(|watch| watch.is_over()) {
+                break;
+            }
+        }
+        if has_inertia(self.exact) {
+            // Nothing may go. Is that the model's own fault?
+            for &scalar in scalars {
+                least_eigenvalue(self.exact, scalar, &self.limits)
+                    .map_err(ToleranceError::Indefinite)?;
+            }
+        }
+        Ok(unedited)
+    }
+
+    /// A variant with polynomials for its sines: the cheapest that what edits
+    /// and rounding leave of the tolerances admits; as it is if it has no sines.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub fn with_polynomials(
+        &self,
+        certificate: &Certificate,
+        tolerances: &[f64],
+        fineness: BoundEffort,
+    ) -> Result<Certificate, NoPolynomials> {
+        let Certificate {
+            emitted, scalar, ..
+        } = certificate;
+        if emitted.trig.is_empty() {
+            return Ok(certificate.clone());
+        }
+        // The values that rounding is bounded with change a little.
+        let left = certificate.bounds.iter().zip(tolerances);
+        let left = left.map(|(bound, t)| (t - bound.model - 1.01 * bound.rounding) * (1.0 - 1e-9));
+        let allowances: Vec<f64> = left
+            .zip(&self.scales)
+            .map(|(left, scale)| (left * scale).max(0.0))
+            .collect();
+        let sensitivity = self.sensitivity(emitted, fineness);
+        let positions = sine_positions(self.setting.robot(), emitted, *scalar, &self.limits);
+        // A tolerance may admit more than D bears.
+        for part in [1.0, 0.1, 0.01] {
+            let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
+            let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity);
+            let sines = sines.map_err(NoPolynomials::TooAccurate)?;
+            let found = certificate.with_sines(self.setting, &sines, &sensitivity);
+            within(&found, tolerances).map_err(NoPolynomials::Above)?;
+            if found.lambda_min.is_some() || !has_inertia(emitted) {
+                return Ok(found);
+            }
+        }
+        Err(NoPolynomials::Indefinite)
+    }
+
+    /// What is left for edits, in each output's unit; `None` if that is
+    /// nothing.
+    fn allowances(
+        &self,
+        tolerances: &[f64],
+        scalars: &[ScalarType],
+        aside: f64,
+        fineness: BoundEffort,
+    ) -> Option<Vec<f64>> {
+        let pairs = self.scales.iter().zip(tolerances);
+        let whole: Vec<f64> = pairs.map(|(scale, t)| scale * t).collect();
+        let mut allowances = whole.clone();
+        let sensitivity = self.sensitivity(self.exact, fineness);
+        for &scalar in scalars {
+            let costs = sensitivity.rounding(scalar, &[]);
+            for ((left, whole), cost) in allowances.iter_mut().zip(&whole).zip(&costs) {
+                let rest = whole - aside * (cost.arithmetic + cost.sincos);
+                *left = left.min(rest).max(0.0);
+            }
+        }
+        let some = allowances.iter().any(|&left| left > 0.0);
+        some.then_some(allowances)
+    }
+}
+
+impl Admitted {
+    fn of(stages: &[Stage], emitted: &Program, certificates: Vec<Certificate>) -> Admitted {
+        let claim = |certificate: &Certificate| Claim {
+            scalar: certificate.scalar,
+            bounds: certificate.bounds.clone(),
+            lambda_min: certificate.lambda_min,
+        };
+        Admitted {
+            stages: stages.to_vec(),
+            program: emitted.clone(),
+            libm: certificates.iter().map(claim).collect(),
+            certificates,
+        }
+    }
+
+    /// Whether D, if it is an output and was edited, is positive definite.
+    pub fn is_definite(&self) -> bool {
+        let certain = |certificate: &Certificate| certificate.lambda_min.is_some();
+        !has_edits(&self.stages)
+            || !has_inertia(&self.program)
+            || self.certificates.iter().all(certain)
+    }
+
+    /// Whether every E is within its output's tolerance.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Above`] with the first that is not.
+    pub fn within(&self, tolerances: &[f64]) -> Result<(), ToleranceError> {
+        self.certificates
+            .iter()
+            .try_for_each(|c| within(c, tolerances))
+    }
+}
+
+fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), ToleranceError> {
+    let mut pairs = certificate.bounds.iter().zip(tolerances);
+    // No number is within nothing.
+    let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
+    match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
+        None => Ok(()),
+        Some(index) => Err(ToleranceError::Above {
+            entry: certificate.emitted.entry(index),
+            scalar: certificate.scalar,
+            tolerance: tolerances[index],
+            bound: certificate.bounds[index],
+        }),
+    }
+}

@@ -1,0 +1,92 @@
+//! What may stand in a value's place.
+
+use crate::approximate::prune::columns::{Nodes, Value};
+use crate::approximate::prune::fit::dot;
+use crate::approximate::prune::motions::Motions;
+use crate::program::Operation;
+
+/// Zero, the middle of its values, and for a sum one of its operands.
+pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Value> {
+    let m = nodes.samples;
+    let mut values = vec![Value::Known(0.0)];
+    let column = &columns[node * m..][..m];
+    let (low, high) = column
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| {
+            (l.min(x), h.max(x))
+        });
+    let mid = 0.5 * (low + high);
+    if mid.abs() > 0.2 * (high - low) {
+        // Few bits: a literal that can be read.
+        values.push(Value::Known(f64::from(mid as f32)));
+    }
+    if let Some(index) = node.checked_sub(nodes.inputs.len()) {
+        let op = nodes.ops[index];
+        if op.operation != Operation::Mul {
+            values.push(op.left);
+            values.push(match (op.operation, op.right) {
+                (Operation::Sub, Value::Node(right, _)) => Value::Node(right, true),
+                (Operation::Sub, Value::Known(c)) => Value::Known(-c),
+                (_, right) => right,
+            });
+        }
+    }
+    values
+}
+
+/// Correlations below this are not worth a trial.
+const LEAST: f64 = 0.5;
+
+/// Values that run alike: a place can take another value whose own work is
+/// done anyway, constants that scale it are corrected.
+pub(super) struct Alike {
+    /// Monomials of each live value at the samples, of length one.
+    directions: Vec<Option<Vec<f64>>>,
+    most: usize,
+}
+
+impl Alike {
+    pub(super) fn new(
+        nodes: &Nodes,
+        columns: &[f64],
+        live: &[bool],
+        motions: &Motions,
+        most: usize,
+    ) -> Alike {
+        let m = nodes.samples;
+        let direction = |node: usize| {
+            let mut column = columns[node * m..][..m].to_vec();
+            motions.monomials(&mut column);
+            let size = dot(&column, &column).sqrt();
+            column.iter_mut().for_each(|x| *x /= size);
+            (size > 0.0).then_some(column)
+        };
+        let directions = (0..nodes.len()).map(|node| match most > 0 && live[node] {
+            true => direction(node),
+            false => None,
+        });
+        Alike {
+            directions: directions.collect(),
+            most,
+        }
+    }
+
+    /// The values computed before a node that run most like it, the most
+    /// alike first.
+    pub(super) fn of(&self, node: usize) -> Vec<Value> {
+        let Some(mine) = &self.directions[node] else {
+            return Vec::new();
+        };
+        let before = self.directions[..node].iter().enumerate();
+        let mut alike: Vec<(f64, Value)> = before
+            .filter_map(|(other, theirs)| {
+                let cosine = dot(mine, theirs.as_ref()?);
+                let value = Value::Node(other as u32, cosine < 0.0);
+                (cosine.abs() > LEAST).then_some((cosine.abs(), value))
+            })
+            .collect();
+        alike.sort_by(|a, b| b.0.total_cmp(&a.0));
+        alike.truncate(self.most);
+        alike.into_iter().map(|(_, value)| value).collect()
+    }
+}

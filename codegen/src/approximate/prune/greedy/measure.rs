@@ -1,0 +1,117 @@
+//! How large errors are at the samples, and how large once constants are
+//! corrected.
+
+use super::{Greedy, State, TINY};
+use crate::approximate::prune::columns::Nodes;
+use crate::approximate::prune::fit::{Fit, Trial};
+use crate::bound::work;
+
+/// Errors of a variant at states that take about a unit of work, with the run
+/// that they are from.
+const MEASURED: usize = 8;
+
+/// How large errors are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Potential {
+    /// Σ price·error/allowance.
+    pub sum: f64,
+    /// The worst error/allowance.
+    pub worst: f64,
+}
+
+/// An edited program whose constants are to be corrected.
+pub(super) struct Attempt {
+    pub potential: Potential,
+    trial: Option<Trial>,
+}
+
+impl Greedy<'_> {
+    /// The worst sampled error of each output against its allowance.
+    pub(in crate::approximate::prune) fn relative(&self, state: &State) -> Vec<f64> {
+        let errors = self.errors(&state.nodes, &state.nodes.run(&state.edits));
+        let outputs = errors
+            .chunks_exact(state.nodes.samples)
+            .zip(&self.allowances);
+        outputs
+            .map(|(errors, allowance)| {
+                let blocks = errors.chunks_exact(self.motions.len());
+                let most = blocks.fold(0.0, |e, block| f64::max(e, self.motions.largest(block)));
+                (most / allowance.max(TINY)).min(4.0)
+            })
+            .collect()
+    }
+
+    /// The potential after constants are corrected.
+    pub(super) fn settled(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Potential {
+        let mut attempts = [self.attempt(state, columns, fit)];
+        self.make_up(fit, &mut attempts);
+        attempts[0].potential
+    }
+
+    /// What is to be settled: the program that was priced last.
+    pub(super) fn attempt(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Attempt {
+        let mut errors = self.errors(&state.nodes, columns);
+        let potential = self.potential(&errors);
+        let trial = fit.as_ref().map(|fit| {
+            for (error, weight) in errors.iter_mut().zip(&self.weights) {
+                *error *= weight;
+            }
+            let live = self.scratch.live();
+            let inputs = state.nodes.inputs.len();
+            Trial {
+                errors,
+                gone: fit.of_ops(|op| !live[inputs + op]),
+            }
+        });
+        Attempt { potential, trial }
+    }
+
+    /// Corrects constants where that is better.
+    pub(super) fn make_up(&self, fit: &Option<Fit>, attempts: &mut [Attempt]) {
+        let Some(fit) = fit else { return };
+        let mut trials: Vec<&mut Trial> = attempts.iter_mut().flat_map(|a| &mut a.trial).collect();
+        fit.settle(&mut trials);
+        for Attempt { potential, trial } in attempts {
+            let Some(Trial { errors, .. }) = trial else {
+                continue;
+            };
+            for (error, weight) in errors.iter_mut().zip(&self.weights) {
+                *error /= weight;
+            }
+            let settled = self.potential(errors);
+            if settled.worst <= potential.worst {
+                *potential = settled;
+            }
+        }
+    }
+
+    /// Output after output, position after position: monomials.
+    pub(super) fn errors(&self, nodes: &Nodes, columns: &[f64]) -> Vec<f64> {
+        let mut errors = nodes.values(columns);
+        for (error, truth) in errors.iter_mut().zip(self.truth) {
+            *error -= truth;
+        }
+        self.motions.monomials(&mut errors);
+        errors
+    }
+
+    /// How large errors are, against allowances.
+    pub(super) fn potential(&self, errors: &[f64]) -> Potential {
+        work::count(1 + errors.len() / MEASURED);
+        let m = errors.len() / self.allowances.len();
+        let (mut sum, mut worst) = (0.0, 0.0f64);
+        let outputs = self.allowances.iter().zip(&self.prices);
+        for (errors, (allowance, price)) in errors.chunks_exact(m).zip(outputs) {
+            let blocks = errors.chunks_exact(self.motions.len());
+            let error = blocks.fold(0.0f64, |e, block| e.max(self.motions.largest(block)));
+            let relative = if error <= 1e-13 {
+                0.0
+            } else {
+                error / allowance
+            };
+            sum += price * relative;
+            worst = worst.max(relative);
+        }
+        Potential { sum, worst }
+    }
+}

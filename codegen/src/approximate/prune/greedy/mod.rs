@@ -1,0 +1,197 @@
+//! Dropping by rank: the least error an operation saved goes first.
+//!
+//! - this file: what goes, one by one
+//! - `candidates`: what may stand in a value's place; `rank`: which is best
+//! - `measure`: errors at the samples; `polish`: constants against them
+
+mod candidates;
+mod measure;
+mod polish;
+mod rank;
+
+use super::Settings;
+use super::columns::{Nodes, Value};
+use super::motions::Motions;
+use super::price::{Scratch, price};
+use crate::edits::Edit;
+use crate::random::Random;
+
+/// A program with its edits and its constants as they are now.
+#[derive(Clone)]
+pub(super) struct State {
+    pub nodes: Nodes,
+    pub edits: Vec<Option<Value>>,
+}
+
+/// A search at sampled states.
+pub(super) struct Greedy<'a> {
+    motions: &'a Motions,
+    /// The full model's outputs, output after output.
+    truth: &'a [f64],
+    /// The largest admissible error of each output.
+    allowances: Vec<f64>,
+    /// Of the least squares, row by row: 1/allowance, and more where errors
+    /// are largest.
+    weights: Vec<f64>,
+    /// Of each output at each position.
+    levels: Vec<f64>,
+    scratch: Scratch,
+    trial: Vec<f64>,
+    dirty: Vec<bool>,
+    /// What cannot stand in each node's place.
+    hopeless: Vec<Vec<Value>>,
+    /// What an output's error weighs in the ranking.
+    prices: Vec<f64>,
+    /// Whether constants are corrected.
+    refit: bool,
+    /// How many other values are tried in a value's place.
+    alike: usize,
+}
+
+/// A candidate and how it ranked.
+#[derive(Clone, Copy)]
+struct Ranked {
+    node: usize,
+    value: Value,
+    score: f64,
+}
+
+/// The candidates that are ranked again before one is taken.
+const RANKED_AGAIN: usize = 24;
+
+/// In place of an allowance of zero, where nothing may go.
+const TINY: f64 = 1e-12;
+
+/// How many are taken before all are ranked again.
+const FRESH: usize = 10;
+
+impl<'a> Greedy<'a> {
+    pub(super) fn new(
+        nodes: &Nodes,
+        motions: &'a Motions,
+        truth: &'a [f64],
+        allowances: Vec<f64>,
+        prices: Vec<f64>,
+        settings: &Settings,
+    ) -> Self {
+        let m = nodes.samples;
+        let weights: Vec<f64> = allowances
+            .iter()
+            .flat_map(|a| vec![1.0 / a.max(TINY); m])
+            .collect();
+        Greedy {
+            motions,
+            truth,
+            allowances,
+            levels: vec![1.0; weights.len() / motions.len()],
+            weights,
+            scratch: Scratch::default(),
+            trial: vec![0.0; nodes.len() * m],
+            dirty: Vec::new(),
+            hopeless: vec![Vec::new(); nodes.len()],
+            prices,
+            refit: settings.refit,
+            alike: settings.alike,
+        }
+    }
+
+    pub(super) fn price(&mut self, state: &State) -> u32 {
+        price(&state.nodes, &state.edits, &mut self.scratch)
+    }
+
+    /// Edits until nothing admissible saves anything. `noise` blurs the
+    /// ranking.
+    pub(super) fn drop_all(&mut self, state: &mut State, noise: f64, random: &mut Random) {
+        let mut columns = state.nodes.run(&state.edits);
+        let mut fit = self.fit(state, &columns);
+        let mut refused = vec![false; state.nodes.len()];
+        loop {
+            let mut ranked = self.rank_all(state, &columns, &fit, &refused, noise, random);
+            if ranked.is_empty() {
+                return;
+            }
+            ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
+            let mut taken = 0;
+            while taken < FRESH {
+                self.mirror(&columns);
+                let before = self.settled(state, &columns, &fit).sum;
+                let paid = self.price(state);
+                let live = self.scratch.live().to_vec();
+                ranked
+                    .retain(|c| state.edits[c.node].is_none() && live[c.node] && !refused[c.node]);
+                let count = RANKED_AGAIN.min(ranked.len());
+                let first = &mut ranked[..count];
+                let again: Vec<_> = first.iter().map(|c| (c.node, c.value)).collect();
+                let scores = self.scores(state, &columns, &fit, &again, (before, paid));
+                let mut best: Option<Ranked> = None;
+                for (candidate, score) in first.iter_mut().zip(scores) {
+                    candidate.score =
+                        score.unwrap_or(f64::INFINITY) * (1.0 + noise * random.unit());
+                    if candidate.score < best.map_or(f64::INFINITY, |best| best.score) {
+                        best = Some(*candidate);
+                    }
+                }
+                let Some(Ranked { node, value, .. }) = best else {
+                    break;
+                };
+                let kept = state.nodes.ops.clone();
+                state.edits[node] = Some(value);
+                let edited = state.nodes.run(&state.edits);
+                let fresh = self.fit(state, &edited);
+                columns = self.correct(state, edited, &fresh);
+                if self.potential(&self.errors(&state.nodes, &columns)).worst > 1.0 {
+                    // Constants cannot make up for it as hoped.
+                    state.edits[node] = None;
+                    state.nodes.ops = kept;
+                    columns = state.nodes.run(&state.edits);
+                    refused[node] = true;
+                } else {
+                    fit = fresh;
+                }
+                taken += 1;
+                ranked.retain(|c| c.score.is_finite());
+                ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
+            }
+            if taken == 0 {
+                return;
+            }
+        }
+    }
+
+    /// Takes back what saves nothing.
+    pub(super) fn restore_idle(&mut self, state: &mut State) {
+        let mut paid = self.price(state);
+        for node in (0..state.edits.len()).rev() {
+            if state.edits[node].is_some() {
+                let kept = state.edits[node].take();
+                let price = self.price(state);
+                if price > paid {
+                    state.edits[node] = kept;
+                } else {
+                    paid = price;
+                }
+            }
+        }
+    }
+
+    /// The last steps: idle edits go, constants are corrected and shortened.
+    pub(super) fn settle(&mut self, state: &mut State, original: &Nodes, rounds: usize) {
+        self.restore_idle(state);
+        self.polish(state, rounds);
+        state.nodes.shorten(original);
+    }
+
+    /// The edits as the program knows them; constants that nothing reads any
+    /// more are not among them.
+    pub(super) fn edits(&mut self, original: &Nodes, state: &State) -> Vec<Edit> {
+        let mut state = state.clone();
+        self.price(&state);
+        let inputs = state.nodes.inputs.len();
+        for (index, was) in original.ops.iter().enumerate() {
+            if !self.scratch.live()[inputs + index] {
+                state.nodes.ops[index] = *was;
+            }
+        }
+        state.nodes.edits(original, &state.edits)
+    }
+}

@@ -1,0 +1,132 @@
+//! Candidates ranked by the error that an operation saved costs.
+
+use super::candidates::{Alike, candidates};
+use super::measure::Attempt;
+use super::{Greedy, Ranked, State};
+use crate::approximate::prune::columns::Value;
+use crate::approximate::prune::fit::{Fit, LANES};
+use crate::random::Random;
+
+/// Errors in units of the allowance at which a candidate is not looked at any
+/// more: the other edits' are at most one, and cannot make up for it.
+const HOPELESS: f64 = 5.0;
+
+impl Greedy<'_> {
+    /// Every admissible candidate.
+    pub(super) fn rank_all(
+        &mut self,
+        state: &mut State,
+        columns: &[f64],
+        fit: &Option<Fit>,
+        refused: &[bool],
+        noise: f64,
+        random: &mut Random,
+    ) -> Vec<Ranked> {
+        self.mirror(columns);
+        let before = self.settled(state, columns, fit).sum;
+        let paid = self.price(state);
+        let live = self.scratch.live().to_vec();
+        let alike = Alike::new(&state.nodes, columns, &live, self.motions, self.alike);
+        let mut all = Vec::new();
+        for node in 0..state.nodes.len() {
+            if state.edits[node].is_some() || !live[node] || refused[node] {
+                continue;
+            }
+            let mut values = candidates(&state.nodes, node, columns);
+            for value in alike.of(node) {
+                if !values.contains(&value) {
+                    values.push(value);
+                }
+            }
+            let hopeless = &self.hopeless[node];
+            values.retain(|value| !hopeless.iter().any(|other| value.is_like(other)));
+            all.extend(values.into_iter().map(|value| (node, value)));
+        }
+        let scores = self.scores(state, columns, fit, &all, (before, paid));
+        let pairs = all.into_iter().zip(scores);
+        let ranked = pairs.filter_map(|((node, value), score)| {
+            let score = score? * (1.0 + noise * random.unit());
+            Some(Ranked { node, value, score })
+        });
+        ranked.collect()
+    }
+
+    /// The growth of the error an operation saved, of each candidate; `None` if
+    /// it saves nothing or goes too far.
+    pub(super) fn scores(
+        &mut self,
+        state: &mut State,
+        columns: &[f64],
+        fit: &Option<Fit>,
+        candidates: &[(usize, Value)],
+        (before, paid): (f64, u32),
+    ) -> Vec<Option<f64>> {
+        let mut scores = vec![None; candidates.len()];
+        // Together as long as their errors stay at hand.
+        for (candidates, scores) in candidates.chunks(LANES).zip(scores.chunks_mut(LANES)) {
+            let mut attempts = Vec::new();
+            let mut saved = Vec::new();
+            for (index, &(node, value)) in candidates.iter().enumerate() {
+                state.edits[node] = Some(value);
+                let price = self.price(state);
+                if price < paid {
+                    attempts.push(self.retry(state, columns, fit, node));
+                    saved.push((index, f64::from(paid - price)));
+                }
+                state.edits[node] = None;
+            }
+            self.make_up(fit, &mut attempts);
+            for (Attempt { potential, .. }, (index, saved)) in attempts.iter().zip(saved) {
+                let (node, value) = candidates[index];
+                if potential.worst <= 1.0 {
+                    // Never free, so that more saved ranks first among equals.
+                    let growth = (potential.sum - before).max(0.0) + 1e-9;
+                    scores[index] = Some(growth / saved);
+                } else if potential.worst > HOPELESS {
+                    self.hopeless[node].push(value);
+                }
+            }
+        }
+        scores
+    }
+
+    /// Takes the columns that candidates are tried on.
+    pub(super) fn mirror(&mut self, columns: &[f64]) {
+        self.trial.clear();
+        self.trial.extend_from_slice(columns);
+    }
+
+    /// The program if a node's edit is new and the columns, which are
+    /// [mirrored](Self::mirror), are not.
+    fn retry(&mut self, state: &State, columns: &[f64], fit: &Option<Fit>, node: usize) -> Attempt {
+        let nodes = &state.nodes;
+        let (m, inputs) = (nodes.samples, nodes.inputs.len());
+        self.dirty.clear();
+        self.dirty.resize(nodes.len(), false);
+        let mut trial = std::mem::take(&mut self.trial);
+        for k in node..nodes.len() {
+            let is_dirty =
+                |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n as usize]);
+            let dirty = k == node
+                || match state.edits[k] {
+                    Some(value) => is_dirty(value),
+                    None if k < inputs => false,
+                    None => {
+                        let op = nodes.ops[k - inputs];
+                        is_dirty(op.left) || is_dirty(op.right)
+                    }
+                };
+            if dirty {
+                self.dirty[k] = true;
+                let (before, rest) = trial.split_at_mut(k * m);
+                nodes.node(k, state.edits[k], before, &mut rest[..m]);
+            }
+        }
+        let attempt = self.attempt(state, &trial, fit);
+        for k in (node..nodes.len()).filter(|&k| self.dirty[k]) {
+            trial[k * m..][..m].copy_from_slice(&columns[k * m..][..m]);
+        }
+        self.trial = trial;
+        attempt
+    }
+}

@@ -1,0 +1,250 @@
+//! Choosing: the cheapest edits that a certificate admits.
+//!
+//! A greedy search ranks edits of the *emitted* program by error for each
+//! operation saved, constants corrected for what is left out; parts of what
+//! it chose are taken back at random and chosen anew. Errors are measured at
+//! sampled positions, there as the certificate measures them. What the search
+//! finds counts only if [`bound`](crate::bound::magnitude) certifies it. The edited
+//! program is then simplified, which may save more, and edited again. In
+//! which regrouping the exact program is matters more than how small it is there
+//! (`approximate/regrouping.rs`).
+//!
+//! - `search`: guesses, each certified
+//! - `greedy`: the ranking
+//! - `columns`: programs at many states
+//! - `motions`: errors at a position, at the worst rates
+//! - `fit`: constants corrected for what is left out
+//! - `price`: operations that stay
+//! - `omissions`: what was left out, for reports; `tally`: rounds, for who watches
+
+mod columns;
+mod fit;
+mod greedy;
+mod motions;
+mod omissions;
+mod price;
+mod search;
+mod tally;
+
+use crate::bound::input_box::InputBox;
+use crate::bound::magnitude::BoxEffort;
+use crate::edits::{Stage, has_edits};
+use crate::program::Program;
+use crate::random::Random;
+use crate::simplify::Effort;
+use crate::watch::FunctionWatch;
+use motions::Motions;
+pub use omissions::{Omission, omissions};
+use search::Search;
+use tally::Tally;
+
+/// Of the samples and of what is taken back.
+const SEED: u64 = 0x9121;
+
+/// How hard to search, counted, never timed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Sampled positions.
+    pub samples: usize,
+    /// Guesses of how far sampled and certified errors are apart.
+    pub guesses: usize,
+    /// Times that a part is taken back and chosen anew.
+    pub retries: usize,
+    /// Programs to edit one after the other: the first ones may use a part of
+    /// the allowance, so that what goes in any case is gone, and the rest
+    /// simplified, before it gets tight.
+    pub stages: usize,
+    /// Other values tried in the place of each, those that run most alike.
+    pub alike: usize,
+    /// Rounds in which a regrouping is looked for that leaves less after pruning.
+    pub sweeps: usize,
+    /// For the certificates that decide.
+    pub budget: BoxEffort,
+    /// How much the simplifier may do between stages.
+    pub effort: Effort,
+    /// Whether constants are corrected for what is left out.
+    pub refit: bool,
+    /// Units of work at most, if there is a limit: what was found by then counts.
+    pub work: Option<u64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            samples: 40,
+            guesses: 4,
+            retries: 6,
+            stages: 3,
+            alike: 4,
+            sweeps: 0,
+            budget: BoxEffort::QUICK,
+            effort: Effort::Quick,
+            refit: true,
+            work: None,
+        }
+    }
+}
+
+/// A cheaper program within its tolerance.
+#[derive(Clone, Debug)]
+pub struct Pruned {
+    /// What was edited, program after program.
+    pub stages: Vec<Stage>,
+    /// The program to emit: the last stage's edited program, simplified.
+    pub program: Program,
+    /// The certified largest |pruned − full| of each output.
+    pub errors: Vec<f64>,
+}
+
+impl Settings {
+    /// The most that a search may take: minutes for a six-joint arm.
+    pub const THOROUGH: Settings = Settings {
+        samples: 40,
+        guesses: 4,
+        retries: 6,
+        stages: 4,
+        alike: 4,
+        sweeps: 2,
+        budget: BoxEffort::QUICK,
+        effort: Effort::Thorough,
+        refit: true,
+        work: None,
+    };
+
+    /// For the effort of a command that reports on variants.
+    pub fn of(effort: Effort) -> Settings {
+        match effort {
+            Effort::Quick => Settings::default(),
+            Effort::Thorough => Settings::THOROUGH,
+        }
+    }
+
+    /// What a stage may use of the allowances.
+    fn part(&self, stage: usize) -> f64 {
+        match stage + 1 < self.stages {
+            true => RAMP.get(stage).copied().unwrap_or(1.0),
+            false => 1.0,
+        }
+    }
+
+    /// Parts are taken back only where no later stage would find them anyway.
+    fn retries(&self, stage: usize) -> usize {
+        if self.part(stage) < 1.0 {
+            0
+        } else {
+            self.retries
+        }
+    }
+}
+
+/// The parts of the allowances that the first stages may use.
+const RAMP: [f64; 2] = [0.5, 0.8];
+
+/// Programs that are edited beyond those of the settings, as long as each leaves
+/// much of the allowances.
+const MAX_MORE: usize = 3;
+
+/// An output that uses less of its allowance leaves much.
+const MUCH: f64 = 0.8;
+
+/// Whether no output uses up its allowance.
+fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
+    let mut pairs = best.errors.iter().zip(allowances);
+    has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
+}
+
+/// The cheapest variant found of which every output is certified to stay
+/// within its allowance (in the output's unit) over the box.
+pub fn prune(
+    program: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &Settings,
+) -> Pruned {
+    watched(program, None, limits, allowances, settings, None)
+}
+
+/// [`prune`] under a watch: where it is over, the search ends with its best.
+/// `start` is an equal program to edit in its place: then the first stage has
+/// no edits and leads there.
+pub fn watched(
+    program: &Program,
+    start: Option<&Program>,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &Settings,
+    watch: Option<FunctionWatch<'_>>,
+) -> Pruned {
+    let tally = Tally::new(settings, watch);
+    let nothing = Pruned {
+        stages: Vec::new(),
+        program: program.clone(),
+        errors: vec![0.0; program.outputs.len()],
+    };
+    let mut best = match start {
+        None => nothing.clone(),
+        Some(start) => Pruned {
+            stages: vec![Stage::unedited(program.clone())],
+            program: start.clone(),
+            ..nothing.clone()
+        },
+    };
+    let mut random = Random::new(SEED);
+    let motions = Motions::new(program, limits);
+    let mut positions = motions::positions(limits, settings.samples, &mut random);
+    for stage in 0..settings.stages + MAX_MORE {
+        // What is left of the allowances may do for one more.
+        if stage >= settings.stages && !leaves(&best, allowances) {
+            break;
+        }
+        let part = settings.part(stage);
+        let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
+        let search = Search {
+            full: program,
+            base: best.clone(),
+            limits,
+            allowances: &allowances,
+            settings,
+            motions: &motions,
+            tally: &tally,
+            retries: settings.retries(stage),
+        };
+        match search.run(&mut positions, &mut random) {
+            Some(found) => best = found,
+            None if part < 1.0 => {}
+            None => break,
+        }
+    }
+    match has_edits(&best.stages) && search::cost(&best.program) < search::cost(program) {
+        true => best,
+        false => nothing,
+    }
+}
+
+/// About what [`prune`] would leave of a program: operations, sines and
+/// cosines weighed. Errors at so many samples decide, nothing is certified.
+pub fn appraise(
+    program: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &Settings,
+) -> u32 {
+    let mut random = Random::new(SEED);
+    let motions = Motions::new(program, limits);
+    let positions = motions::positions(limits, settings.samples, &mut random);
+    let search = Search {
+        full: program,
+        base: Pruned {
+            stages: Vec::new(),
+            program: program.clone(),
+            errors: Vec::new(),
+        },
+        limits,
+        allowances,
+        settings,
+        motions: &motions,
+        tally: &Tally::new(settings, None),
+        retries: 0,
+    };
+    search.appraise(&positions, 1.0, &mut random)
+}

@@ -1,0 +1,157 @@
+//! What was left out, one by one.
+
+use std::fmt;
+
+use dalembert_model::number::{Exact, Rounded};
+
+use super::Pruned;
+use crate::bound::input_box::InputBox;
+use crate::bound::magnitude::{BoxEffort, magnitudes};
+use crate::edits::{Edit, EditSite, Stage, difference};
+use crate::graph::Folding;
+use crate::program::text::input_name;
+use crate::program::{Counts, Operand, Operation, Program};
+
+/// One edit, what it saves and what it costs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Omission {
+    /// Which program it edits, from zero.
+    pub stage: usize,
+    /// The edit.
+    pub edit: Edit,
+    /// What is replaced, as an expression cut short where it is deep, and by
+    /// what: `qd[3] * (s4 * …) -> 0`.
+    pub words: String,
+    /// Operations that come back if it alone is put back.
+    /// Corrected constants stay corrected.
+    pub operations: usize,
+    /// Sines and cosines that come back with them.
+    pub sincos: usize,
+    /// The certified largest |error| of each output, in its unit, if it alone
+    /// is left out of its program; empty where nobody asked.
+    pub errors: Vec<f64>,
+}
+
+impl Pruned {
+    /// What was left out, stage after stage.
+    pub fn omissions(&self, limits: &InputBox) -> Vec<Omission> {
+        let mut omissions = omissions(&self.stages);
+        for omission in &mut omissions {
+            let alone = Stage {
+                program: self.stages[omission.stage].program.clone(),
+                edits: vec![omission.edit.clone()],
+            };
+            let ones = vec![1.0; alone.program.outputs.len()];
+            let graph = difference(std::slice::from_ref(&alone));
+            omission.errors = magnitudes(&graph, limits, &ones, 0.0, BoxEffort::QUICK);
+        }
+        omissions
+    }
+}
+
+/// What was left out, stage after stage, without the errors, which take long.
+/// Constants that were corrected are no omissions: they save nothing.
+pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
+    let mut omissions = Vec::new();
+    for (index, stage) in stages.iter().enumerate() {
+        let paid = stage.program(Folding::Syntactic).counts();
+        for edit in stage.edits.iter().filter(|edit| !edit.corrects()) {
+            let back = without(stage, edit);
+            omissions.push(Omission {
+                stage: index,
+                edit: edit.clone(),
+                words: words(&stage.program, edit),
+                operations: back.operations().saturating_sub(paid.operations()),
+                sincos: back.sincos.saturating_sub(paid.sincos),
+                errors: Vec::new(),
+            });
+        }
+    }
+    omissions
+}
+
+impl fmt::Display for Omission {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, saves {}", self.words, self.operations)?;
+        match self.sincos {
+            0 => Ok(()),
+            1 => f.write_str(" and a sine/cosine pair"),
+            more => write!(f, " and {more} sine/cosine pairs"),
+        }
+    }
+}
+
+/// What the stage costs with one edit put back.
+fn without(stage: &Stage, edit: &Edit) -> Counts {
+    let edits = stage.edits.iter().filter(|e| e.place != edit.place);
+    let back = Stage {
+        program: stage.program.clone(),
+        edits: edits.cloned().collect(),
+    };
+    back.program(Folding::Syntactic).counts()
+}
+
+/// Operations deeper than this below the one that is replaced are not shown.
+const DEPTH: usize = 2;
+
+fn words(program: &Program, edit: &Edit) -> String {
+    let place = match edit.place {
+        EditSite::Input(input) => input_name(input),
+        EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => {
+            expression(program, &Operand::Step(step), DEPTH + 1).0
+        }
+    };
+    let value = match (edit.negative, expression(program, &edit.value, DEPTH)) {
+        (false, (text, _)) => text,
+        (true, (text, Strength::Sum)) => format!("-({text})"),
+        (true, (text, _)) => format!("-{text}"),
+    };
+    format!("{place} -> {value}")
+}
+
+/// What binds an expression's parts, the weakest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Strength {
+    Sum,
+    Product,
+    Atom,
+}
+
+/// An operand in terms of inputs, `…` for what is too deep.
+fn expression(program: &Program, operand: &Operand, depth: usize) -> (String, Strength) {
+    let step = match operand {
+        Operand::Input(input) => return (input_name(*input), Strength::Atom),
+        Operand::Constant(constant) => return (roughly(constant), Strength::Atom),
+        Operand::Step(step) => program.steps.get(*step),
+    };
+    let Some(step) = step.filter(|_| depth > 0) else {
+        return ("…".into(), Strength::Atom);
+    };
+    let part = |operand, least| {
+        let (text, strength) = expression(program, operand, depth - 1);
+        if strength < least {
+            format!("({text})")
+        } else {
+            text
+        }
+    };
+    let (least, strength) = match step.operation {
+        Operation::Mul | Operation::Div => ([Strength::Product; 2], Strength::Product),
+        Operation::Add => ([Strength::Sum; 2], Strength::Sum),
+        Operation::Sub => ([Strength::Sum, Strength::Product], Strength::Sum),
+    };
+    let (left, right) = (part(&step.left, least[0]), part(&step.right, least[1]));
+    let symbol = step.operation.symbol();
+    (format!("{left} {symbol} {right}"), strength)
+}
+
+/// Four digits are enough to recognise a constant.
+fn roughly(constant: &Exact) -> String {
+    let value = f64::nearest(constant);
+    let short = format!("{value:.3e}").parse::<f64>().unwrap_or(value);
+    if short == 0.0 || (1e-3..1e5).contains(&short.abs()) {
+        format!("{short}")
+    } else {
+        format!("{short:e}")
+    }
+}

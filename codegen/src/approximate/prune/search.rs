@@ -1,0 +1,335 @@
+//! Guesses of what may go, each certified.
+
+use super::columns::Nodes;
+use super::greedy::{Greedy, State};
+use super::motions::Motions;
+use super::tally::Tally;
+use super::{Pruned, Settings};
+use crate::bound::definite::least_eigenvalue;
+use crate::bound::input_box::InputBox;
+use crate::bound::{magnitude, sample};
+use crate::edits::{Stage, difference, has_edits};
+use crate::graph::{Folding, Graph};
+use crate::interval::Interval;
+use crate::program::{Program, ScalarType, has_inertia};
+use crate::random::Random;
+use crate::simplify::{Effort, simplify};
+use crate::states::JointState;
+
+/// Rounds in which constants are corrected after edits are chosen.
+const POLISH: usize = 12;
+
+/// How much of the allowance sampled errors may use at first.
+const SHARE: f64 = 0.8;
+
+/// An output whose certified error is less than this part of its allowance
+/// may use more of it; the bound is not tight there.
+const USED_ENOUGH: f64 = 0.88;
+
+/// Guesses that are added as long as none was certified, and how much less each
+/// leaves out.
+const MORE: usize = 4;
+const CAUTION: f64 = 0.8;
+
+/// In place of the ratio of errors where D may be singular.
+const SINGULAR: f64 = 4.0;
+
+/// One program to edit.
+pub(super) struct Search<'a> {
+    pub full: &'a Program,
+    /// What was edited before.
+    pub base: Pruned,
+    pub limits: &'a InputBox,
+    pub allowances: &'a [f64],
+    pub settings: &'a Settings,
+    pub motions: &'a Motions,
+    pub tally: &'a Tally<'a>,
+    /// Times that a part is taken back and chosen anew.
+    pub retries: usize,
+}
+
+/// A certified variant and how it was found.
+struct Found {
+    pruned: Pruned,
+    state: State,
+    /// What sampled errors may use of each output's allowance.
+    shares: Vec<f64>,
+}
+
+impl Search<'_> {
+    /// What would stay if errors at the samples decided, weighed as by
+    /// [`cost`]; nothing is certified.
+    pub(super) fn appraise(&self, positions: &[Vec<f64>], share: f64, random: &mut Random) -> u32 {
+        let prices = vec![1.0; self.allowances.len()];
+        let states = self.motions.states(positions);
+        let original = Nodes::new(&self.base.program, &states);
+        let truth = outputs(self.full, &states);
+        let mut greedy = self.greedy(&original, &truth, &vec![share; prices.len()], &prices);
+        let mut state = State {
+            edits: vec![None; original.len()],
+            nodes: original,
+        };
+        greedy.drop_all(&mut state, 0.0, random);
+        greedy.price(&state)
+    }
+
+    /// The cheapest variant found, if it is cheaper than what was there.
+    pub(super) fn run(&self, positions: &mut Vec<Vec<f64>>, random: &mut Random) -> Option<Pruned> {
+        if self.tally.is_over() && has_edits(&self.base.stages) {
+            return None;
+        }
+        // Outputs that use up their allowance are dear.
+        let mut prices = vec![1.0; self.allowances.len()];
+        let found = self.guess(positions, &mut prices, random)?;
+        let mut best = self.again(found, positions, &prices, random);
+        best.program = finish(&best.stages, self.settings.effort, true);
+        (cost(&best.program) < cost(&self.base.program)).then_some(best)
+    }
+
+    fn guess(
+        &self,
+        positions: &mut Vec<Vec<f64>>,
+        prices: &mut [f64],
+        random: &mut Random,
+    ) -> Option<Found> {
+        let mut shares = vec![SHARE; self.allowances.len()];
+        let mut best: Option<Found> = None;
+        for round in 0..self.settings.guesses + MORE {
+            let enough = round >= self.settings.guesses || self.tally.is_over();
+            let over = round > 0 && self.tally.is_over();
+            if over || best.is_some() && enough {
+                break;
+            }
+            let so_far = best.as_ref().map(|found| &found.pruned.program);
+            self.tally.round(so_far.unwrap_or(&self.base.program));
+            let states = self.motions.states(positions);
+            let original = Nodes::new(&self.base.program, &states);
+            let truth = outputs(self.full, &states);
+            let mut greedy = self.greedy(&original, &truth, &shares, prices);
+            let mut state = State {
+                edits: vec![None; original.len()],
+                nodes: original.clone(),
+            };
+            greedy.drop_all(&mut state, 0.0, random);
+            greedy.settle(&mut state, &original, POLISH);
+            for (price, used) in prices.iter_mut().zip(greedy.relative(&state)) {
+                *price *= 0.3 + used;
+            }
+            let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
+            self.adversaries(&pruned.stages, positions, random);
+            let cheaper = best
+                .as_ref()
+                .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
+            if within(&ratios) && cheaper {
+                best = Some(Found {
+                    pruned,
+                    state,
+                    shares: shares.clone(),
+                });
+            }
+            // Until something is certified the worst output decides for all:
+            // what is left out for one moves the others.
+            let worst = ratios.iter().copied().fold(0.0, f64::max);
+            for (share, ratio) in shares.iter_mut().zip(ratios) {
+                let ratio = if best.is_none() { worst } else { ratio };
+                *share = match ratio < USED_ENOUGH {
+                    true => (1.1 * *share).min(1.0),
+                    false => (*share / libm::pow(ratio.min(5.0), 0.9) * 0.99).min(1.5),
+                };
+                if best.is_none() && round + 1 >= self.settings.guesses {
+                    *share *= CAUTION;
+                }
+            }
+        }
+        best
+    }
+
+    /// Takes parts back and chooses anew.
+    fn again(
+        &self,
+        found: Found,
+        positions: &[Vec<f64>],
+        prices: &[f64],
+        random: &mut Random,
+    ) -> Pruned {
+        let Found {
+            mut pruned,
+            mut state,
+            mut shares,
+        } = found;
+        let states = self.motions.states(positions);
+        let original = Nodes::new(&self.base.program, &states);
+        let truth = outputs(self.full, &states);
+        state.nodes.move_to(&states);
+        // The samples have grown since: what is certified must rank as within.
+        let whole = vec![1.0; shares.len()];
+        let used = self.greedy(&original, &truth, &whole, prices);
+        for (share, used) in shares.iter_mut().zip(used.relative(&state)) {
+            *share = share.max(1.001 * used);
+        }
+        let mut greedy = self.greedy(&original, &truth, &shares, prices);
+        let mut paid = greedy.price(&state);
+        for round in 0..self.retries {
+            if self.tally.is_over() {
+                break;
+            }
+            self.tally.round(&pruned.program);
+            let mut trial = state.clone();
+            let part = 0.05 + 0.3 * random.unit();
+            for edit in &mut trial.edits {
+                if random.unit() < part {
+                    *edit = None;
+                }
+            }
+            let noise = if round % 3 == 0 { 0.0 } else { 0.6 };
+            greedy.polish(&mut trial, 1);
+            greedy.drop_all(&mut trial, noise, random);
+            greedy.settle(&mut trial, &original, POLISH / 3);
+            let price = greedy.price(&trial);
+            if price <= paid && trial.edits != state.edits {
+                let certified = self.certified(&original, &trial, &mut greedy);
+                if let Some(certified) = certified {
+                    (state, paid, pruned) = (trial, price, certified);
+                }
+            }
+        }
+        pruned
+    }
+
+    fn greedy<'t>(
+        &'t self,
+        nodes: &Nodes,
+        truth: &'t [f64],
+        shares: &[f64],
+        prices: &[f64],
+    ) -> Greedy<'t> {
+        let pairs = self.allowances.iter().zip(shares);
+        let allowances = pairs.map(|(allowance, share)| allowance * share).collect();
+        Greedy::new(
+            nodes,
+            self.motions,
+            truth,
+            allowances,
+            prices.to_vec(),
+            self.settings,
+        )
+    }
+
+    /// The variant, and the certified error of each output against its
+    /// allowance.
+    fn certify(
+        &self,
+        original: &Nodes,
+        state: &State,
+        greedy: &mut Greedy<'_>,
+    ) -> (Pruned, Vec<f64>) {
+        let (mut pruned, error) = self.variant(original, state, greedy);
+        let budget = self.settings.budget;
+        pruned.errors = magnitude::magnitudes(&error, self.limits, self.allowances, 1.0, budget);
+        let pairs = pruned.errors.iter().zip(self.allowances);
+        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
+        // Too much went as well if D may become singular: the next guess
+        // leaves out less.
+        if within(&ratios) && !self.is_definite(&pruned.program) {
+            ratios.fill(SINGULAR);
+        }
+        (pruned, ratios)
+    }
+
+    /// The variant, if every output is certified to be within its allowance.
+    fn certified(
+        &self,
+        original: &Nodes,
+        state: &State,
+        greedy: &mut Greedy<'_>,
+    ) -> Option<Pruned> {
+        let (mut pruned, error) = self.variant(original, state, greedy);
+        let budget = self.settings.budget;
+        pruned.errors = magnitude::magnitudes_within(&error, self.limits, self.allowances, budget)?;
+        self.is_definite(&pruned.program).then_some(pruned)
+    }
+
+    /// The variant, its errors still to be found, and the program of them.
+    fn variant(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, Graph) {
+        let mut stages = self.base.stages.clone();
+        stages.push(Stage {
+            program: self.base.program.clone(),
+            edits: greedy.edits(original, state),
+        });
+        let error = difference(&stages);
+        let pruned = Pruned {
+            program: finish(&stages, Effort::Quick, false),
+            stages,
+            errors: Vec::new(),
+        };
+        (pruned, error)
+    }
+
+    /// Whether D, if it is an output, is positive definite.
+    fn is_definite(&self, program: &Program) -> bool {
+        !has_inertia(program) || least_eigenvalue(program, ScalarType::F64, self.limits).is_ok()
+    }
+
+    /// Positions where the error is large join the samples.
+    fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
+        let Some(last) = stages.last() else { return };
+        let mut full = Nodes::new(self.full, &[]);
+        let mut edited = Nodes::new(&last.program(Folding::Syntactic), &[]);
+        let block = self.motions.len();
+        for output in 0..self.allowances.len() {
+            let mut error = |state: &JointState| {
+                let states = self.motions.states(std::slice::from_ref(&state.q));
+                full.move_to(&states);
+                edited.move_to(&states);
+                let run = |nodes: &Nodes| nodes.values(&nodes.run(&vec![None; nodes.len()]));
+                let (x, y) = (run(&full), run(&edited));
+                let pairs = x[output * block..][..block]
+                    .iter()
+                    .zip(&y[output * block..]);
+                let mut error: Vec<f64> = pairs.map(|(x, y)| x - y).collect();
+                self.motions.monomials(&mut error);
+                self.motions.largest(&error)
+            };
+            let from = sample::draw(self.limits, random);
+            let still = vec![Interval::ZERO; from.q.len()];
+            let still = InputBox {
+                position: self.limits.position.clone(),
+                velocity: still.clone(),
+                acceleration: still,
+            };
+            let (state, _) = sample::climb(&still, from, 300, random, &mut error);
+            positions.push(state.q);
+        }
+    }
+}
+
+/// Whether no certified error is above its allowance.
+fn within(ratios: &[f64]) -> bool {
+    ratios.iter().all(|ratio| *ratio <= 1.0)
+}
+
+/// A program's outputs at states, output after output.
+fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
+    let nodes = Nodes::new(program, states);
+    nodes.values(&nodes.run(&vec![None; nodes.len()]))
+}
+
+/// The last stage's edited program, simplified if asked.
+fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
+    let last = &stages[stages.len() - 1];
+    let graph = last.edited(Folding::Semantic);
+    let program = |graph: &Graph| last.program.with_graph(graph);
+    if !search {
+        return program(&graph);
+    }
+    match simplify(std::slice::from_ref(&graph), &[], effort, &|_| true) {
+        Some(simplified) => program(&simplified.graph),
+        None => program(&graph),
+    }
+}
+
+/// Operations, and a few more for each sine and cosine.
+pub(super) fn cost(program: &Program) -> usize {
+    let counts = program.counts();
+    counts.operations() + 8 * counts.sincos
+}

@@ -1,0 +1,44 @@
+//! Rounds counted, for who watches.
+
+use std::cell::Cell;
+
+use super::Settings;
+use crate::bound::work::Meter;
+use crate::program::Program;
+use crate::watch::{FunctionWatch, Part};
+
+/// How far a search for omissions has come.
+pub(super) struct Tally<'a> {
+    watch: Option<FunctionWatch<'a>>,
+    done: Cell<usize>,
+    rounds: usize,
+    meter: Meter,
+}
+
+impl<'a> Tally<'a> {
+    pub(super) fn new(settings: &Settings, watch: Option<FunctionWatch<'a>>) -> Tally<'a> {
+        Tally {
+            watch,
+            done: Cell::new(0),
+            rounds: (0..settings.stages)
+                .map(|stage| settings.guesses + settings.retries(stage))
+                .sum(),
+            meter: Meter::new(settings.work),
+        }
+    }
+
+    /// A round begins; the best program so far.
+    pub(super) fn round(&self, best: &Program) {
+        let done = self.done.get();
+        if let Some(watch) = self.watch {
+            let rounds = [done, self.rounds.max(done + 1)];
+            watch.step(Part::Omissions, rounds, Some(best.counts()));
+        }
+        self.done.set(done + 1);
+    }
+
+    /// Whether the one who watches wants an end, or the work is done.
+    pub(super) fn is_over(&self) -> bool {
+        self.meter.is_over() || self.watch.is_some_and(|watch| watch.is_over())
+    }
+}

@@ -1,0 +1,149 @@
+//! The exact program to prune: in the regrouping that leaves least.
+//!
+//! The smallest exact program shares so much that every value matters to many
+//! outputs, and its regrouping makes entries vanish that a tolerance would drop
+//! anyway. A descent over the regroupings, link by link as for the exact program,
+//! but by what is left after pruning, finds a better one. Prices are of
+//! samples; what comes out is an equal program like any other, and whoever
+//! uses it shows that again.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use dalembert_model::equations::chain::Regrouping;
+use dalembert_model::number::Exact;
+
+use crate::approximate::prune::{Settings, appraise};
+use crate::bound::input_box::InputBox;
+use crate::portfolio;
+use crate::program::Program;
+use crate::scene::Setting;
+use crate::simplify::{Effort, simplify};
+use crate::watch::{FunctionWatch, Part};
+
+/// What a look at every regrouping and the closer one at a few take: samples, and
+/// how much of the allowances their errors may use. The fewer the samples, the
+/// more they miss.
+const LOOKS: [(usize, f64); 2] = [(16, 0.45), (40, 0.7)];
+
+/// Regroupings that are looked at closer, in each round.
+const CLOSER: usize = 12;
+
+/// An exact program that pruning is about to leave less of than of the given
+/// one; `None` if none was found.
+pub(super) fn descend(
+    setting: &Setting,
+    program: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &Settings,
+    watch: Option<FunctionWatch<'_>>,
+) -> Option<Program> {
+    let (function, effort) = (program.function, Effort::Thorough);
+    if settings.sweeps == 0 || portfolio::skeleton(setting).links.is_empty() {
+        return None;
+    }
+    let descent = Descent {
+        limits,
+        allowances,
+        settings,
+        watch,
+    };
+    let tuned = portfolio::tuned(setting, function, effort, None, &[], watch);
+    let mut best: Option<(Regrouping<Exact>, Program)> = None;
+    let mut price = descent.price(program, LOOKS[1]);
+    for round in 0..settings.sweeps {
+        if let Some(watch) = watch {
+            let counts = best.as_ref().map(|(_, program)| program.counts());
+            watch.step(Part::Omissions, [round, settings.sweeps], counts);
+        }
+        let from = best
+            .as_ref()
+            .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
+        let mut regroupings = portfolio::regroupings(setting, from);
+        if round == 0 {
+            regroupings.insert(0, from.clone());
+        }
+        let mut looks = parallel(&regroupings, |regrouping| {
+            if descent.is_over() {
+                return None;
+            }
+            let graph = portfolio::in_gauge(setting, function, regrouping, tuned.form);
+            let graph = simplify(&[graph], &[], Effort::Quick, &|_| true)?.graph;
+            let program = program.with_graph(&graph);
+            Some((descent.price(&program, LOOKS[0]), regrouping, program))
+        });
+        looks.sort_by_key(|look| look.0);
+        looks.truncate(CLOSER);
+        let prices = parallel(&looks, |(_, _, program)| {
+            Some(descent.price(program, LOOKS[1]))
+        });
+        let pairs = prices.into_iter().zip(looks);
+        let Some((found, (_, regrouping, program))) = pairs.min_by_key(|pair| pair.0) else {
+            break;
+        };
+        if found >= price {
+            break;
+        }
+        (price, best) = (found, Some((regrouping.clone(), program)));
+    }
+    best.map(|(_, program)| program)
+}
+
+struct Descent<'a> {
+    limits: &'a InputBox,
+    allowances: &'a [f64],
+    settings: &'a Settings,
+    watch: Option<FunctionWatch<'a>>,
+}
+
+impl Descent<'_> {
+    fn is_over(&self) -> bool {
+        self.watch.is_some_and(|watch| watch.is_over())
+    }
+
+    fn price(&self, program: &Program, (samples, share): (usize, f64)) -> u32 {
+        if self.is_over() {
+            return u32::MAX;
+        }
+        let allowances: Vec<f64> = self.allowances.iter().map(|a| share * a).collect();
+        let settings = Settings {
+            samples,
+            alike: 0,
+            ..*self.settings
+        };
+        appraise(program, self.limits, &allowances, &settings)
+    }
+}
+
+/// What a function makes of each, in their order, by as many threads as the
+/// machine runs at once: the result does not depend on how many.
+fn parallel<'t, T: Sync, R: Send>(
+    items: &'t [T],
+    function: impl Fn(&'t T) -> Option<R> + Sync,
+) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, |n| n.get()) {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(index) else { break };
+                    let result = function(item);
+                    let mut results = results.lock().unwrap_or_else(|poison| poison.into_inner());
+                    results.push((index, result));
+                }
+            });
+        }
+    });
+    let mut results = results
+        .into_inner()
+        .unwrap_or_else(|poison| poison.into_inner());
+    results.sort_by_key(|(index, _)| *index);
+    results
+        .into_iter()
+        .filter_map(|(_, result)| result)
+        .collect()
+}

@@ -1,0 +1,165 @@
+//! Whether D stays positive definite: forward dynamics divides by it.
+//!
+//! D is scaled first: with S = diag(1/√D_ii), D_ii at the middle of the box
+//! and rounded to a power of four, S D S has no units, and its least
+//! eigenvalue tells how far D is from singular whatever the masses and
+//! lengths are. S D S > 0 means D > 0.
+//!
+//! The entries of the *emitted* code are meant: their exact values written
+//! out as trigonometric polynomials, and what rounding may add to each.
+
+use std::fmt;
+
+use crate::bound::expand::expand;
+use crate::bound::grid;
+use crate::bound::input_box::InputBox;
+use crate::bound::sensitivity::rounding_with;
+use crate::edits::Stage;
+use crate::graph::{Folding, Graph};
+use crate::interval::Interval;
+use crate::program::{Program, ScalarType};
+use crate::sincos::AngleKernel;
+use crate::states::JointState;
+
+/// Points of the bound at most.
+const POINTS: usize = 1 << 24;
+
+/// Why D could not be shown to be positive definite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Indefinite {
+    /// Two entries that must be equal are not the same value.
+    Asymmetric {
+        /// Zero-based joint of the row.
+        row: usize,
+        /// Zero-based joint of the column.
+        column: usize,
+    },
+    /// A diagonal entry that is not positive in the middle of the box.
+    Massless {
+        /// Zero-based joint.
+        joint: usize,
+    },
+    /// No lower bound above zero was found within the work allowed.
+    Unproved,
+}
+
+impl fmt::Display for Indefinite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Indefinite::Asymmetric { row, column } => write!(
+                f,
+                "D_{0}{1} and D_{1}{0} are not the same value",
+                row + 1,
+                column + 1
+            ),
+            Indefinite::Massless { joint } => write!(
+                f,
+                "D is singular: joint {} moves nothing that has inertia; \
+                 give its link mass, inertia or armature",
+                joint + 1
+            ),
+            Indefinite::Unproved => f.write_str(
+                "D could not be shown to be positive definite over the box: \
+                 a link has no inertia, or almost none beside the others; or the box is too large",
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Indefinite {}
+
+/// A lower bound, above zero, of the least eigenvalue of S D S over the box,
+/// D as code in the scalar computes it.
+///
+/// # Errors
+/// [`Indefinite`]; a program without D has no least eigenvalue.
+pub fn least_eigenvalue(
+    program: &Program,
+    scalar: ScalarType,
+    limits: &InputBox,
+) -> Result<f64, Indefinite> {
+    least_eigenvalue_with(program, scalar, &[], limits)
+}
+
+/// [`least_eigenvalue`] with polynomials for sines.
+///
+/// # Errors
+/// As [`least_eigenvalue`].
+pub fn least_eigenvalue_with(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+) -> Result<f64, Indefinite> {
+    let n = program.rows.len();
+    let first = start(program).ok_or(Indefinite::Unproved)?;
+    let entry = |i: usize, j: usize| first + i * n + j;
+    for i in 0..n {
+        for j in 0..i {
+            if program.outputs[entry(i, j)] != program.outputs[entry(j, i)] {
+                let (row, column) = (program.rows[i], program.rows[j]);
+                return Err(Indefinite::Asymmetric { row, column });
+            }
+        }
+    }
+    let scales = scales(program, limits, entry)?;
+    let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
+    let costs = rounding_with(program, scalar, sines, limits, 64);
+    let graph = Stage::unedited(program.clone()).edited(Folding::Syntactic);
+    let outputs = lower.iter().map(|&(i, j)| graph.outputs[entry(i, j)]);
+    let graph = Graph {
+        outputs: outputs.collect(),
+        ..graph
+    };
+    let mut entries = expand(&graph, limits).ok_or(Indefinite::Unproved)?;
+    let mut errors = Vec::new();
+    for (polynomial, &(i, j)) in entries.iter_mut().zip(&lower) {
+        // A power of two: exact.
+        let scale = scales[i] * scales[j];
+        for (_, x) in polynomial {
+            *x = *x * Interval::point(scale);
+        }
+        let cost = &costs[entry(i, j)];
+        errors.push((cost.arithmetic + cost.sincos) * scale);
+    }
+    let sliding = grid::sliding(&graph, limits.joints());
+    grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS).ok_or(Indefinite::Unproved)
+}
+
+/// Where D starts among the outputs.
+fn start(program: &Program) -> Option<usize> {
+    let n = program.rows.len();
+    let mut start = 0;
+    for quantity in program.function.quantities() {
+        if quantity.is_definite() {
+            return Some(start);
+        }
+        start += quantity.len(n);
+    }
+    None
+}
+
+/// The diagonal of S: powers of two.
+fn scales(
+    program: &Program,
+    limits: &InputBox,
+    entry: impl Fn(usize, usize) -> usize,
+) -> Result<Vec<f64>, Indefinite> {
+    let rest = vec![0.0; limits.joints()];
+    let middle = JointState {
+        q: limits.position.iter().map(|q| q.mid()).collect(),
+        qd: rest.clone(),
+        qdd: rest,
+        ..JointState::default()
+    };
+    let values = program.lower(ScalarType::F64, |_| None).run_at(&middle);
+    let scale = |i: usize| {
+        let diagonal = values[entry(i, i)];
+        if !(diagonal > 0.0 && diagonal.is_finite()) {
+            let joint = program.rows[i];
+            return Err(Indefinite::Massless { joint });
+        }
+        Ok(libm::exp2(-libm::round(0.5 * libm::log2(diagonal))))
+    };
+    (0..program.rows.len()).map(scale).collect()
+}

@@ -1,0 +1,319 @@
+//! A graph written out as a trigonometric polynomial.
+//!
+//! Over a sub-box, intervals forget that two values depend on the same angle.
+//! Written out, the terms of a difference that cancel are gone, and each
+//! coefficient stands once:
+//!
+//! Σ coefficient · (product of at most two rates) · Π_j sin^a(q_j) cos^b(q_j)
+//!
+//! with a ∈ {0, 1}, since sin² = 1 − cos². A sliding joint is written as
+//! q = middle + radius·cos θ, which takes every position of its range; θ stands
+//! where an angle would, so a graph that reads a joint's position and its sine
+//! or cosine as well is not written out.
+//!
+//! **Soundness.** Only identities are used, and coefficients are intervals
+//! rounded outward: there are coefficients inside them with which the
+//! polynomial is the output, exactly.
+
+use crate::bound::input_box::InputBox;
+use crate::bound::work;
+use crate::function::Argument;
+use crate::graph::{Graph, Node};
+use crate::interval::Interval;
+use crate::program::Input;
+
+/// Powers packed: two rates (1 … 2n, sorted, 0 is none) in a byte each, then
+/// five bits a joint: the power of the cosine, and the sine's on top.
+pub(super) type Key = u128;
+
+/// The most joints that fit a key.
+const MAX_JOINTS: usize = 22;
+
+/// A polynomial, sorted by key.
+pub(super) type Polynomial = Vec<(Key, Interval)>;
+
+/// Products of more terms than this are not written out.
+const MAX_PRODUCTS: usize = 4_000_000;
+
+/// Nor graphs whose products have more together: some seconds.
+const MAX_WORK: usize = 100_000_000;
+
+/// Products of terms that take about a unit of work.
+const TERMS: usize = 16;
+
+/// The outputs written out; `None` if they are too large, or of higher degree
+/// than fits.
+pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>> {
+    let mut found: Vec<Polynomial> = vec![Vec::new(); graph.nodes.len()];
+    visit(graph, limits, &mut |node, polynomial| {
+        found[node] = polynomial.clone();
+    })?;
+    let outputs = graph.outputs.iter().map(|edge| {
+        let mut value = found[edge.node().index()].clone();
+        if edge.is_negative() {
+            for (_, coefficient) in &mut value {
+                *coefficient = -*coefficient;
+            }
+        }
+        value
+    });
+    Some(outputs.collect())
+}
+
+/// Shows each output's node, once and without a sign, written out; none is
+/// kept longer than others are made of it. `None` as [`expand`].
+pub(super) fn visit(
+    graph: &Graph,
+    limits: &InputBox,
+    show: &mut dyn FnMut(usize, &Polynomial),
+) -> Option<()> {
+    let live = graph.live();
+    if limits.joints() > MAX_JOINTS || mixes(graph, &live) {
+        return None;
+    }
+    let mut last_use = vec![0; graph.nodes.len()];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        if live[index] {
+            for operand in node.operands().into_iter().flatten() {
+                last_use[operand.index()] = index;
+            }
+        }
+    }
+    let mut is_output = vec![false; graph.nodes.len()];
+    for output in &graph.outputs {
+        is_output[output.node().index()] = true;
+    }
+    let mut values: Vec<Polynomial> = Vec::with_capacity(graph.nodes.len());
+    let mut work = 0;
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let value = match *node {
+            _ if !live[index] => Vec::new(),
+            Node::Constant(c) => vec![(0, Interval::exact(&graph.constants[c as usize]))],
+            Node::Input(input) => leaf(input, limits)?,
+            Node::Sum(a, b) => sum(&values[a.index()], &values[b.index()], false),
+            Node::Difference(a, b) => sum(&values[a.index()], &values[b.index()], true),
+            Node::Product(a, b) => {
+                let (a, b) = (&values[a.index()], &values[b.index()]);
+                work += a.len() * b.len();
+                work::count(1 + a.len() * b.len() / TERMS);
+                if work > MAX_WORK {
+                    return None;
+                }
+                product(a, b)?
+            }
+            // No polynomial.
+            Node::Quotient(..) => return None,
+        };
+        if is_output[index] {
+            show(index, &value);
+        }
+        // What nobody reads any more need not be kept.
+        values.push(if last_use[index] > index {
+            value
+        } else {
+            Vec::new()
+        });
+        if live[index] {
+            for operand in node.operands().into_iter().flatten() {
+                if last_use[operand.index()] == index {
+                    values[operand.index()] = Vec::new();
+                }
+            }
+        }
+    }
+    Some(())
+}
+
+/// Whether a joint's position is read and its sine or cosine too: both would
+/// have the same place in a key.
+fn mixes(graph: &Graph, live: &[bool]) -> bool {
+    let (mut slides, mut turns) = (0u64, 0u64);
+    for (node, _) in graph.nodes.iter().zip(live).filter(|(_, live)| **live) {
+        match node {
+            Node::Input(Input::Entry(Argument::Position, joint)) => slides |= 1 << joint,
+            Node::Input(Input::Sin(angle) | Input::Cos(angle)) => {
+                angle.terms().for_each(|(joint, _)| turns |= 1 << joint);
+            }
+            _ => {}
+        }
+    }
+    slides & turns != 0
+}
+
+/// Where a joint's bits are in a key.
+pub(super) const fn shift(joint: usize) -> usize {
+    16 + 5 * joint
+}
+
+/// The power of the cosine and of the sine of a joint.
+pub(super) fn powers(key: Key, joint: usize) -> (u32, u32) {
+    let bits = (key >> shift(joint)) as u32 & 31;
+    (bits & 15, bits >> 4)
+}
+
+/// The rates of a key.
+pub(super) fn rates(key: Key) -> [u8; 2] {
+    [(key >> 8) as u8, key as u8]
+}
+
+fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
+    let n = limits.joints();
+    let cosine = |joint: usize| 1u128 << shift(joint);
+    let sine = |joint: usize| 16u128 << shift(joint);
+    Some(match input {
+        Input::Entry(Argument::Velocity, joint) => vec![(joint as u128 + 1, Interval::ONE)],
+        Input::Entry(Argument::Acceleration, joint) => {
+            vec![((n + joint) as u128 + 1, Interval::ONE)]
+        }
+        Input::Entry(
+            Argument::Torque | Argument::ReferenceVelocity | Argument::ReferenceAcceleration,
+            _,
+        ) => return None,
+        Input::Entry(Argument::Position, joint) => {
+            let q = limits.position[joint];
+            let middle = (0, Interval::point(q.mid()));
+            vec![middle, (cosine(joint), Interval::point(q.radius()))]
+        }
+        Input::Sin(angle) | Input::Cos(angle) => {
+            // The pair of the sum by the addition theorems.
+            let (mut sin, mut cos) = (Vec::new(), vec![(0, Interval::ONE)]);
+            for (joint, negative) in angle.terms() {
+                let one = Interval::ONE;
+                let s = vec![(sine(joint), if negative { -one } else { one })];
+                let c = vec![(cosine(joint), one)];
+                let next = sum(&product(&sin, &c)?, &product(&cos, &s)?, false);
+                cos = sum(&product(&cos, &c)?, &product(&sin, &s)?, true);
+                sin = next;
+            }
+            if matches!(input, Input::Sin(_)) {
+                sin
+            } else {
+                cos
+            }
+        }
+    })
+}
+
+fn sum(a: &Polynomial, b: &Polynomial, minus: bool) -> Polynomial {
+    let mut out = Vec::with_capacity(a.len() + b.len());
+    let (mut i, mut j) = (0, 0);
+    let sign = |x: Interval| if minus { -x } else { x };
+    while i < a.len() || j < b.len() {
+        match (a.get(i), b.get(j)) {
+            (Some(x), Some(y)) if x.0 == y.0 => {
+                out.push((x.0, x.1 + sign(y.1)));
+                (i, j) = (i + 1, j + 1);
+            }
+            (Some(x), other) if other.is_none_or(|y| x.0 < y.0) => {
+                out.push(*x);
+                i += 1;
+            }
+            (_, Some(y)) => {
+                out.push((y.0, sign(y.1)));
+                j += 1;
+            }
+            _ => break,
+        }
+    }
+    out
+}
+
+fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
+    if a.len() * b.len() > MAX_PRODUCTS {
+        return None;
+    }
+    let mut terms = Vec::with_capacity(a.len() * b.len());
+    for (x, p) in a {
+        for (y, q) in b {
+            let coefficient = if *p == Interval::ONE {
+                *q
+            } else if *q == Interval::ONE {
+                *p
+            } else {
+                *p * *q
+            };
+            multiply(*x, *y, coefficient, &mut terms)?;
+            // A pair is more than one term if it has sines in common.
+            if terms.len() > MAX_PRODUCTS {
+                return None;
+            }
+        }
+    }
+    terms.sort_by_key(|term| term.0);
+    let mut out: Polynomial = Vec::new();
+    for (key, coefficient) in terms {
+        match out.last_mut() {
+            Some(last) if last.0 == key => last.1 = last.1 + coefficient,
+            _ => out.push((key, coefficient)),
+        }
+    }
+    Some(out)
+}
+
+/// The product of two monomials: each squared sine splits it in two.
+fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Option<()> {
+    let [a, b] = rates(x);
+    let [c, d] = rates(y);
+    let mut kept = [a, b, c, d];
+    kept.sort_unstable();
+    if kept[1] != 0 {
+        return None;
+    }
+    let mut key = u128::from(kept[2]) << 8 | u128::from(kept[3]);
+    let (mut x, mut y) = (x >> 16, y >> 16);
+    let mut joint = 0;
+    let mut squares = [0usize; MAX_JOINTS];
+    let mut count = 0;
+    while x != 0 || y != 0 {
+        let cos = (x & 15) + (y & 15);
+        // Two more may come from a squared sine.
+        if cos > 13 {
+            return None;
+        }
+        let (s, t) = (x >> 4 & 1, y >> 4 & 1);
+        key |= (cos | (s ^ t) << 4) << shift(joint);
+        if s & t == 1 {
+            squares[count] = joint;
+            count += 1;
+        }
+        (x, y, joint) = (x >> 5, y >> 5, joint + 1);
+    }
+    for choice in 0..1u32 << count {
+        let mut split = key;
+        for (bit, &joint) in squares[..count].iter().enumerate() {
+            if choice >> bit & 1 == 1 {
+                split += 2 << shift(joint);
+            }
+        }
+        let negative = choice.count_ones() % 2 == 1;
+        out.push((split, if negative { -coefficient } else { coefficient }));
+    }
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::{Builder, Folding};
+    use crate::program::AngleSum;
+
+    /// sin q₁ − q₁ is no polynomial in the sine and cosine of one angle.
+    #[test]
+    fn an_angle_that_is_read_as_a_number_is_not_written_out() {
+        let half_turn = Interval::symmetric(3.2);
+        let limits = InputBox {
+            position: vec![half_turn; 2],
+            velocity: vec![Interval::ZERO; 2],
+            acceleration: vec![Interval::ZERO; 2],
+        };
+        let written = |slides: usize| {
+            let mut builder = Builder::new(Folding::Syntactic);
+            let sine = builder.input(Input::Sin(AngleSum::joint(0)));
+            let position = builder.input(Input::Entry(Argument::Position, slides));
+            let output = builder.sub(&sine, &position);
+            expand(&builder.finish(&[output]), &limits)
+        };
+        assert_eq!(written(0), None);
+        assert_eq!(written(1).unwrap()[0].len(), 3);
+    }
+}

@@ -1,0 +1,124 @@
+//! Which monomials a graph has, and the work that gives their coefficients.
+
+use std::collections::BTreeMap;
+
+use super::{Forms, Monomial, Work};
+use crate::function::Argument;
+use crate::graph::{Graph, Node};
+use crate::interval::Interval;
+use crate::program::{AngleSum, Input};
+
+/// Above this much work a product, rates are taken as plain intervals.
+const MAX_PRODUCTS: usize = 400_000;
+
+impl Forms {
+    /// `None` if keeping the rates apart would be too much work.
+    pub(super) fn compile(graph: &Graph, joints: usize, rates: bool) -> Option<Forms> {
+        let mut forms = Forms::empty(joints);
+        forms.rates = rates;
+        let mut slots: Vec<BTreeMap<Monomial, u32>> = Vec::with_capacity(graph.nodes.len());
+        let mut factors: BTreeMap<Vec<u8>, u32> = BTreeMap::from([(Vec::new(), 0)]);
+        let mut positions = vec![false; joints];
+        let mut products = 0;
+        for (node, live) in graph.nodes.iter().zip(graph.live()) {
+            let mut slot: BTreeMap<Monomial, u32> = BTreeMap::new();
+            let mut place = |monomial: Monomial, forms: &mut Forms| {
+                *slot.entry(monomial).or_insert_with(|| {
+                    forms.coefficients += 1;
+                    forms.coefficients as u32 - 1
+                })
+            };
+            match *node {
+                _ if !live => {}
+                Node::Constant(c) => {
+                    let out = place([0; 2], &mut forms);
+                    let value = Interval::exact(&graph.constants[c as usize]);
+                    forms.work.push(Work::Constant(out, value));
+                }
+                Node::Input(input) => {
+                    let first = forms.coefficients as u32;
+                    place(forms.leaf(input), &mut forms);
+                    forms.work.push(Work::Leaf(first, input));
+                    for joint in position_joints(input) {
+                        positions[joint] = true;
+                    }
+                }
+                Node::Sum(a, b) | Node::Difference(a, b) => {
+                    for (&monomial, &x) in &slots[a.index()] {
+                        let out = place(monomial, &mut forms);
+                        forms.work.push(Work::Add(out, x));
+                    }
+                    for (&monomial, &x) in &slots[b.index()] {
+                        let out = place(monomial, &mut forms);
+                        let minus = matches!(node, Node::Difference(..));
+                        let work = if minus { Work::Sub } else { Work::Add };
+                        forms.work.push(work(out, x));
+                    }
+                }
+                // No polynomial.
+                Node::Quotient(..) => return None,
+                Node::Product(a, b) => {
+                    products += slots[a.index()].len() * slots[b.index()].len();
+                    if rates && products > MAX_PRODUCTS {
+                        return None;
+                    }
+                    for (left, &x) in &slots[a.index()] {
+                        for (right, &y) in &slots[b.index()] {
+                            let (monomial, rest) = multiply(left, right);
+                            let next = factors.len() as u32;
+                            let factor = *factors.entry(rest.clone()).or_insert_with(|| {
+                                forms.factors.push(rest);
+                                next
+                            });
+                            let out = place(monomial, &mut forms);
+                            forms.work.push(Work::Mul(out, x, y, factor));
+                        }
+                    }
+                }
+            }
+            slots.push(slot);
+        }
+        for edge in &graph.outputs {
+            let slot = &slots[edge.node().index()];
+            let terms = slot.iter().map(|(&m, &x)| (m, x)).collect();
+            forms.outputs.push((edge.is_negative(), terms));
+        }
+        forms.positions = (0..joints).filter(|&j| positions[j]).collect();
+        Some(forms)
+    }
+
+    /// The monomial of an input.
+    fn leaf(&self, input: Input) -> Monomial {
+        let n = self.joints;
+        match input {
+            Input::Entry(Argument::Velocity, joint) if self.rates => [0, joint as u8 + 1],
+            Input::Entry(Argument::Acceleration, joint) if self.rates => [0, (n + joint) as u8 + 1],
+            _ => [0; 2],
+        }
+    }
+}
+
+fn position_joints(input: Input) -> impl Iterator<Item = usize> {
+    let (angle, slide) = match input {
+        Input::Sin(angle) | Input::Cos(angle) => (Some(angle), None),
+        Input::Entry(Argument::Position, joint) => (None, Some(joint)),
+        _ => (None, None),
+    };
+    let turned = angle.into_iter().flat_map(AngleSum::terms);
+    turned.map(|(joint, _)| joint).chain(slide)
+}
+
+/// The product of two monomials: what is kept, and the variables that go into
+/// the coefficient.
+fn multiply(left: &Monomial, right: &Monomial) -> (Monomial, Vec<u8>) {
+    let mut rates: Vec<u8> = [*left, *right].concat();
+    rates.retain(|&v| v != 0);
+    rates.sort_unstable();
+    let rest = rates.split_off(rates.len().min(2));
+    let kept = match rates[..] {
+        [] => [0, 0],
+        [a] => [0, a],
+        [a, b, ..] => [a, b],
+    };
+    (kept, rest)
+}

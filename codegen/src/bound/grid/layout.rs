@@ -1,0 +1,276 @@
+//! Terms regrouped so that points are evaluated joint after joint.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use super::harmonics::{bits, multiple, unphased};
+use crate::bound::expand::Key;
+use crate::bound::input_box::InputBox;
+use crate::interval::Interval;
+
+/// Angles that are put in side by side.
+pub(super) const LANES: usize = 8;
+
+/// Multiples of an angle up to the 15th: their cosines and sines, and 1.
+const BASES: usize = 32;
+
+/// Values that differ by sine and cosine alone.
+pub(super) struct Group {
+    /// Where it ends.
+    pub end: u32,
+    /// How large its rates are.
+    pub size: f64,
+    /// The key of its first value.
+    pub key: Key,
+}
+
+/// Trigonometric polynomials in multiples of their angles, angle after angle.
+pub(super) struct Layout {
+    pub joints: Vec<usize>,
+    pub degrees: Vec<u32>,
+    /// What rounding costs, against the sum of all terms' magnitudes.
+    pub rounding: f64,
+    /// Of each joint: the multiples that occur, and whether of the sine.
+    bases: Vec<Vec<(u32, bool)>>,
+    pub coefficients: Vec<f64>,
+    /// Of each joint: (base, to) of each value that goes in, and how many come
+    /// out.
+    folds: Vec<(Vec<[u32; 2]>, usize)>,
+    /// Of each joint: values that go in and differ by sine and cosine alone,
+    /// one after the other.
+    pub groups: Vec<Vec<Group>>,
+    /// The range of the rates of each value that comes out.
+    pub output: Vec<(f64, f64)>,
+    /// What is left of the key of each value that comes out.
+    pub rest: Vec<Key>,
+    pub slack: f64,
+    /// Whether a joint has less than the whole circle.
+    pub part: Vec<bool>,
+}
+
+impl Layout {
+    /// Of a polynomial in multiples; `range` of what is not an angle in a key.
+    /// Terms of at most `least` are left to the slack. The joint of the highest
+    /// degree is the last one: its sums are the shortest.
+    pub(super) fn new(
+        polynomial: &[(Key, Interval)],
+        limits: &InputBox,
+        sliding: &[bool],
+        range: &dyn Fn(Key) -> Interval,
+        least: f64,
+    ) -> Layout {
+        Layout::ordered(polynomial, limits, sliding, range, least, &[])
+    }
+
+    /// The same, some joints first.
+    pub(super) fn ordered(
+        polynomial: &[(Key, Interval)],
+        limits: &InputBox,
+        sliding: &[bool],
+        range: &dyn Fn(Key) -> Interval,
+        least: f64,
+        first: &[usize],
+    ) -> Layout {
+        let n = limits.joints();
+        let (mut slack, mut sizes) = (0.0, 0.0);
+        let mut terms: Vec<(Key, f64)> = Vec::new();
+        for &(key, coefficient) in polynomial {
+            let most = range(key).magnitude();
+            if most == 0.0 || coefficient.magnitude() == 0.0 {
+                continue;
+            }
+            let size = (coefficient.magnitude() * most).next_up();
+            if size <= least || coefficient.mid() == 0.0 {
+                slack += size;
+                continue;
+            }
+            // Lengths of groups lose what is too small to be squared.
+            let tiny = f64::MIN_POSITIVE.sqrt() * most;
+            slack += (coefficient.radius() * most + tiny) * (1.0 + 1e-9);
+            sizes += size;
+            terms.push((key, coefficient.mid()));
+        }
+        let degree = |joint: usize| {
+            let multiples = terms.iter().map(|&(key, _)| multiple(key, joint).0);
+            multiples.max().unwrap_or(0)
+        };
+        let mut joints: Vec<usize> = (0..n).filter(|&j| degree(j) > 0).collect();
+        joints.sort_by_key(|&joint| {
+            let place = first.iter().position(|&early| early == joint);
+            (place.unwrap_or(first.len()), degree(joint))
+        });
+        let degrees: Vec<u32> = joints.iter().map(|&j| degree(j)).collect();
+        let part = joints
+            .iter()
+            .map(|&j| !sliding[j] && limits.position[j].width() < 2.0 * PI * (1.0 - 1e-12))
+            .collect();
+        terms.sort_by_key(|&(key, _)| (unphased(key, n), key));
+        let coefficients = terms.iter().map(|&(_, x)| x).collect();
+        let mut terms: Vec<Key> = terms.into_iter().map(|(key, _)| key).collect();
+        let mut bases: Vec<Vec<(u32, bool)>> = vec![Vec::new(); joints.len()];
+        let mut groups = Vec::new();
+        let mut folds = Vec::new();
+        for (k, &joint) in joints.iter().enumerate() {
+            let together = terms.chunk_by(|&a, &b| unphased(a, n) == unphased(b, n));
+            let mut end = 0;
+            groups.push(
+                together
+                    .map(|group| {
+                        end += group.len() as u32;
+                        Group {
+                            end,
+                            size: range(group[0]).magnitude(),
+                            key: group[0],
+                        }
+                    })
+                    .collect(),
+            );
+            let rest = |key: Key| key & !bits(joint);
+            let mut after: Vec<Key> = terms.iter().map(|&key| rest(key)).collect();
+            after.sort_by_key(|&key| (unphased(key, n), key));
+            after.dedup();
+            let places: BTreeMap<Key, u32> = after.iter().copied().zip(0..).collect();
+            let mut fold = Vec::new();
+            for &key in &terms {
+                let of = multiple(key, joint);
+                let base = bases[k].iter().position(|&b| b == of);
+                let base = base.unwrap_or_else(|| {
+                    bases[k].push(of);
+                    bases[k].len() - 1
+                });
+                fold.push([base as u32, places[&rest(key)]]);
+            }
+            terms = after;
+            folds.push((fold, terms.len()));
+        }
+        let rounding = roundings(&degrees, &folds, terms.len());
+        slack += sizes * rounding;
+        let output = terms.iter().map(|&key| {
+            let range = range(key);
+            (range.low(), range.high())
+        });
+        Layout {
+            output: output.collect(),
+            rounding,
+            rest: terms.clone(),
+            joints,
+            degrees,
+            bases,
+            coefficients,
+            folds,
+            groups,
+            slack: slack * (1.0 + 1e-9),
+            part,
+        }
+    }
+
+    /// How many values there are before a joint, or after the last one.
+    pub(super) fn len(&self, level: usize) -> usize {
+        match level.checked_sub(1) {
+            None => self.coefficients.len(),
+            Some(before) => self.folds[before].1,
+        }
+    }
+
+    /// A bound without looking at angles: each group's is the length of its
+    /// coefficients.
+    pub(super) fn crude(&self, level: usize, values: &[f64]) -> f64 {
+        // After the last angle only rates are left.
+        let Some(groups) = self.groups.get(level) else {
+            return self.value(values) * (1.0 + 1e-9);
+        };
+        let (mut sum, mut from) = (self.slack, 0);
+        for group in groups {
+            let end = group.end as usize;
+            let squares: f64 = values[from..end].iter().map(|x| x * x).sum();
+            sum += squares.sqrt() * group.size;
+            from = end;
+        }
+        sum * (1.0 + 1e-9)
+    }
+
+    /// Puts angles into the values before a joint: a column of values each joins
+    /// those in `after`.
+    pub(super) fn fold(&self, level: usize, angles: &[f64], before: &[f64], after: &mut Vec<f64>) {
+        for angles in angles.chunks(LANES) {
+            match angles.len() {
+                1 => self.columns::<1>(level, angles, before, after),
+                2..=4 => self.columns::<4>(level, angles, before, after),
+                _ => self.columns::<LANES>(level, angles, before, after),
+            }
+        }
+    }
+
+    /// Up to W angles side by side: each sum is the one that an angle by itself
+    /// would have.
+    fn columns<const W: usize>(
+        &self,
+        level: usize,
+        angles: &[f64],
+        before: &[f64],
+        after: &mut Vec<f64>,
+    ) {
+        let mut rows = [[0.0; W]; BASES];
+        for (lane, &angle) in angles.iter().enumerate() {
+            let (sin, cos) = libm::sincos(angle);
+            let mut multiples = [(0.0, 1.0); 16];
+            for k in 1..=(self.degrees[level] as usize).min(15) {
+                let (s, c) = multiples[k - 1];
+                multiples[k] = (s * cos + c * sin, c * cos - s * sin);
+            }
+            for (row, &(k, sine)) in rows.iter_mut().zip(&self.bases[level]) {
+                let (s, c) = multiples[k as usize];
+                row[lane] = if sine { s } else { c };
+            }
+        }
+        let (fold, len) = &self.folds[level];
+        let mut sums = vec![[0.0; W]; *len];
+        for (&x, &[base, to]) in before.iter().zip(fold) {
+            let row = &rows[base as usize % BASES];
+            for (sum, value) in sums[to as usize].iter_mut().zip(row) {
+                *sum += x * value;
+            }
+        }
+        for lane in 0..angles.len() {
+            after.extend(sums.iter().map(|sums| sums[lane]));
+        }
+    }
+
+    /// The value at a point, rates at their worst.
+    pub(super) fn value(&self, values: &[f64]) -> f64 {
+        let (mut low, mut high) = (0.0, 0.0);
+        for (x, &(least, greatest)) in values.iter().zip(&self.output) {
+            let (a, b) = (x * least, x * greatest);
+            low += a.min(b);
+            high += a.max(b);
+        }
+        f64::max(high, -low) + self.slack
+    }
+}
+
+/// What rounding costs a value at a point, against the sum of the magnitudes
+/// of all its terms.
+///
+/// For each angle a term is multiplied by a sine or cosine of a multiple and
+/// added to others:
+///
+/// - libm's pair errs by less than 2·√2·u; each addition theorem adds to the
+///   last multiple's error (as a vector) the first's and its own roundings,
+///   2·√2·u at most: together less than 6·u for each unit of the degree;
+/// - the product takes one rounding;
+/// - the sum takes as many as it has terms.
+///
+/// Then rates: one product, and one addition for each value that is left. The
+/// little on top is for products of these errors, which are below 1e-9.
+fn roundings(degrees: &[u32], folds: &[(Vec<[u32; 2]>, usize)], left: usize) -> f64 {
+    let mut count = 1 + left;
+    for (&degree, (fold, len)) in degrees.iter().zip(folds) {
+        let mut terms = vec![0; *len];
+        for &[_, to] in fold {
+            terms[to as usize] += 1;
+        }
+        let longest = terms.into_iter().max().unwrap_or(0);
+        count += 6 * degree as usize + 1 + longest;
+    }
+    count as f64 * (f64::EPSILON / 2.0) * (1.0 + 1e-6)
+}

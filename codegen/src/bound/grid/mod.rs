@@ -1,0 +1,307 @@
+//! The largest magnitude of a trigonometric polynomial over a box, from its
+//! values at points that lie close where it is large.
+//!
+//! **Soundness.** Let |T| be largest, M, at x₀ and some rates; hold these
+//! rates. Of the first angle's cells one contains x₀'s; c is its middle, δ its
+//! half width, d the degree of T in that angle.
+//!
+//! - *Whole circle.* M. Riesz: |T(c, x₀₂, …)| ≥ M·cos(d·δ) for d·δ ≤ π/2. So
+//!   M ≤ m(c)/cos(d·δ), m(c) being the maximum over the other angles at c.
+//! - *Part of it.* The ends are points of their own. If x₀ is at an end,
+//!   nothing is lost; if not, ∂T(x₀) = 0, |∂²T| ≤ d²·F with F the largest
+//!   value over whole circles (Bernstein), and M ≤ m(c) + ½(d·δ)²·F.
+//!
+//! So M ≤ B is shown by showing m(c) ≤ B·cos(d·δ) for every cell, angle after
+//! angle; a cell for which that fails is cut in three. Every B that is tried is a
+//! value that T takes and a little more. For each point the rates are at their
+//! worst, monomial by monomial.
+//!
+//! What the arithmetic costs: coefficients are intervals, of which the points
+//! take the middle; their radii are added to each value, and so is what
+//! rounding costs on the way from coefficients to a value (`layout`).
+//!
+//! - `narrow`: angles of small ranges, written in multiples of another that
+//!   goes round
+//! - `products`: the largest sum of products of two polynomials
+//! - `harmonics`: multiples of angles in place of powers
+//! - `layout`: terms regrouped so that points are quick
+//! - `cells`: the bound; where sines cannot make up the difference any more, no
+//!   angle is looked at
+//! - [`least_eigenvalue`]: the same for a symmetric matrix
+
+mod cells;
+mod definite;
+mod harmonics;
+mod layout;
+mod narrow;
+mod products;
+
+use std::f64::consts::PI;
+
+use crate::bound::expand::{Key, Polynomial, rates};
+use crate::bound::input_box::InputBox;
+use crate::function::Argument;
+use crate::graph::{Graph, Node};
+use crate::interval::Interval;
+use crate::program::Input;
+use crate::random::Random;
+use cells::Cells;
+pub(super) use definite::least_eigenvalue;
+pub(super) use harmonics::harmonics;
+use layout::Layout;
+use narrow::narrowed;
+pub(super) use products::{Largest, Product, Products};
+
+/// Terms smaller than this part of the largest are not looked at one by one:
+/// most are what rounding left of terms that cancel, and would make the degree
+/// higher.
+const NEGLIGIBLE: f64 = 1e-8;
+
+/// What the highest multiples of narrow angles may come to, against what a bound
+/// may exceed a value by.
+const CUT: f64 = 0.3;
+
+/// The least bound that is tried, against the one without angles.
+const LEAST: f64 = 1e-15;
+
+/// The largest relative step from a bound that could not be shown to the next.
+const MAX_STEP: f64 = 0.15;
+
+/// d·δ of the first cells is π over this. Coarser ones are cut sooner or later.
+const FIRST: usize = 8;
+
+/// Cells whose d·δ is below this are not cut: with four angles their cosines
+/// take 1.6 of the two hundredths.
+const FINEST: f64 = 0.09;
+
+/// How much work a bound may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GridEffort {
+    /// Points at most; with none, no angle is looked at.
+    pub points: usize,
+    /// What a bound exceeds a value that is taken by, relative.
+    pub close: f64,
+    /// Places to climb from to such a value.
+    pub starts: usize,
+}
+
+impl GridEffort {
+    /// For bounds that count by themselves.
+    pub(super) fn fine(points: usize) -> GridEffort {
+        GridEffort {
+            points,
+            close: 0.02,
+            starts: 12,
+        }
+    }
+}
+
+/// Which joints slide: a position that is read as it stands.
+pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
+    let mut sliding = vec![false; joints];
+    for node in &graph.nodes {
+        if let Node::Input(Input::Entry(Argument::Position, joint)) = node {
+            sliding[*joint] = true;
+        }
+    }
+    sliding
+}
+
+/// What a bound is for. Over whole circles, the bounds that are tried do not
+/// depend on it: what was shown for one aim is shown again for another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Aim {
+    /// As small as can be shown, but no smaller than this.
+    Least(f64),
+    /// At most this, or it does not matter.
+    Within(f64),
+}
+
+/// The largest magnitude of a polynomial over a box; `None` if a power is too
+/// high to be written in multiples.
+pub(super) fn magnitude(
+    polynomial: &Polynomial,
+    limits: &InputBox,
+    sliding: &[bool],
+    aim: Aim,
+    closeness: GridEffort,
+) -> Option<f64> {
+    let range = |key: Key| range(key, limits);
+    let polynomial = harmonics(polynomial, limits.joints())?;
+    let (mut polynomial, narrow) = narrowed(polynomial, limits, sliding);
+    let sliding: Vec<bool> = (0..sliding.len())
+        .map(|joint| sliding[joint] || narrow.contains(&joint))
+        .collect();
+    let size = |&(key, x): &(Key, Interval)| x.magnitude() * range(key).magnitude();
+    let least = NEGLIGIBLE * polynomial.iter().map(size).fold(0.0, f64::max);
+    let mut layout = Layout::new(&polynomial, limits, &sliding, &range, least);
+    if !narrow.is_empty() && closeness.points > 0 {
+        let mut cells = Cells::new(&layout, limits, None, &|_, _| false);
+        cells.points = closeness.points;
+        let taken = climb(&mut cells, closeness.starts, &|values| layout.value(values));
+        let allowance = CUT * closeness.close * taken;
+        narrow::cut(&mut polynomial, &narrow, allowance, &size);
+        layout = Layout::new(&polynomial, limits, &sliding, &range, least);
+    }
+    if !layout.part.contains(&true) {
+        return Some(bound(&layout, limits, None, aim, closeness));
+    }
+    // Of the circles only the size matters, for what lies between points.
+    let (Aim::Least(goal) | Aim::Within(goal)) = aim;
+    let rough = GridEffort {
+        points: closeness.points / 16,
+        ..closeness
+    };
+    let whole = bound(&layout, limits, None, Aim::Least(goal), rough);
+    let part = bound(&layout, limits, Some(whole), aim, closeness);
+    Some(whole.min(part))
+}
+
+/// A bound over the whole circles, or, given that, over the box.
+fn bound(
+    layout: &Layout,
+    limits: &InputBox,
+    whole: Option<f64>,
+    aim: Aim,
+    closeness: GridEffort,
+) -> f64 {
+    let points = closeness.points;
+    let crude = layout.crude(0, &layout.coefficients);
+    let enough = match aim {
+        Aim::Least(goal) | Aim::Within(goal) => crude <= goal,
+    };
+    if points == 0 || enough {
+        return crude;
+    }
+    let accept = |values: &[f64], bound| layout.value(values) <= bound;
+    let without = |level: usize, values: &[f64]| layout.crude(level, values);
+    let mut cells = Cells::new(layout, limits, whole, &accept);
+    cells.crude = Some(&without);
+    cells.points = points;
+    let value = |values: &[f64]| layout.value(values) - layout.slack;
+    let least = climb(&mut cells, closeness.starts, &value);
+    let tries = tries(least, 2.0 * layout.slack, crude, closeness.close);
+    let start = match aim {
+        Aim::Least(goal) => {
+            let enough = tries.iter().position(|&bound| bound >= goal);
+            enough.unwrap_or(tries.len().saturating_sub(1))
+        }
+        Aim::Within(most) => match tries.iter().rposition(|&bound| bound <= most) {
+            Some(last) => last,
+            None => return crude,
+        },
+    };
+    let mut shown = |bound: f64| {
+        cells.points = points;
+        cells.below(0, bound)
+    };
+    if tries.get(start).is_some_and(|&bound| shown(bound)) {
+        return tries[start];
+    }
+    if matches!(aim, Aim::Within(_)) {
+        return crude;
+    }
+    least_shown(&tries, start, &mut shown).unwrap_or(crude)
+}
+
+/// Bounds to try: from a value that is taken up to the crude bound.
+fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
+    let mut tries = Vec::new();
+    let mut more = close;
+    // From so far below the crude bound that no smaller one matters, and a step
+    // up is one.
+    let mut next = (taken * (1.0 + more) + slack).max(LEAST * crude);
+    while f64::MIN_POSITIVE < next && next < crude {
+        tries.push(next);
+        more = (2.0 * more).min(MAX_STEP);
+        next *= 1.0 + more;
+    }
+    tries
+}
+
+/// The least of the bounds after one that was not shown: a larger one takes
+/// fewer points, so halving finds it.
+fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
+    let (mut failed, mut held) = (not, tries.len());
+    while held > failed + 1 {
+        let middle = (failed + held) / 2;
+        if shown(tries[middle]) {
+            held = middle;
+        } else {
+            failed = middle;
+        }
+    }
+    tries.get(held).copied()
+}
+
+/// A value that is taken: the largest of a coarse grid, climbed from.
+fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> f64 {
+    let count = cells.depth;
+    let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
+        Some((range, _)) => (range.low(), range.high()),
+        None => (0.0, 2.0 * PI),
+    };
+    // The first angles of which the values are still there need not be put in;
+    // they count all the same: points say where a climb ends, not how it is done.
+    let at = |angles: &[f64], known: usize, cells: &mut Cells<'_>| {
+        for (level, &angle) in angles.iter().enumerate() {
+            cells.charge(level);
+            if level >= known {
+                cells.place(level, angle);
+            }
+        }
+        value(cells.values(count))
+    };
+    let mut best = 0.0;
+    let mut random = Random::new(0x9d1d);
+    for _ in 0..starts {
+        let mut angles: Vec<f64> = (0..count)
+            .map(|level| {
+                let (low, high) = span(level, cells);
+                low + (high - low) * random.unit()
+            })
+            .collect();
+        let (mut highest, mut known) = (at(&angles, 0, cells), count);
+        let mut step = 0.7;
+        while step > 1e-3 && cells.points > 0 {
+            let mut moved = false;
+            for level in 0..count {
+                let (low, high) = span(level, cells);
+                for sign in [-1.0, 1.0] {
+                    let old = angles[level];
+                    angles[level] = match cells.part(level) {
+                        Some(_) => (old + sign * step).clamp(low, high),
+                        None => old + sign * step,
+                    };
+                    let next = at(&angles, known.min(level), cells);
+                    if next > highest {
+                        (highest, moved, known) = (next, true, count);
+                    } else {
+                        (angles[level], known) = (old, level);
+                    }
+                }
+            }
+            if !moved {
+                step *= 0.4;
+            }
+        }
+        best = f64::max(best, highest);
+    }
+    best
+}
+
+/// The range of a key's rates.
+fn range(key: Key, limits: &InputBox) -> Interval {
+    let n = limits.joints();
+    let variable = |rate: u8| match usize::from(rate) {
+        0 => Interval::ONE,
+        k if k <= n => limits.velocity[k - 1],
+        k => limits.acceleration[k - 1 - n],
+    };
+    match rates(key) {
+        [a, b] if a == b && a != 0 => variable(a).square(),
+        [0, 0] => Interval::ONE,
+        [0, b] => variable(b),
+        [a, b] => variable(a) * variable(b),
+    }
+}

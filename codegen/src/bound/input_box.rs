@@ -1,0 +1,245 @@
+//! The states for which a bound holds.
+
+use std::fmt;
+
+use dalembert_model::number::{Rational, Rounded};
+use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
+
+use crate::function::{Argument, Function};
+use crate::interval::Interval;
+use crate::program::{AngleSum, Input};
+use crate::scene::Setting;
+
+/// Intervals of joint positions, velocities and accelerations, one a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InputBox {
+    /// q, rad or m.
+    pub position: Vec<Interval>,
+    /// q̇
+    pub velocity: Vec<Interval>,
+    /// q̈
+    pub acceleration: Vec<Interval>,
+}
+
+/// A limit that a bound needs and the robot does not have, or has as zero
+/// where errors are to be relative to it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingLimit {
+    /// Zero-based joint.
+    pub joint: usize,
+    /// The key in the robot file.
+    pub limit: &'static str,
+    /// Whether it is there, but zero.
+    pub zero: bool,
+}
+
+impl fmt::Display for MissingLimit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (joint, limit) = (self.joint + 1, self.limit);
+        match self.zero {
+            false => write!(
+                f,
+                "a bound needs a box: joint {joint} has no limit `{limit}`"
+            ),
+            true => write!(
+                f,
+                "the limit `{limit}` of joint {joint} is 0: errors relative to the actuators need \
+                 one above 0; give that, or make them relative to the range"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for MissingLimit {}
+
+impl InputBox {
+    /// The robot's limits. A revolute joint without limits of position may
+    /// stand anywhere: one turn.
+    ///
+    /// # Errors
+    /// A limit of motion that the robot does not have.
+    pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
+        InputBox::reading(
+            &Setting::whole(robot),
+            &Function::InverseDynamics.arguments(),
+        )
+    }
+
+    /// The states of a setting that a function reads: its box, or the robot's
+    /// limits. Locked joints stand still where they are, and a rate that is
+    /// zero, or not an argument, is zero.
+    ///
+    /// # Errors
+    /// As [`InputBox::of`].
+    pub fn within(setting: &Setting, function: Function) -> Result<InputBox, MissingLimit> {
+        InputBox::reading(setting, &setting.arguments(function))
+    }
+
+    fn reading(setting: &Setting, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
+        let mut limits = InputBox {
+            position: Vec::new(),
+            velocity: Vec::new(),
+            acceleration: Vec::new(),
+        };
+        for (joint, row) in setting.robot().joints.iter().enumerate() {
+            let missing = |limit| MissingLimit {
+                joint,
+                limit,
+                zero: false,
+            };
+            if let Some(at) = setting.scene().and_then(|scene| scene.locked(joint)) {
+                limits.position.push(around(at));
+                limits.velocity.push(Interval::ZERO);
+                limits.acceleration.push(Interval::ZERO);
+                continue;
+            }
+            limits
+                .position
+                .push(position(row).ok_or(missing("position"))?);
+            let rate = |argument, limit: &Option<Rational>, what| {
+                if !arguments.contains(&argument) {
+                    return Ok(Interval::ZERO);
+                }
+                let most = limit.as_ref().map(f64::nearest_rational);
+                most.map(Interval::symmetric).ok_or(missing(what))
+            };
+            let Limits {
+                velocity,
+                acceleration,
+                ..
+            } = &row.limits;
+            let velocity = rate(Argument::Velocity, velocity, "velocity")?;
+            limits.velocity.push(velocity);
+            let acceleration = rate(Argument::Acceleration, acceleration, "acceleration")?;
+            limits.acceleration.push(acceleration);
+        }
+        Ok(limits)
+    }
+
+    /// Whether every state of another box is in this one.
+    pub fn holds(&self, other: &InputBox) -> bool {
+        let pairs = |mine: &[Interval], theirs: &[Interval]| {
+            mine.len() == theirs.len()
+                && mine
+                    .iter()
+                    .zip(theirs)
+                    .all(|(a, b)| a.low() <= b.low() && b.high() <= a.high())
+        };
+        pairs(&self.position, &other.position)
+            && pairs(&self.velocity, &other.velocity)
+            && pairs(&self.acceleration, &other.acceleration)
+    }
+
+    /// The ranges of an argument; none of one that a box does not bound.
+    pub fn of_argument(&self, argument: Argument) -> &[Interval] {
+        match argument {
+            Argument::Position => &self.position,
+            Argument::Velocity => &self.velocity,
+            Argument::Acceleration => &self.acceleration,
+            _ => &[],
+        }
+    }
+
+    /// The number of joints.
+    pub fn joints(&self) -> usize {
+        self.position.len()
+    }
+
+    /// The values that an angle takes.
+    pub fn angle(&self, angle: AngleSum) -> Interval {
+        angle
+            .terms()
+            .fold(Interval::ZERO, |sum, (joint, negative)| {
+                let q = self.position[joint];
+                match (negative, sum == Interval::ZERO) {
+                    (false, true) => q,
+                    (true, true) => -q,
+                    (false, false) => sum + q,
+                    (true, false) => sum - q,
+                }
+            })
+    }
+
+    /// The values that an input takes.
+    pub fn input(&self, input: Input) -> Interval {
+        match input {
+            Input::Sin(angle) => self.angle(angle).sin(),
+            Input::Cos(angle) => self.angle(angle).cos(),
+            Input::Entry(argument, joint) => {
+                let range = self.of_argument(argument).get(joint);
+                range.copied().unwrap_or(Interval::ALL)
+            }
+        }
+    }
+}
+
+fn value(position: &Position) -> f64 {
+    match position {
+        Position::Angle(angle) => angle.to_f64(),
+        Position::Length(length) => f64::nearest_rational(length),
+    }
+}
+
+/// A position that need not be a double.
+fn around(at: &Position) -> Interval {
+    let near = value(at);
+    Interval::new(near.next_down(), near.next_up()).unwrap_or(Interval::point(near))
+}
+
+fn position(joint: &Joint) -> Option<Interval> {
+    match (&joint.limits.position, joint.kind) {
+        (Some([low, high]), _) => Interval::new(value(low), value(high)),
+        (None, JointKind::Revolute) => Some(Interval::symmetric(std::f64::consts::PI)),
+        (None, JointKind::Prismatic) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bound::scale;
+    use crate::program::Program;
+    use dalembert_model::read::{Options, parse};
+
+    /// A limit of zero is not a missing one: at rest for a box, nothing to be
+    /// relative to for T.
+    #[test]
+    fn limits_that_are_missing_and_limits_of_zero() {
+        let of = |limits: &str| {
+            let source = format!(
+                "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
+                 kind = \"revolute\"\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+                 limits = {{ {limits} }}\n"
+            );
+            parse(&source, &Options::default()).unwrap().robot
+        };
+        let program = |function: Function| Program {
+            function,
+            joints: 1,
+            rows: vec![0],
+            arguments: function.arguments().to_vec(),
+            trig: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        };
+        let still = of("velocity = 0, acceleration = 0, torque = 0");
+        let at_rest = InputBox::of(&still).unwrap();
+        assert_eq!(at_rest.velocity, [Interval::ZERO]);
+        for (limits, function, words) in [
+            ("", Function::Gravity, "joint 1 has no limit `torque`"),
+            (
+                "torque = 0",
+                Function::Gravity,
+                "the limit `torque` of joint 1 is 0",
+            ),
+            (
+                "torque = 1, acceleration = 0",
+                Function::Inertia,
+                "the limit `acceleration` of joint 1 is 0",
+            ),
+        ] {
+            let error = scale::actuator(&of(limits), &program(function)).unwrap_err();
+            assert!(error.to_string().contains(words), "{limits}: {error}");
+        }
+    }
+}

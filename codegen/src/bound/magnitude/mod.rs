@@ -1,0 +1,178 @@
+//! The largest magnitude of a graph's outputs over a box: written out as
+//! trigonometric polynomials and at a grid (`grid`); if they are too large for that,
+//! by branch and bound.
+//!
+//! - `boxes`: branch and bound
+
+mod boxes;
+
+use crate::bound::distinct::Distinct;
+use crate::bound::expand::expand;
+use crate::bound::grid::{self, Aim, GridEffort};
+use crate::bound::input_box::InputBox;
+use crate::graph::Graph;
+use boxes::branch_and_bound;
+
+/// How much work a bound may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BoxEffort {
+    /// Sub-boxes evaluated at most.
+    pub boxes: usize,
+    /// Points of a grid at most; 0 for none.
+    pub points: usize,
+}
+
+impl BoxEffort {
+    /// For certificates.
+    pub const CERTIFY: BoxEffort = BoxEffort {
+        boxes: 300_000,
+        points: 1 << 24,
+    };
+    /// For a search that asks often.
+    pub const QUICK: BoxEffort = BoxEffort {
+        boxes: 20_000,
+        points: 1 << 22,
+    };
+}
+
+/// Bounds of |output| over the box, one an output. `scales` say what a unit
+/// of each output is worth: the largest |output|/scale is tightened.
+/// `goal`: stop as soon as every |output|/scale is at most that.
+pub fn magnitudes(
+    graph: &Graph,
+    whole: &InputBox,
+    scales: &[f64],
+    goal: f64,
+    budget: BoxEffort,
+) -> Vec<f64> {
+    let (graph, scales, distinct) = once(graph, scales);
+    // Close enough to the goal to tell how far from it.
+    let aims = scales.iter().map(|scale| Aim::Least(0.85 * goal * scale));
+    let most = written_out(&graph, whole, aims, budget);
+    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, goal, budget));
+    distinct.spread(&most)
+}
+
+/// The same, if every output is shown to be at most its limit; at a grid, the
+/// first for which it is not ends the search.
+pub fn magnitudes_within(
+    graph: &Graph,
+    whole: &InputBox,
+    limits: &[f64],
+    budget: BoxEffort,
+) -> Option<Vec<f64>> {
+    let (graph, limits, distinct) = once(graph, limits);
+    let aims = limits.iter().map(|&limit| Aim::Within(limit));
+    let most = written_out(&graph, whole, aims, budget);
+    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
+    let within =
+        most.len() == limits.len() && most.iter().zip(&limits).all(|(x, limit)| x <= limit);
+    within.then(|| distinct.spread(&most))
+}
+
+/// Equal outputs once: a sign does not matter to a magnitude; a scale does to
+/// the search.
+fn once(graph: &Graph, scales: &[f64]) -> (Graph, Vec<f64>, Distinct) {
+    let pairs = graph.outputs.iter().zip(scales);
+    let keys = pairs.map(|(edge, scale)| Some((edge.node(), scale.to_bits())));
+    let distinct = Distinct::by(keys);
+    let graph = Graph {
+        outputs: distinct.pick(&graph.outputs),
+        ..graph.clone()
+    };
+    (graph, distinct.pick(scales), distinct)
+}
+
+/// Bounds at a grid, if there is one: of all outputs, or up to the first that is
+/// not within what it is to be.
+fn written_out(
+    graph: &Graph,
+    whole: &InputBox,
+    aims: impl Iterator<Item = Aim>,
+    budget: BoxEffort,
+) -> Option<Vec<f64>> {
+    if budget.points == 0 {
+        return None;
+    }
+    let polynomials = expand(graph, whole)?;
+    let sliding = grid::sliding(graph, whole.joints());
+    let closeness = GridEffort::fine(budget.points);
+    let mut most = Vec::new();
+    for (polynomial, aim) in polynomials.iter().zip(aims) {
+        let found = grid::magnitude(polynomial, whole, &sliding, aim, closeness)?;
+        most.push(found);
+        if matches!(aim, Aim::Within(limit) if found > limit) {
+            break;
+        }
+    }
+    Some(most)
+}
+
+/// x/scale, rounded up; 0/0 is no error.
+pub fn relative(x: f64, scale: f64) -> f64 {
+    if x == 0.0 {
+        0.0
+    } else if scale > 0.0 {
+        (x / scale).next_up()
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::function::Argument;
+    use crate::graph::builder::Value;
+    use crate::graph::{Builder, Folding};
+    use crate::interval::Interval;
+    use crate::program::{AngleSum, Input};
+    use dalembert_model::number::{Exact, Rational};
+
+    /// A rate that is always zero: its terms are nothing, not the least double.
+    #[test]
+    fn what_never_moves_is_bounded_by_nothing() {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let rate = builder.input(Input::Entry(Argument::Velocity, 0));
+        let cosine = builder.input(Input::Cos(AngleSum::joint(0)));
+        let load = builder.mul(&rate, &cosine);
+        let graph = builder.finish(&[load]);
+        let mut limits = InputBox {
+            position: vec![Interval::symmetric(1.0)],
+            velocity: vec![Interval::ZERO],
+            acceleration: vec![Interval::symmetric(30.0)],
+        };
+        let bound =
+            |limits: &InputBox| magnitudes(&graph, limits, &[1.0], 0.0, BoxEffort::QUICK)[0];
+        assert_eq!(bound(&limits), 0.0);
+        let zero = Builder::new(Folding::Syntactic).finish(&[Value::Constant(Exact::from(
+            Rational::from_integer(0.into()),
+        ))]);
+        assert_eq!(
+            magnitudes(&zero, &limits, &[0.0], 0.0, BoxEffort::QUICK),
+            [0.0]
+        );
+        // Nor is there a step from one subnormal to the next.
+        limits.velocity = vec![Interval::symmetric(5e-324)];
+        assert!(bound(&limits) < 1e-150);
+    }
+
+    /// What is left out may be a rate alone, with no angle to cut: 4e-5·q̈₁.
+    #[test]
+    fn an_error_without_angles_is_bounded() {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let rate = builder.input(Input::Entry(Argument::Acceleration, 0));
+        let small = Rational::new(4.into(), 100_000.into());
+        let error = builder.mul(&rate, &Value::Constant(Exact::from(small)));
+        let graph = builder.finish(&[error]);
+        let limits = InputBox {
+            position: vec![Interval::symmetric(3.0)],
+            velocity: vec![Interval::ZERO],
+            acceleration: vec![Interval::symmetric(30.0)],
+        };
+        for budget in [BoxEffort::QUICK, BoxEffort::CERTIFY] {
+            let bound = magnitudes(&graph, &limits, &[1.0], 0.0, budget)[0];
+            assert!((1.2e-3..1.3e-3).contains(&bound), "{bound:e}");
+        }
+    }
+}

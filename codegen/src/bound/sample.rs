@@ -1,0 +1,86 @@
+//! States that try to break a bound: corners, random states, hill climbing.
+
+use crate::bound::input_box::InputBox;
+use crate::interval::Interval;
+use crate::random::Random;
+use crate::states::JointState;
+
+/// A state of the box: each coordinate at an end, in the middle or anywhere.
+/// Errors are largest at the ends of the rates far more often than inside.
+pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
+    let corners = random.below(4) > 0;
+    let rate = |x: &Interval, random: &mut Random| match random.below(8) {
+        _ if !corners => inside(*x, random.unit()),
+        0 => x.mid(),
+        k if k % 2 == 1 => x.low(),
+        _ => x.high(),
+    };
+    JointState {
+        q: limits
+            .position
+            .iter()
+            .map(|x| match random.below(16) {
+                0 => x.low(),
+                1 => x.high(),
+                2 => quarter(*x, random),
+                _ => inside(*x, random.unit()),
+            })
+            .collect(),
+        qd: limits.velocity.iter().map(|x| rate(x, random)).collect(),
+        qdd: limits
+            .acceleration
+            .iter()
+            .map(|x| rate(x, random))
+            .collect(),
+        ..JointState::default()
+    }
+}
+
+/// A multiple of a quarter turn, where sines and cosines are extreme.
+fn quarter(x: Interval, random: &mut Random) -> f64 {
+    let turns = random.below(5) as f64 - 2.0;
+    (turns * std::f64::consts::FRAC_PI_2).clamp(x.low(), x.high())
+}
+
+fn inside(x: Interval, t: f64) -> f64 {
+    (x.low() + (x.high() - x.low()) * t).clamp(x.low(), x.high())
+}
+
+/// Climbs from a state: one coordinate at a time to its ends or by a shrinking
+/// step, as long as the error grows. Returns the state and its error.
+pub fn climb(
+    limits: &InputBox,
+    from: JointState,
+    moves: usize,
+    random: &mut Random,
+    error: &mut impl FnMut(&JointState) -> f64,
+) -> (JointState, f64) {
+    let (mut best, mut most) = (from.clone(), error(&from));
+    let n = limits.joints();
+    let mut reach = 0.5;
+    for step in 0..moves {
+        let coordinate = random.below(3 * n);
+        let (kind, joint) = (coordinate / n, coordinate % n);
+        let range = [&limits.position, &limits.velocity, &limits.acceleration][kind][joint];
+        let mut next = best.clone();
+        let x = match kind {
+            0 => &mut next.q[joint],
+            1 => &mut next.qd[joint],
+            _ => &mut next.qdd[joint],
+        };
+        *x = match random.below(4) {
+            0 => range.low(),
+            1 => range.high(),
+            _ => *x + reach * range.width() * (random.unit() - 0.5),
+        }
+        .clamp(range.low(), range.high());
+        let value = error(&next);
+        if value > most {
+            (best, most) = (next, value);
+        }
+        if step % n.max(1) == 0 {
+            reach *= 0.97;
+        }
+    }
+    (best, most)
+}

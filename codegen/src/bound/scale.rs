@@ -1,0 +1,134 @@
+//! T: what errors are relative to, and how large they may be against it.
+
+use std::fmt;
+
+use dalembert_model::number::{Rational, Rounded};
+use dalembert_model::robot::{Limits, Robot};
+use dalembert_model::scene::Tolerance;
+
+use crate::bound::input_box::{InputBox, MissingLimit};
+use crate::bound::sample::{climb, draw};
+use crate::bound::sensitivity::rounding;
+use crate::function::{ErrorScale, Quantity};
+use crate::program::{Program, ScalarType};
+use crate::random::Random;
+use crate::states::JointState;
+
+/// Why there is no T that the actuators give.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoScale {
+    /// A joint without a limit that it needs, or with one of zero.
+    Limit(MissingLimit),
+    /// Torque limits are no measure of such a quantity.
+    Quantity(Quantity),
+}
+
+impl fmt::Display for NoScale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoScale::Limit(missing) => missing.fmt(f),
+            NoScale::Quantity(quantity) => write!(
+                f,
+                "the actuators' limits are no measure of {}: make its errors relative to the range",
+                quantity.symbol()
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoScale {}
+
+impl From<MissingLimit> for NoScale {
+    fn from(missing: MissingLimit) -> NoScale {
+        NoScale::Limit(missing)
+    }
+}
+
+/// The torque limits of the actuators. For an entry of D the inertia, for one
+/// of h_ikm the coefficient, that alone takes the whole limit at the largest
+/// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
+///
+/// # Errors
+/// [`NoScale`].
+pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
+    let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
+        let value = robot.joints.get(joint).map(|row| value(&row.limits));
+        let value = value.and_then(Option::as_ref).map(f64::nearest_rational);
+        let zero = value.is_some();
+        let above = value.filter(|&value| value > 0.0);
+        above.ok_or(MissingLimit { joint, limit, zero })
+    };
+    // Down, so that an error relative to it is rounded up.
+    let torque = |joint| -> Result<f64, MissingLimit> {
+        Ok(read(joint, "torque", |limits| &limits.torque)?.next_down())
+    };
+    let velocity = |joint| read(joint, "velocity", |limits| &limits.velocity);
+    let acceleration = |joint| read(joint, "acceleration", |limits| &limits.acceleration);
+    let inertia =
+        |i, k| -> Result<f64, MissingLimit> { Ok((torque(i)? / acceleration(k)?).next_down()) };
+    let rows = &program.rows;
+    let mut scales = Vec::new();
+    for quantity in program.function.quantities() {
+        for index in 0..quantity.len(rows.len()) {
+            let joints: Vec<usize> = quantity.joints(index, rows).collect();
+            scales.push(match (quantity.scale(), joints.as_slice()) {
+                (ErrorScale::Load, &[i]) => torque(i)?,
+                (ErrorScale::Inertia, &[i, k]) => inertia(i, k)?.min(inertia(k, i)?),
+                (ErrorScale::Coefficient, &[i, k, m]) => {
+                    let rates = (velocity(k)? * velocity(m)?).next_up();
+                    (torque(i)? / rates).next_down()
+                }
+                _ => return Err(NoScale::Quantity(*quantity)),
+            });
+        }
+    }
+    Ok(scales)
+}
+
+/// The tolerance of each output: that of its joint, for an entry of D the
+/// smaller of its two joints'.
+pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
+    let rows = &program.rows;
+    // Down: nothing is allowed that the decimal does not allow.
+    let of = |joint: usize| {
+        let value = tolerance.of(joint).map(f64::nearest_rational);
+        value.map_or(0.0, |value| {
+            let above = Rational::from_float(value)
+                .is_some_and(|exact| tolerance.of(joint).is_some_and(|wanted| exact > *wanted));
+            if above { value.next_down() } else { value }
+        })
+    };
+    let mut all = Vec::new();
+    for quantity in program.function.quantities() {
+        for index in 0..quantity.len(rows.len()) {
+            all.push(
+                quantity
+                    .joints(index, rows)
+                    .map(of)
+                    .fold(f64::INFINITY, f64::min),
+            );
+        }
+    }
+    all
+}
+
+/// A magnitude that each output attains, found by climbing from actual states:
+/// its largest over the box or just below, so an error relative to it is not
+/// understated.
+pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {
+    let exact = program.lower(ScalarType::F64, |_| None);
+    let granted = rounding(program, ScalarType::F64, limits, 64);
+    let mut random = Random::new(0x7a46e);
+    let mut most = vec![0.0f64; program.outputs.len()];
+    for output in 0..most.len() {
+        let mut size = |state: &JointState| exact.run_at(state)[output].abs();
+        for _ in 0..12 {
+            let from = draw(limits, &mut random);
+            let (_, found) = climb(limits, from, 1500, &mut random, &mut size);
+            most[output] = most[output].max(found);
+        }
+        let lost = granted[output].arithmetic + granted[output].sincos;
+        most[output] = (most[output] - lost).next_down().max(0.0);
+    }
+    most
+}

@@ -1,0 +1,261 @@
+//! Adjoints in interval arithmetic over sub-boxes.
+//!
+//! **Soundness.** Every operation is widened by its rounding, so the intervals
+//! contain x̂ *and* x, and adjoints computed from them contain the mixed ones
+//! of the [model](super): the sum bounds the whole error, not only its first
+//! order.
+//!
+//! The dependency of values on common angles is lost: for programs that were
+//! searched, the bound is hundreds of times what is seen unless the box is
+//! small. For large errors, as those of coarse polynomials for sines, it is the
+//! better one.
+
+use dalembert_model::number::Exact;
+
+use super::{Rounding, binade, note};
+use crate::bound::input_box::InputBox;
+use crate::bound::subdivide::sub_boxes;
+use crate::interval::Interval;
+use crate::program::scalar_type::underflow;
+use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Step};
+use crate::sincos::AngleKernel;
+use crate::sincos::proof::Errors;
+
+/// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,
+/// which halve the positions in turn.
+pub(super) fn rounding(
+    program: &Program,
+    scalar: ScalarType,
+    constants: &Constants,
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<Rounding> {
+    let mut worst = vec![Rounding::default(); program.outputs.len()];
+    for sub in sub_boxes(program, limits, boxes) {
+        for (worst, here) in worst.iter_mut().zip(over(program, scalar, constants, &sub)) {
+            *worst = worst.max(here);
+        }
+    }
+    worst
+}
+
+/// The constants that steps read, with what rounding takes from them: exact
+/// numbers are slow to bound, so it is done once and not in every sub-box.
+/// And the errors of polynomials for sines, which hold in every sub-box.
+pub(in crate::bound) struct Constants {
+    steps: Vec<[Option<(Interval, f64)>; 2]>,
+    sines: Vec<(AngleSum, Errors)>,
+}
+
+impl Constants {
+    pub(in crate::bound) fn of(
+        program: &Program,
+        scalar: ScalarType,
+        sines: &[AngleKernel],
+    ) -> Constants {
+        let found = |operand: &Operand| match operand {
+            Operand::Constant(constant) => Some(rounded(constant, scalar)),
+            _ => None,
+        };
+        let steps = program.steps.iter();
+        Constants {
+            steps: steps.map(|s| [found(&s.left), found(&s.right)]).collect(),
+            sines: sines.iter().map(|sine| (sine.angle, sine.errors)).collect(),
+        }
+    }
+
+    /// Of each step, its operands that are constants.
+    pub(super) fn steps(&self) -> &[[Option<(Interval, f64)>; 2]] {
+        &self.steps
+    }
+
+    /// What a polynomial is off at most; `None` for libm.
+    fn sine(&self, input: Input) -> Option<f64> {
+        let angle = input.angle()?;
+        let found = self.sines.iter().find(|(known, _)| *known == angle)?;
+        Some(match input {
+            Input::Sin(_) => found.1.sin,
+            _ => found.1.cos,
+        })
+    }
+}
+
+/// Whether an operation does not round, but for underflow: a product with a
+/// power of two, a value added to itself.
+pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) -> bool {
+    let power = |known: &Option<(Interval, f64)>| {
+        known.is_some_and(|(constant, error)| {
+            let x = constant.high();
+            error == 0.0 && x.is_normal() && binade(x.abs()) == x.abs()
+        })
+    };
+    match step.operation {
+        Operation::Mul => constants.iter().any(power),
+        Operation::Add => step.left == step.right,
+        Operation::Sub | Operation::Div => false,
+    }
+}
+
+/// A constant with its literal, and how far they are apart.
+fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
+    let exact = Interval::exact(constant);
+    let rounded = Interval::point(scalar.round(constant));
+    if exact == rounded {
+        // Outward, the difference would be the least subnormal: too much for an
+        // output that must be exact.
+        return (exact, 0.0);
+    }
+    (exact.hull(rounded), (exact - rounded).magnitude())
+}
+
+/// Values that contain what is computed and what is exact, and how far the
+/// two can be apart at the node itself.
+pub(in crate::bound) struct Forward {
+    pub(in crate::bound) values: Vec<Interval>,
+    own: Vec<f64>,
+}
+
+/// Runs a program with every operation widened by its rounding.
+pub(in crate::bound) fn forward(
+    program: &Program,
+    scalar: ScalarType,
+    constants: &Constants,
+    sub: &InputBox,
+) -> Forward {
+    let u = scalar.unit_roundoff();
+    let mut values: Vec<Interval> = Vec::with_capacity(program.steps.len());
+    let mut own = Vec::with_capacity(program.steps.len());
+    for (step, known) in program.steps.iter().zip(&constants.steps) {
+        let value = |operand, known: Option<(Interval, f64)>| match known {
+            Some((constant, _)) => constant,
+            None => read(operand, &values, scalar, constants, sub).0,
+        };
+        let x = value(&step.left, known[0]);
+        let y = value(&step.right, known[1]);
+        let (exact, eta) = match step.operation {
+            Operation::Add => (x + y, 0.0),
+            Operation::Sub => (x - y, 0.0),
+            Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
+            Operation::Mul => (x * y, underflow(scalar)),
+            // No certificate is about a quotient: nothing is known of it.
+            Operation::Div => (Interval::ALL, underflow(scalar)),
+        };
+        let rounding = match is_exact(step, known) {
+            true => eta,
+            false => (u * binade(exact.magnitude())).next_up() + eta,
+        };
+        values.push(exact.widened(rounding));
+        own.push(rounding.next_up());
+    }
+    Forward { values, own }
+}
+
+/// An operand's interval and its own error.
+pub(super) fn read(
+    operand: &Operand,
+    values: &[Interval],
+    scalar: ScalarType,
+    constants: &Constants,
+    sub: &InputBox,
+) -> (Interval, f64) {
+    let u = scalar.unit_roundoff();
+    match operand {
+        Operand::Step(index) => (values[*index], 0.0),
+        Operand::Constant(constant) => rounded(constant, scalar),
+        Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) => {
+            let exact = sub.input(*input);
+            // Each addition that forms the angle rounds; a sine moves no more
+            // than its angle.
+            let additions = angle.additions() as f64;
+            let reach: f64 = angle
+                .terms()
+                .map(|(joint, _)| sub.position[joint].magnitude())
+                .sum();
+            let sum = 1.01 * additions * u * reach;
+            let error = match constants.sine(*input) {
+                Some(error) => (error + sum).next_up(),
+                None if exact.magnitude() == 0.0 => 0.0,
+                None => (u * exact.magnitude().min(0.5) * 2.0 + sum).next_up(),
+            };
+            (exact.widened(error), error)
+        }
+        Operand::Input(input) => (sub.input(*input), 0.0),
+    }
+}
+
+/// Bounds over one sub-box.
+fn over(
+    program: &Program,
+    scalar: ScalarType,
+    constants: &Constants,
+    sub: &InputBox,
+) -> Vec<Rounding> {
+    let Forward { values, own } = forward(program, scalar, constants, sub);
+    let operands: Vec<[(Interval, f64); 2]> = program
+        .steps
+        .iter()
+        .zip(&constants.steps)
+        .map(|(step, [left, right])| {
+            [(&step.left, left), (&step.right, right)].map(|(operand, known)| {
+                known.unwrap_or_else(|| read(operand, &values, scalar, constants, sub))
+            })
+        })
+        .collect();
+    let mut adjoints = vec![Interval::ZERO; program.steps.len()];
+    let mut bounds = Vec::with_capacity(program.outputs.len());
+    for output in &program.outputs {
+        let mut bound = Rounding::default();
+        let top = match &output.value {
+            Operand::Step(index) => *index + 1,
+            other => {
+                let (_, error) = read(other, &values, scalar, constants, sub);
+                note(&mut bound, other, error);
+                0
+            }
+        };
+        adjoints.fill(Interval::ZERO);
+        // One way to sum sines and cosines too: an error of an input counts
+        // with its whole adjoint, not use by use.
+        let mut inputs: Vec<(&Operand, f64, Interval)> = Vec::new();
+        if top > 0 {
+            adjoints[top - 1] = Interval::ONE;
+        }
+        for index in (0..top).rev() {
+            let adjoint = adjoints[index];
+            if adjoint == Interval::ZERO {
+                continue;
+            }
+            bound.arithmetic += (adjoint.magnitude() * own[index]).next_up();
+            let step = &program.steps[index];
+            let [(x, x_error), (y, y_error)] = operands[index];
+            let (left, right) = match step.operation {
+                Operation::Add => (adjoint, adjoint),
+                Operation::Sub => (adjoint, -adjoint),
+                Operation::Mul => (adjoint * y, adjoint * x),
+                Operation::Div => (Interval::ALL, Interval::ALL),
+            };
+            for (operand, error, part) in
+                [(&step.left, x_error, left), (&step.right, y_error, right)]
+            {
+                match operand {
+                    Operand::Step(before) => adjoints[*before] = adjoints[*before] + part,
+                    other if error > 0.0 => {
+                        match inputs.iter_mut().find(|(known, ..)| *known == other) {
+                            Some(known) => known.2 = known.2 + part,
+                            None => inputs.push((other, error, part)),
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for (operand, error, adjoint) in inputs {
+            note(&mut bound, operand, (error * adjoint.magnitude()).next_up());
+        }
+        // The sums above round up to a few hundred times themselves.
+        bound.arithmetic *= 1.0 + 1e-12;
+        bound.sincos *= 1.0 + 1e-12;
+        bounds.push(bound);
+    }
+    bounds
+}

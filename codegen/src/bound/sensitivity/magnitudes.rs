@@ -1,0 +1,165 @@
+//! Largest values times largest adjoints.
+//!
+//! **Soundness.** For each node let V ≥ |x|, A ≥ |a| over the box, a the
+//! adjoint at exact values. Forwards, E ≥ |x̂ − x| follows node by node:
+//! |x̂ ∘ ŷ| ≤ V + δ with δ = E_x + E_y for a sum and
+//! δ = V_x·E_y + V_y·E_x + E_x·E_y for a product x·y, so the node's own
+//! rounding is r ≤ u·(V + δ) + η, or half an ulp of V + δ, and E = δ + r. Backwards, D ≥ |ā − a|:
+//! a product's ā passes on ā·y to x and ā·x̂ to y, so with |ā| ≤ A + D
+//!
+//! - D_x grows by D·V_y
+//! - D_y grows by D·V_x + (A + D)·E_x
+//!
+//! and a sum passes D on. The error of an output is at most Σ (A + D)·r. Of
+//! this the first order, u·|x|·|a|, is bounded for all nodes together if that
+//! is known (`together`), and the rest is small: what r has beyond u·|x|, or
+//! beyond the cap in |x|'s place, with A, and all of r with D.
+//! Sums here have no negative terms: a few thousand roundings are made up for
+//! by a factor.
+
+use super::extremes::Extremes;
+use super::intervals::{Constants, is_exact, read};
+use super::{Rounding, binade, note};
+use crate::bound::input_box::InputBox;
+use crate::interval::Interval;
+use crate::program::scalar_type::underflow;
+use crate::program::{Operand, Operation, Program, ScalarType};
+
+/// For the roundings of this bound itself.
+const ROUNDINGS: f64 = 1.0 + 1e-10;
+
+/// V and E of an operand.
+#[derive(Clone, Copy)]
+struct Known {
+    value: f64,
+    error: f64,
+}
+
+/// Bounds over the box of the extremes, one an output.
+pub(super) fn rounding(
+    program: &Program,
+    scalar: ScalarType,
+    constants: &Constants,
+    limits: &InputBox,
+    extremes: &Extremes,
+) -> Vec<Rounding> {
+    let u = scalar.unit_roundoff();
+    let mut errors: Vec<f64> = Vec::with_capacity(program.steps.len());
+    let mut own = Vec::with_capacity(program.steps.len());
+    let mut moves = Vec::with_capacity(program.steps.len());
+    let known = |operand: &Operand, literal: Option<(Interval, f64)>, errors: &[f64]| {
+        let (interval, error) = match (operand, literal) {
+            (Operand::Step(index), _) => {
+                return Known {
+                    value: extremes.values[*index],
+                    error: errors[*index],
+                };
+            }
+            (_, Some(literal)) => literal,
+            (other, None) => read(other, &[], scalar, constants, limits),
+        };
+        Known {
+            value: interval.magnitude(),
+            error,
+        }
+    };
+    for (index, (step, [left, right])) in program.steps.iter().zip(constants.steps()).enumerate() {
+        let x = known(&step.left, *left, &errors);
+        let y = known(&step.right, *right, &errors);
+        let (moved, eta) = match step.operation {
+            Operation::Add | Operation::Sub => (x.error + y.error, 0.0),
+            Operation::Mul => {
+                let moved = x.value * y.error + y.value * x.error + x.error * y.error;
+                (moved, underflow(scalar))
+            }
+            Operation::Div => (f64::INFINITY, underflow(scalar)),
+        };
+        let rounding = match is_exact(step, &constants.steps()[index]) {
+            true => eta,
+            false => u * binade((extremes.values[index] + moved) * ROUNDINGS) + eta,
+        };
+        errors.push((moved + rounding) * ROUNDINGS);
+        own.push(rounding * ROUNDINGS);
+        moves.push(u * moved + eta);
+    }
+    let mut bounds = Vec::with_capacity(program.outputs.len());
+    let all = program.outputs.iter().zip(&extremes.adjoints);
+    for ((output, adjoints), together) in all.zip(&extremes.together) {
+        // What the first order of all nodes together leaves.
+        let mut rest = Rounding::default();
+        let mut bound = Rounding::default();
+        let mut off = vec![0.0; program.steps.len()];
+        // What the adjoints of sines can be off.
+        let mut inputs = vec![0.0; adjoints.sines.len()];
+        if let Operand::Constant(_) = output.value {
+            let error = known(&output.value, None, &errors).error;
+            note(&mut bound, &output.value, error);
+            note(&mut rest, &output.value, error);
+        }
+        for index in (0..program.steps.len()).rev() {
+            let (exact, off_here) = (adjoints.steps[index], off[index]);
+            let mixed = exact + off_here;
+            if mixed == 0.0 {
+                continue;
+            }
+            bound.arithmetic += mixed * own[index];
+            let beyond = match together.caps.get(index) {
+                Some(Some(cap)) => (own[index] - u * cap).max(0.0),
+                _ => moves[index],
+            };
+            rest.arithmetic += exact * beyond.min(own[index]) + off_here * own[index];
+            let step = &program.steps[index];
+            let [left, right] = constants.steps()[index];
+            let x = known(&step.left, left, &errors);
+            let y = known(&step.right, right, &errors);
+            // What a constant's error counts with, and what is off.
+            let (parts, offs) = match step.operation {
+                Operation::Add | Operation::Sub => ([mixed; 2], [off_here; 2]),
+                Operation::Mul => (
+                    [mixed * y.value, mixed * (x.value + x.error)],
+                    [off_here * y.value, off_here * x.value + mixed * x.error],
+                ),
+                Operation::Div => ([f64::INFINITY; 2], [f64::INFINITY; 2]),
+            };
+            for ((operand, of), (part, off_there)) in [(&step.left, x), (&step.right, y)]
+                .into_iter()
+                .zip(parts.into_iter().zip(offs))
+            {
+                match operand {
+                    Operand::Step(before) => off[*before] += off_there,
+                    Operand::Constant(_) => {
+                        bound.arithmetic += part * of.error;
+                        rest.arithmetic += off_there * of.error;
+                    }
+                    Operand::Input(input) => {
+                        let sines = adjoints.sines.iter().position(|(known, _)| known == input);
+                        if let Some(sine) = sines {
+                            inputs[sine] += off_there;
+                        }
+                    }
+                }
+            }
+        }
+        // The errors of sines against those that their sum has.
+        let mut ratio = 0.0;
+        for (place, ((input, exact), off)) in adjoints.sines.iter().zip(inputs).enumerate() {
+            let (_, error) = read(&Operand::Input(*input), &[], scalar, constants, limits);
+            bound.sincos += (exact + off) * error;
+            rest.sincos += off * error;
+            if error > 0.0 {
+                let weight = together.weights.get(place).copied().unwrap_or(0.0);
+                ratio = f64::max(ratio, error / weight);
+            }
+        }
+        if let Some(sum) = together.arithmetic {
+            bound.arithmetic = bound.arithmetic.min(u * sum + rest.arithmetic);
+        }
+        if let Some(sum) = together.sines {
+            bound.sincos = bound.sincos.min(ratio * sum + rest.sincos);
+        }
+        bound.arithmetic *= ROUNDINGS;
+        bound.sincos *= ROUNDINGS;
+        bounds.push(bound);
+    }
+    bounds
+}

@@ -1,0 +1,195 @@
+//! What rounding costs.
+//!
+//! **Model** (named in certificates). Every operation gives
+//! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
+//! products and η = 0 for sums; literals are constants rounded once; `sin`
+//! and `cos` are within one ulp, which is at most u·2 relative and u
+//! absolute, or polynomials within their proved errors; nothing is contracted
+//! to a fused multiply-add.
+//!
+//! **Why nothing of second order is left.** Let x̂ be the computed value of a
+//! node, x the exact one, e = x̂ − x. For a product x·y the error is
+//! x̂·e_y + y·e_x + r, for a sum e_x + e_y + r, where r is the node's own
+//! rounding, |r| ≤ u·|x̂ ∘ ŷ| + η. These are identities, so the error of an
+//! output is exactly Σ r_node·ā_node with adjoints ā that take the partial
+//! derivatives at x̂ and y instead of x and y. There are two bounds of this
+//! sum, both sound, and the smaller counts:
+//!
+//! - `extremes`, `magnitudes`: the largest |value| and |adjoint| of each node
+//!   over the box, written out as trigonometric polynomials; their products,
+//!   and what mixed adjoints can be off
+//! - `together`: in place of the products' first order, the largest sum of
+//!   |value|·|adjoint| at one state
+//! - `intervals`: interval arithmetic over sub-boxes; for programs that are
+//!   too large to be written out, narrow boxes and large errors
+//!
+//! `gradient`: the program of all adjoints.
+
+mod extremes;
+mod gradient;
+mod intervals;
+mod magnitudes;
+mod together;
+
+use crate::bound::distinct::Distinct;
+use crate::bound::input_box::InputBox;
+use crate::bound::magnitude::BoxEffort;
+use crate::program::{Operand, Program, ScalarType};
+use crate::sincos::AngleKernel;
+use extremes::Extremes;
+pub(super) use intervals::{Constants, forward};
+
+/// How fine a bound is: the finer, the tighter and the dearer. Every one is
+/// sound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BoundEffort {
+    /// For the bound of the edits.
+    pub budget: BoxEffort,
+    /// Sub-boxes of the rounding bound by intervals.
+    pub boxes: usize,
+    /// Points of a grid for each value and adjoint that rounding counts with.
+    pub points: usize,
+    /// Points of a grid for the sum of all their products, for each output.
+    pub together: usize,
+}
+
+impl BoundEffort {
+    /// For certificates: seconds for a six-joint arm.
+    pub const CERTIFY: BoundEffort = BoundEffort {
+        budget: BoxEffort::CERTIFY,
+        boxes: 512,
+        points: 1 << 14,
+        together: 1 << 19,
+    };
+    /// For who waits, as a compiler does.
+    pub const QUICK: BoundEffort = BoundEffort {
+        budget: BoxEffort {
+            boxes: 2_000,
+            points: 1 << 18,
+        },
+        boxes: 64,
+        points: 1 << 8,
+        together: 1 << 14,
+    };
+}
+
+/// Bounds of one output's rounding error, in its unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rounding {
+    /// From operations and constants.
+    pub arithmetic: f64,
+    /// From sines and cosines, and from adding angles.
+    pub sincos: f64,
+}
+
+impl Rounding {
+    fn max(self, other: Rounding) -> Rounding {
+        Rounding {
+            arithmetic: self.arithmetic.max(other.arithmetic),
+            sincos: self.sincos.max(other.sincos),
+        }
+    }
+
+    fn min(self, other: Rounding) -> Rounding {
+        Rounding {
+            arithmetic: self.arithmetic.min(other.arithmetic),
+            sincos: self.sincos.min(other.sincos),
+        }
+    }
+}
+
+/// Quick bounds over a box, one an output, from at most `boxes` sub-boxes.
+/// Sines are libm's.
+pub fn rounding(
+    program: &Program,
+    scalar: ScalarType,
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<Rounding> {
+    rounding_with(program, scalar, &[], limits, boxes)
+}
+
+/// The same with polynomials for sines, whose errors are as they are claimed.
+pub fn rounding_with(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<Rounding> {
+    let constants = Constants::of(program, scalar, sines);
+    intervals::rounding(program, scalar, &constants, limits, boxes)
+}
+
+/// What every bound of a program's rounding over a box needs, whatever the
+/// scalar and the sines: the longest to find.
+#[derive(Clone, Debug)]
+pub struct Sensitivity {
+    of: Program,
+    /// Equal outputs once.
+    program: Program,
+    distinct: Distinct,
+    limits: InputBox,
+    fineness: BoundEffort,
+    extremes: Option<Extremes>,
+}
+
+impl Sensitivity {
+    /// Of a program over a box.
+    pub fn of(program: &Program, limits: &InputBox, fineness: BoundEffort) -> Sensitivity {
+        let steps = program.outputs.iter().map(|output| match &output.value {
+            Operand::Step(index) => Some(*index),
+            _ => None,
+        });
+        let distinct = Distinct::by(steps);
+        let once = Program {
+            outputs: distinct.pick(&program.outputs),
+            ..program.clone()
+        };
+        Sensitivity {
+            extremes: Extremes::of(&once, limits, fineness.points, fineness.together),
+            of: program.clone(),
+            program: once,
+            distinct,
+            limits: limits.clone(),
+            fineness,
+        }
+    }
+
+    /// Whether it is of this program, over its box, and as fine.
+    pub fn is_of(&self, program: &Program, limits: &InputBox, fineness: BoundEffort) -> bool {
+        self.of == *program && self.limits == *limits && self.fineness == fineness
+    }
+
+    /// Bounds, one an output, with polynomials for sines, whose errors are as
+    /// they are claimed; angles that are not among them are libm's.
+    pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
+        let (program, limits) = (&self.program, &self.limits);
+        let constants = Constants::of(program, scalar, sines);
+        let boxes = self.fineness.boxes;
+        let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
+        let Some(extremes) = &self.extremes else {
+            return self.distinct.spread(&coarse);
+        };
+        let fine = magnitudes::rounding(program, scalar, &constants, limits, extremes);
+        let pairs = coarse.into_iter().zip(fine);
+        let least: Vec<Rounding> = pairs.map(|(a, b)| a.min(b)).collect();
+        self.distinct.spread(&least)
+    }
+}
+
+/// The largest power of two that is at most x; x if that is no normal number.
+/// Rounding a number that is no larger than x moves it by at most this times u.
+fn binade(x: f64) -> f64 {
+    match x.is_normal() && x > 0.0 {
+        true => f64::from_bits(x.to_bits() & !((1 << 52) - 1)),
+        false => x,
+    }
+}
+
+fn note(bound: &mut Rounding, operand: &Operand, error: f64) {
+    match operand {
+        Operand::Input(_) => bound.sincos += error,
+        _ => bound.arithmetic += error,
+    }
+}

@@ -1,0 +1,40 @@
+//! Joints that turn without limits.
+
+use dalembert_model::robot::{JointKind, Robot};
+
+use super::input_box::InputBox;
+use crate::interval::Interval;
+use crate::program::{Program, ScalarType, Trig};
+use crate::sincos::stated;
+
+/// Whether a joint may stand anywhere, however many turns: it has no limits, and
+/// no sum of angles is formed of it, which rounds the worse the larger it is.
+/// Everything else reads its sine and cosine, so that what holds over one turn
+/// holds wherever those two are good.
+pub fn turns_freely(robot: &Robot, trig: &[Trig], joint: usize) -> bool {
+    let free = robot
+        .joints
+        .get(joint)
+        .is_some_and(|joint| joint.kind == JointKind::Revolute && joint.limits.position.is_none());
+    let mut sums = trig.iter().filter(|trig| trig.angle.additions() > 0);
+    free && !sums.any(|trig| trig.angle.terms().any(|(of, _)| of == joint))
+}
+
+/// The positions over which a program's sines must be good: those of the box, and
+/// [`stated`] angles of a joint that [turns freely](turns_freely).
+pub fn sine_positions(
+    robot: &Robot,
+    program: &Program,
+    scalar: ScalarType,
+    limits: &InputBox,
+) -> Vec<Interval> {
+    let ranges = limits.position.iter().enumerate();
+    let range = |(joint, range): (usize, &Interval)| {
+        let every = Interval::symmetric(stated(scalar));
+        match turns_freely(robot, &program.trig, joint) {
+            true => every,
+            false => *range,
+        }
+    };
+    ranges.map(range).collect()
+}

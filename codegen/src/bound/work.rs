@@ -1,0 +1,61 @@
+//! Work counted, for who cannot wait.
+//!
+//! A unit is about what a grid takes for a point, 64 products and sums: some
+//! tenths of a microsecond. Units are counted where the time goes, in grids,
+//! polynomials written out and errors at samples, and never timed, so that a
+//! limit ends a search at the same place on every machine. A thread counts its
+//! own.
+
+use std::cell::Cell;
+
+thread_local! {
+    static DONE: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Counts units.
+pub(crate) fn count(units: usize) {
+    DONE.set(DONE.get().wrapping_add(units as u64));
+}
+
+/// Work that may be done from now on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Meter {
+    from: u64,
+    limit: u64,
+}
+
+impl Meter {
+    /// So many units; without a limit if `None`.
+    pub(crate) fn new(limit: Option<u64>) -> Meter {
+        Meter {
+            from: DONE.get(),
+            limit: limit.unwrap_or(u64::MAX),
+        }
+    }
+
+    /// Units since its beginning.
+    pub(crate) fn done(self) -> u64 {
+        DONE.get().wrapping_sub(self.from)
+    }
+
+    /// Whether more was done than may be.
+    pub(crate) fn is_over(self) -> bool {
+        self.done() > self.limit
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_counted_from_the_beginning_of_a_meter() {
+        count(5);
+        let meter = Meter::new(Some(7));
+        count(7);
+        assert!(meter.done() == 7 && !meter.is_over());
+        count(1);
+        assert!(meter.is_over() && !Meter::new(Some(0)).is_over());
+        assert!(!Meter::new(None).is_over());
+    }
+}

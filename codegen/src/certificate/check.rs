@@ -1,0 +1,273 @@
+//! The check of a certificate, part by part.
+
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::{Scale, Tolerance};
+
+use super::subject::{Subject, changes_inertia, printed};
+use super::{Certificate, Checked, Ran, Refuted, run, shape, work};
+use crate::bound::definite::least_eigenvalue_with;
+use crate::bound::input_box::InputBox;
+use crate::bound::ranges::ranges_with;
+use crate::bound::scale;
+use crate::bound::sensitivity::BoundEffort;
+use crate::graph::Folding;
+use crate::program::Trig;
+use crate::scene::Setting;
+use crate::scene::{SceneKey, input_hash};
+use crate::sincos;
+use crate::sincos::proof::prove;
+use crate::split::Split;
+use crate::verify::exact::{prove_in, prove_same};
+
+impl Certificate {
+    /// Checks every part of the claim about a whole robot.
+    ///
+    /// # Errors
+    /// The first part that is not so.
+    pub fn check(&self, robot: &Robot) -> Result<Checked, Refuted> {
+        self.check_in(&Setting::whole(robot))
+    }
+
+    /// Checks every part of the claim. In a scene with a tolerance, it must
+    /// also be met, whether the claim is about the scene with it or without.
+    ///
+    /// # Errors
+    /// The first part that is not so.
+    pub fn check_in(&self, setting: &Setting) -> Result<Checked, Refuted> {
+        let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
+        self.check_within(setting, tolerance)
+    }
+
+    /// The same with another tolerance than the scene's, or with none.
+    ///
+    /// # Errors
+    /// As [`Certificate::check_in`].
+    pub fn check_within(
+        &self,
+        setting: &Setting,
+        tolerance: Option<&Tolerance>,
+    ) -> Result<Checked, Refuted> {
+        self.check_subject(setting)?;
+        work::check(self).map_err(Refuted::Work)?;
+        shape::check(self, setting)?;
+        self.check_box(setting)?;
+        self.check_text()?;
+        self.check_scales(setting)?;
+        self.check_tolerance(tolerance)?;
+        let proof = prove_in(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
+        self.check_edits()?;
+        self.check_sines()?;
+        let table = ranges_with(&self.emitted, self.scalar, &self.sines, &self.limits, 256);
+        let findings = table.findings;
+        if let Some(&finding) = findings.iter().find(|finding| finding.is_error()) {
+            return Err(Refuted::Range(finding));
+        }
+        let sines = [(self.scalar, self.sines.clone())];
+        let found = self.check_bounds(&self.subject(setting, &sines))?;
+        self.check_definite()?;
+        Ok(Checked {
+            proof,
+            bounds: found,
+            ran: run::check(self, setting)?,
+            findings,
+        })
+    }
+
+    /// The robot and the scene, which may have had no tolerance: a claim about
+    /// that scene is one about this, as far as it goes.
+    fn check_subject(&self, setting: &Setting) -> Result<(), Refuted> {
+        let scene = setting.scene();
+        let own = scene.map(SceneKey::of);
+        let bare = scene.map(|scene| SceneKey::of(&scene.without_tolerance()));
+        if self.scene != own && self.scene != bare {
+            return Err(Refuted::Scene);
+        }
+        if self.input != input_hash(setting.robot()) || self.robot != setting.robot().name {
+            return Err(Refuted::Robot);
+        }
+        Ok(())
+    }
+
+    /// Runs the text at so many states, and nothing else.
+    ///
+    /// # Errors
+    /// [`Refuted::Ran`] where it errs more than is claimed.
+    pub fn run_in(&self, setting: &Setting, states: usize) -> Result<Ran, Refuted> {
+        work::check(self).map_err(Refuted::Work)?;
+        shape::check(self, setting)?;
+        run::check_at(self, setting, states)
+    }
+
+    /// Before anything is proved of it: what a plan keeps is of this setting,
+    /// and its edits give its programs.
+    pub(crate) fn check_programs(&self, setting: &Setting) -> Result<(), Refuted> {
+        work::check(self).map_err(Refuted::Work)?;
+        shape::check(self, setting)?;
+        self.check_edits()
+    }
+
+    /// The text is what the one function that prints makes of the claim.
+    fn check_text(&self) -> Result<(), Refuted> {
+        let expected = printed(&self.emitted, self.scalar, self.library, &self.sines);
+        if self.text == expected {
+            return Ok(());
+        }
+        let (mut found, mut expected) = (self.text.split('\n'), expected.split('\n'));
+        for line in 1.. {
+            let pair = (expected.next(), found.next());
+            if pair.0 != pair.1 || pair.0.is_none() {
+                let word = |line: Option<&str>| line.unwrap_or_default().to_owned();
+                return Err(Refuted::Text {
+                    line,
+                    expected: word(pair.0),
+                    found: word(pair.1),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Each polynomial's errors are proved again, from its literals and over
+    /// all values that its angle takes.
+    fn check_sines(&self) -> Result<(), Refuted> {
+        for (index, sine) in self.sines.iter().enumerate() {
+            let trig = &self.emitted.trig;
+            let angle = sincos::angle_name(sine.angle);
+            let (sin, cos) = (sine.kernel.sin.is_some(), sine.kernel.cos.is_some());
+            let fits = |trig: &Trig| trig.angle == sine.angle && (trig.sin, trig.cos) == (sin, cos);
+            let mut before = self.sines[..index].iter();
+            if !trig.iter().any(fits) || before.any(|before| before.angle == sine.angle) {
+                return Err(Refuted::Polynomials { angle });
+            }
+            let whole = sincos::range_of(sine.angle, &self.limits.position, self.scalar);
+            let found = prove(&sine.kernel, self.scalar, sine.range);
+            let claimed = sine.errors;
+            match found {
+                _ if !sine.range.encloses(whole) => return Err(Refuted::SineRange { angle }),
+                Some(found) if found.sin <= claimed.sin && found.cos <= claimed.cos => {}
+                found => {
+                    return Err(Refuted::Sine {
+                        angle,
+                        claimed,
+                        found,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Each stage's edits apply and give the program that follows.
+    fn check_edits(&self) -> Result<(), Refuted> {
+        for (index, stage) in self.stages.iter().enumerate() {
+            stage.check().map_err(|bad| Refuted::Edits(index, bad))?;
+            let next = self.stages.get(index + 1).map(|next| &next.program);
+            let edited = stage.program(Folding::Syntactic);
+            let next = next.unwrap_or(&self.emitted);
+            prove_same(&edited, next).map_err(|_| Refuted::Step(index))?;
+        }
+        Ok(())
+    }
+
+    /// D, if it is not the model's, must be claimed to be positive definite, and be.
+    fn check_definite(&self) -> Result<(), Refuted> {
+        let changed = changes_inertia(&self.stages, &self.emitted, &self.sines);
+        if self.lambda_min.is_none() && !changed {
+            return Ok(());
+        }
+        let claimed = self.lambda_min.unwrap_or(0.0);
+        let found = least_eigenvalue_with(&self.emitted, self.scalar, &self.sines, &self.limits)
+            .map_err(Refuted::Indefinite)?;
+        if claimed > 0.0 && claimed <= found {
+            return Ok(());
+        }
+        Err(Refuted::Eigenvalue { claimed, found })
+    }
+
+    /// The claims must be shown anew: by the coarse bound, as some were made, or
+    /// by the fine one.
+    fn check_bounds(&self, subject: &Subject<'_>) -> Result<Vec<Split>, Refuted> {
+        let mut found: Option<Vec<Split>> = None;
+        for fineness in [BoundEffort::QUICK, BoundEffort::CERTIFY] {
+            let sensitivity = subject.sensitivity(fineness);
+            let next = subject.bounds(self.scalar, &subject.model(fineness), &sensitivity);
+            let best = match found {
+                None => next,
+                Some(best) => best.iter().zip(&next).map(|(a, b)| a.min(*b)).collect(),
+            };
+            // A claim survives the shortest decimal of its double.
+            if self.too_small(&best).is_none() {
+                return Ok(best);
+            }
+            found = Some(best);
+        }
+        let found = found.unwrap_or_default();
+        let index = self.too_small(&found).unwrap_or_default();
+        Err(Refuted::Bound {
+            entry: self.emitted.entry(index),
+            claimed: self.bounds[index],
+            found: found[index],
+        })
+    }
+
+    /// The first claim that is smaller than what was found.
+    fn too_small(&self, found: &[Split]) -> Option<usize> {
+        let less = |claim: f64, found: f64| claim.is_nan() || claim < found;
+        let mut pairs = self.bounds.iter().zip(found);
+        pairs.position(|(claimed, found)| {
+            less(claimed.model, found.model)
+                || less(claimed.sincos, found.sincos)
+                || less(claimed.rounding, found.rounding)
+        })
+    }
+
+    /// A claim about a scene is one about all of its box.
+    fn check_box(&self, setting: &Setting) -> Result<(), Refuted> {
+        if setting.scene().is_none() {
+            return Ok(());
+        }
+        let whole = InputBox::within(setting, self.emitted.function);
+        match whole {
+            Ok(whole) if self.limits.holds(&whole) => Ok(()),
+            _ => Err(Refuted::Box),
+        }
+    }
+
+    /// E of every output is within the tolerance, against the same scale.
+    fn check_tolerance(&self, tolerance: Option<&Tolerance>) -> Result<(), Refuted> {
+        let Some(tolerance) = tolerance else {
+            return Ok(());
+        };
+        let allowed = scale::tolerances(&self.emitted, tolerance);
+        let alike = self.relative_to == Some(tolerance.relative_to);
+        let mut pairs = self.bounds.iter().zip(&allowed);
+        // No number is within nothing.
+        let within = |bound: &Split, allowed: f64| alike && bound.total() <= allowed;
+        match pairs.position(|(bound, &allowed)| !within(bound, allowed)) {
+            None => Ok(()),
+            Some(index) => Err(Refuted::Tolerance {
+                entry: self.emitted.entry(index),
+                allowed: (allowed[index], tolerance.relative_to),
+                claimed: (self.bounds[index].total(), self.relative_to),
+            }),
+        }
+    }
+
+    /// A larger T would make E smaller.
+    fn check_scales(&self, setting: &Setting) -> Result<(), Refuted> {
+        let exact = &self.stages[0].program;
+        let found = match self.relative_to {
+            None => return Ok(()),
+            Some(Scale::Actuator) => scale::actuator(setting.robot(), exact).ok(),
+            Some(Scale::Range) => Some(scale::range(exact, &self.limits)),
+        };
+        let found = found.ok_or(Refuted::Shape)?;
+        let mut pairs = self.scales.iter().zip(&found);
+        match pairs.position(|(claimed, found)| claimed.is_nan() || claimed > found) {
+            None => Ok(()),
+            Some(index) => Err(Refuted::Scale {
+                entry: self.emitted.entry(index),
+            }),
+        }
+    }
+}

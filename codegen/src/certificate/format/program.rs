@@ -1,0 +1,87 @@
+//! Programs and their edits as lists of lines.
+
+use serde::{Deserialize, Serialize};
+
+use crate::certificate::work;
+use crate::edits::Stage;
+use crate::edits::text;
+use crate::program::text::{read_results, read_step, without_quotient, write_operand};
+use crate::program::{Output, Program, Step};
+
+/// A program: an operation a line, and what is returned.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Listing {
+    steps: Vec<String>,
+    results: Vec<String>,
+}
+
+/// A program and what is edited in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StageListing {
+    program: Listing,
+    edits: Vec<String>,
+}
+
+impl Listing {
+    pub(super) fn of(program: &Program) -> Listing {
+        let line = |step: &Step| {
+            let (left, right) = (write_operand(&step.left), write_operand(&step.right));
+            format!("{left} {} {right}", step.operation.symbol())
+        };
+        let result = |output: &Output| {
+            let sign = if output.negative { "~" } else { "" };
+            format!("{sign}{}", write_operand(&output.value))
+        };
+        Listing {
+            steps: program.steps.iter().map(line).collect(),
+            results: program.outputs.iter().map(result).collect(),
+        }
+    }
+
+    /// The program, of the same function, rows and arguments as an empty one.
+    pub(super) fn program(&self, what: &str, empty: &Program) -> Result<Program, String> {
+        let count = self.steps.len();
+        if count > work::MAX_STEPS {
+            let most = work::MAX_STEPS;
+            return Err(format!("`{what}` has {count} steps; {most} are the most"));
+        }
+        let mut program = empty.clone();
+        for (index, line) in self.steps.iter().enumerate() {
+            let words: Vec<&str> = line.split(' ').collect();
+            let read = read_step(&words, &program);
+            let read = read.and_then(without_quotient);
+            let read = read.map_err(|why| format!("`{what}`, t{}: {why}", index + 1))?;
+            program.steps.push(read);
+        }
+        let words: Vec<&str> = self.results.iter().map(String::as_str).collect();
+        read_results(&words, &mut program).map_err(|why| format!("`{what}`, results: {why}"))?;
+        Ok(program)
+    }
+}
+
+impl StageListing {
+    pub(super) fn of(stage: &Stage) -> StageListing {
+        StageListing {
+            program: Listing::of(&stage.program),
+            edits: stage.edits.iter().map(text::write_edit).collect(),
+        }
+    }
+
+    pub(super) fn stage(&self, index: usize, empty: &Program) -> Result<Stage, String> {
+        let what = format!("stage {}", index + 1);
+        let program = self.program.program(&what, empty)?;
+        if self.edits.len() > work::MAX_EDITS {
+            let (count, most) = (self.edits.len(), work::MAX_EDITS);
+            return Err(format!("`{what}` has {count} edits; {most} are the most"));
+        }
+        let edits = self
+            .edits
+            .iter()
+            .map(|edit| text::read_edit(edit, &program));
+        let edits: Result<Vec<_>, String> = edits.collect();
+        let edits = edits.map_err(|why| format!("`{what}`, edits: {why}"))?;
+        Ok(Stage { program, edits })
+    }
+}

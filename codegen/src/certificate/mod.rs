@@ -1,0 +1,253 @@
+//! Certificates: claims about emitted code that anybody can check again.
+//!
+//! A certificate holds the exact program, the edits, the emitted program and
+//! its printed text, and for each output a bound E of
+//! |emitted code in its scalar − full model| / T over the box, split by cause.
+//! [`Certificate::check`] trusts nothing in it:
+//!
+//! 0. the work of all that follows is bounded (`work`), and programs are of the
+//!    scene's function, arguments and results, and read only what these have
+//!    (`shape`);
+//! 1. the exact program equals the equations of motion
+//!    ([`exact`](crate::verify::exact)); with a
+//!    scene, those of the full robot with the scene's values in their places,
+//!    the box is the scene's or larger, and E within its tolerance;
+//! 2. each stage's edits apply, and what they give equals the next stage's
+//!    program, the last one the emitted program (proved likewise);
+//! 3. the printed text is, byte for byte, what is printed of the emitted
+//!    program and its sines; polynomials are proved again from their literals,
+//!    over the angles' ranges in the box;
+//! 4. the error of the edits ([`difference`](crate::edits::difference)), of sines and cosines and of
+//!    rounding ([`sensitivity`](crate::bound::sensitivity)) are bounded anew, and the
+//!    claims must not be smaller.
+//!
+//! 5. the text is run against the robot's own recursion (`run`), and stays
+//!    within E.
+//!
+//! The emitted program and the edited one are the same function but not the
+//! same arithmetic; rounding is bounded on the emitted one, edits between
+//! exact programs, and the two add up by the triangle inequality.
+//!
+//! - this file: the claim, and how it is made
+//! - `check`: the check, part by part; `work` and `shape`: what comes first
+//! - `format`: its text (feature `certificates`)
+//! - [`subject`]: what a claim is about, and how its bounds are found
+//! - `run`: the text, run
+//! - `refuted`: why a certificate is no good
+//! - [`gappa`]: scripts for a second opinion on rounding
+
+mod check;
+#[cfg(feature = "certificates")]
+pub mod format;
+pub mod gappa;
+mod refuted;
+mod run;
+mod shape;
+pub mod subject;
+mod work;
+
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scale;
+
+use crate::bound::input_box::InputBox;
+use crate::bound::ranges::Finding;
+use crate::bound::sensitivity::BoundEffort;
+use crate::bound::sensitivity::Sensitivity;
+use crate::bound::turns::turns_freely;
+use crate::edits::Stage;
+use crate::interval::Interval;
+use crate::program::{Library, Program, ScalarType};
+use crate::scene::SceneKey;
+use crate::scene::Setting;
+use crate::sincos::{AngleKernel, Sines};
+use crate::split::Split;
+use crate::verify::exact::Proof;
+pub use refuted::{Refuted, WrongInput};
+pub use run::Ran;
+use subject::{Subject, printed};
+pub use work::TooMuch;
+
+/// What every bound rests on besides arithmetic.
+const ASSUMPTIONS: [&str; 3] = [
+    "every operation is rounded to nearest: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products",
+    "no operation is contracted to a fused multiply-add",
+    "positions, velocities and accelerations are the scalar's numbers inside the box",
+];
+
+/// How the bounds were found.
+pub const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
+     at a grid with Riesz's and Bernstein's inequalities, or branch and bound with intervals; \
+     rounding: half an ulp of the largest values times largest adjoints, both written out in the \
+     same way, or the largest sum of their products, at a grid with Riesz's inequality, \
+     or interval adjoints over sub-boxes";
+
+/// A claim about one emitted function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Certificate {
+    /// The robot's name.
+    pub robot: String,
+    /// The robot's input hash in hexadecimal; in a scene that of the robot
+    /// with the scene's payload, gravity and box.
+    pub input: String,
+    /// The scene, unless it is about the whole robot.
+    pub scene: Option<SceneKey>,
+    /// The scalar of the emitted code.
+    pub scalar: ScalarType,
+    /// Where it holds.
+    pub limits: InputBox,
+    /// T of each output, in its unit.
+    pub scales: Vec<f64>,
+    /// What the scales are, if they are one of these: then that is checked.
+    pub relative_to: Option<Scale>,
+    /// The exact program and its edits, program after program.
+    pub stages: Vec<Stage>,
+    /// The program that is emitted, with exact constants.
+    pub emitted: Program,
+    /// The function as printed.
+    pub text: String,
+    /// Who computes its sines, unless polynomials do.
+    pub library: Library,
+    /// The polynomials for its sines, with what is claimed of each; none if
+    /// they are the library's.
+    pub sines: Sines,
+    /// E of each output.
+    pub bounds: Vec<Split>,
+    /// A lower bound of the least eigenvalue of S D S over the box, if D is
+    /// an output and something was left out; S is diagonal
+    /// ([`definite`](crate::bound::definite)). Above zero, D is positive definite.
+    pub lambda_min: Option<f64>,
+}
+
+/// What a check found out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// The exact program's proof.
+    pub proof: Proof,
+    /// The bounds found anew.
+    pub bounds: Vec<Split>,
+    /// What was seen where the text was run.
+    pub ran: Ran,
+    /// What the scalar cannot hold; only warnings.
+    pub findings: Vec<Finding>,
+}
+
+impl Certificate {
+    /// The positions of a joint of this robot for which it holds; `None` for all.
+    ///
+    /// Where a joint [turns freely](turns_freely), one turn is certified and its
+    /// sine reaches further: so does the certificate.
+    pub fn positions(&self, robot: &Robot, joint: usize) -> Option<Interval> {
+        if !turns_freely(robot, &self.emitted.trig, joint) {
+            return self.limits.position.get(joint).copied();
+        }
+        let of = |sine: &&AngleKernel| sine.angle.terms().any(|(of, _)| of == joint);
+        self.sines.iter().find(of).map(|sine| sine.range)
+    }
+
+    /// Bounds the emitted program's error and writes the claim down.
+    ///
+    /// `stages` are what was edited; none for an exact program.
+    pub fn make(
+        robot: &Robot,
+        stages: &[Stage],
+        emitted: &Program,
+        scalar: ScalarType,
+        limits: &InputBox,
+        scales: &[f64],
+    ) -> Certificate {
+        let subject = Subject {
+            setting: &Setting::whole(robot),
+            stages,
+            emitted,
+            limits,
+            scales,
+            relative_to: None,
+            sines: &[],
+        };
+        let fineness = BoundEffort::CERTIFY;
+        let sensitivity = subject.sensitivity(fineness);
+        let bounds = subject.bounds(scalar, &subject.model(fineness), &sensitivity);
+        let lambda_min = subject.least_eigenvalue(scalar);
+        Certificate {
+            lambda_min,
+            ..subject.claim(scalar, bounds)
+        }
+    }
+
+    /// The claim's part about sines and rounding: of the emitted program by
+    /// itself, as if that were the full model.
+    #[must_use]
+    pub fn of_rounding(&self) -> Certificate {
+        let bounds = self.bounds.iter().map(|bound| Split {
+            model: 0.0,
+            ..*bound
+        });
+        Certificate {
+            stages: vec![Stage::unedited(self.emitted.clone())],
+            bounds: bounds.collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The same claim with polynomials for sines; the edits' bounds stay.
+    #[must_use]
+    pub fn with_sines(
+        &self,
+        setting: &Setting,
+        sines: &Sines,
+        sensitivity: &Sensitivity,
+    ) -> Certificate {
+        let sines = [(self.scalar, sines.clone())];
+        let subject = self.subject(setting, &sines);
+        let scaled = self.bounds.iter().map(|bound| bound.model);
+        let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], sensitivity);
+        for (bound, model) in bounds.iter_mut().zip(scaled) {
+            bound.model = model;
+        }
+        Certificate {
+            // Sines that are off move D.
+            lambda_min: subject.least_eigenvalue(self.scalar),
+            ..subject.claim(self.scalar, bounds)
+        }
+    }
+
+    /// The same claim about the text that calls this library: every bound takes
+    /// its sines to be within one ulp, and whose they are is all the same.
+    #[must_use]
+    pub fn calling(&self, library: Library) -> Certificate {
+        if !self.sines.is_empty() {
+            return self.clone();
+        }
+        Certificate {
+            library,
+            text: printed(&self.emitted, self.scalar, library, &self.sines),
+            ..self.clone()
+        }
+    }
+
+    /// What its bounds rest on besides arithmetic. Where sines are polynomials,
+    /// nothing is taken for granted of them: their errors are proved.
+    pub fn assumptions(&self) -> Vec<&'static str> {
+        let mut all = ASSUMPTIONS.to_vec();
+        if self.sines.is_empty() {
+            all.insert(1, self.library.assumption());
+        }
+        all
+    }
+
+    fn subject<'a>(
+        &'a self,
+        setting: &'a Setting,
+        sines: &'a [(ScalarType, Sines)],
+    ) -> Subject<'a> {
+        Subject {
+            setting,
+            stages: &self.stages,
+            emitted: &self.emitted,
+            limits: &self.limits,
+            scales: &self.scales,
+            relative_to: self.relative_to,
+            sines,
+        }
+    }
+}

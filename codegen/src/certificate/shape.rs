@@ -1,0 +1,159 @@
+//! What a claim is about: the function, arguments and results of the setting,
+//! and nothing read that they do not have.
+//!
+//! Everything after this may take for granted that lists are as long as they
+//! should be, that operands come before their users, and that every input is
+//! an argument's entry that the function may read.
+
+use dalembert_model::robot::JointKind;
+
+use super::{Certificate, Refuted, WrongInput};
+use crate::edits::EditSite;
+use crate::function::Argument;
+use crate::program::Input;
+use crate::program::kernel::{Kernel, Term};
+use crate::program::text::input_name;
+use crate::program::{Operand, Program};
+use crate::scene::Setting;
+
+/// Whether all parts of a claim fit the setting and each other.
+pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<(), Refuted> {
+    let Certificate {
+        emitted, limits, ..
+    } = certificate;
+    let (n, outputs) = (setting.joints().len(), emitted.outputs.len());
+    let lists = [&limits.position, &limits.velocity, &limits.acceleration];
+    let fits = !certificate.stages.is_empty()
+        && lists.iter().all(|list| list.len() == n)
+        && certificate.scales.len() == outputs
+        && certificate.bounds.len() == outputs;
+    if !fits {
+        return Err(Refuted::Shape);
+    }
+    let checker = Checker { setting, emitted };
+    for (index, stage) in certificate.stages.iter().enumerate() {
+        let name = format!("the program of stage {}", index + 1);
+        checker.program(&name, &stage.program)?;
+        for edit in &stage.edits {
+            checker.operand(&name, &edit.value, stage.program.steps.len())?;
+            if let EditSite::Input(input) = edit.place {
+                checker.input(&name, input)?;
+            }
+        }
+    }
+    checker.program("the emitted program", emitted)?;
+    let kernels = certificate.sines.iter().map(|sine| &sine.kernel);
+    for kernel in kernels {
+        if !is_ordered(kernel) {
+            return Err(Refuted::Shape);
+        }
+    }
+    Ok(())
+}
+
+struct Checker<'a> {
+    setting: &'a Setting,
+    emitted: &'a Program,
+}
+
+impl Checker<'_> {
+    fn program(&self, name: &str, program: &Program) -> Result<(), Refuted> {
+        let function = self.emitted.function;
+        let rows = self.setting.rows();
+        let signature = [
+            ("function", program.function == function),
+            (
+                "number of joints",
+                program.joints == self.setting.joints().len(),
+            ),
+            ("list of rows", program.rows == rows),
+            (
+                "list of arguments",
+                program.arguments == self.setting.arguments(function),
+            ),
+            (
+                "number of results",
+                program.outputs.len() == function.outputs(rows.len()),
+            ),
+        ];
+        if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
+            let program = name.to_owned();
+            return Err(Refuted::Signature { program, what });
+        }
+        for (index, step) in program.steps.iter().enumerate() {
+            self.operand(name, &step.left, index)?;
+            self.operand(name, &step.right, index)?;
+        }
+        for output in &program.outputs {
+            self.operand(name, &output.value, program.steps.len())?;
+        }
+        let mut collected = program.clone();
+        collected.collect_trig();
+        match collected.trig == program.trig {
+            true => Ok(()),
+            false => Err(Refuted::Shape),
+        }
+    }
+
+    /// An operand of a step, or a result, that may read the steps before it.
+    fn operand(&self, program: &str, operand: &Operand, before: usize) -> Result<(), Refuted> {
+        match operand {
+            Operand::Constant(_) => Ok(()),
+            Operand::Step(step) if *step < before => Ok(()),
+            Operand::Step(_) => Err(Refuted::Shape),
+            Operand::Input(input) => self.input(program, *input),
+        }
+    }
+
+    fn input(&self, program: &str, input: Input) -> Result<(), Refuted> {
+        match self.wrong(input) {
+            None => Ok(()),
+            Some(why) => Err(Refuted::Input {
+                program: program.to_owned(),
+                input: input_name(input),
+                why,
+            }),
+        }
+    }
+
+    fn wrong(&self, input: Input) -> Option<WrongInput> {
+        let joints = &self.setting.robot().joints;
+        let of = |joint: usize, kind: Option<JointKind>| match joints.get(joint) {
+            None => Some(WrongInput::NoJoint),
+            Some(_) if self.setting.lock(joint).is_some() => Some(WrongInput::Locked),
+            Some(row) => match (kind, row.kind) {
+                (Some(JointKind::Revolute), JointKind::Prismatic) => Some(WrongInput::Slides),
+                (Some(JointKind::Prismatic), JointKind::Revolute) => Some(WrongInput::Turns),
+                _ => None,
+            },
+        };
+        let (argument, wrong) = match input {
+            Input::Sin(angle) | Input::Cos(angle) => {
+                let mut terms = angle.terms();
+                let wrong = terms.find_map(|(joint, _)| of(joint, Some(JointKind::Revolute)));
+                (Argument::Position, wrong)
+            }
+            Input::Entry(argument, joint) => {
+                let slides = argument == Argument::Position;
+                let kind = slides.then_some(JointKind::Prismatic);
+                (argument, of(joint, kind))
+            }
+        };
+        let missing = !self.emitted.arguments.contains(&argument);
+        wrong.or(missing.then_some(WrongInput::NoArgument))
+    }
+}
+
+/// Whether each step reads what is before it, and literals are numbers.
+fn is_ordered(kernel: &Kernel) -> bool {
+    let fine = |term: Term, before: usize| match term {
+        Term::Input(_) => true,
+        Term::Constant(value) => value.0.is_finite(),
+        Term::Step(step) => step < before,
+    };
+    let mut steps = kernel.steps.iter().enumerate();
+    let results = [kernel.sin, kernel.cos].into_iter().flatten();
+    let after = kernel.steps.len();
+    steps.all(|(index, step)| fine(step.left, index) && fine(step.right, index)) && { results }
+        .all(|value| fine(value.value, after))
+}

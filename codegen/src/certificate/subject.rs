@@ -1,0 +1,124 @@
+//! What a certificate is about, and how its bounds are found.
+
+use dalembert_model::scene::Scale;
+
+use super::Certificate;
+use crate::backend::{MathPath, function};
+use crate::bound::definite::least_eigenvalue_with;
+use crate::bound::input_box::InputBox;
+use crate::bound::magnitude::{magnitudes, relative};
+use crate::bound::sensitivity::{BoundEffort, Sensitivity};
+use crate::edits::{Stage, difference, has_edits};
+use crate::program::{Library, Program, ScalarType, has_inertia};
+use crate::scene::Setting;
+use crate::scene::{SceneKey, input_hash};
+use crate::sincos::{self, AngleKernel, Sines};
+use crate::split::Split;
+
+/// What a claim is about, whatever the scalar.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The full model.
+    pub setting: &'a Setting,
+    /// What was edited; none for an exact program.
+    pub stages: &'a [Stage],
+    /// The program that is emitted, with exact constants.
+    pub emitted: &'a Program,
+    /// Where it holds.
+    pub limits: &'a InputBox,
+    /// T of each output.
+    pub scales: &'a [f64],
+    /// What the scales are, if they are one of these.
+    pub relative_to: Option<Scale>,
+    /// The polynomials for sines in each scalar; libm's where there are none.
+    pub sines: &'a [(ScalarType, Sines)],
+}
+
+impl Subject<'_> {
+    /// The largest errors of the edits, one an output, in its unit: the part
+    /// of the bounds that every scalar shares, and the longest to find.
+    pub fn model(&self, fineness: BoundEffort) -> Vec<f64> {
+        if !has_edits(self.stages) {
+            return vec![0.0; self.scales.len()];
+        }
+        let error = difference(self.stages);
+        magnitudes(&error, self.limits, self.scales, 0.0, fineness.budget)
+    }
+
+    /// Bounds by cause, relative to the scales, with the edits' and the
+    /// sensitivity at hand.
+    pub fn bounds(
+        &self,
+        scalar: ScalarType,
+        model: &[f64],
+        sensitivity: &Sensitivity,
+    ) -> Vec<Split> {
+        let rounding = sensitivity.rounding(scalar, self.sines(scalar));
+        let all = model.iter().zip(&rounding).zip(self.scales);
+        all.map(|((&model, rounding), &scale)| Split {
+            model: relative(model, scale),
+            sincos: relative(rounding.sincos, scale),
+            rounding: relative(rounding.arithmetic, scale),
+        })
+        .collect()
+    }
+
+    /// What bounds of the emitted program's rounding need.
+    pub fn sensitivity(&self, fineness: BoundEffort) -> Sensitivity {
+        Sensitivity::of(self.emitted, self.limits, fineness)
+    }
+
+    /// A lower bound of the least eigenvalue of S D S, if D is an output and
+    /// not the model's; `None` as well if there is none above zero.
+    pub fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
+        if !changes_inertia(self.stages, self.emitted, self.sines(scalar)) {
+            return None;
+        }
+        least_eigenvalue_with(self.emitted, scalar, self.sines(scalar), self.limits).ok()
+    }
+
+    /// The claim for a scalar with these bounds, whether they hold or not;
+    /// nothing is claimed of the least eigenvalue.
+    pub fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
+        Certificate {
+            robot: self.setting.robot().name.clone(),
+            input: input_hash(self.setting.robot()),
+            scene: self.setting.scene().map(SceneKey::of),
+            scalar,
+            limits: self.limits.clone(),
+            scales: self.scales.to_vec(),
+            relative_to: self.relative_to,
+            stages: match self.stages {
+                [] => vec![Stage::unedited(self.emitted.clone())],
+                stages => stages.to_vec(),
+            },
+            emitted: self.emitted.clone(),
+            text: printed(self.emitted, scalar, Library::Libm, self.sines(scalar)),
+            library: Library::Libm,
+            sines: self.sines(scalar).to_vec(),
+            bounds,
+            lambda_min: None,
+        }
+    }
+
+    /// The polynomials for sines in a scalar.
+    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
+        sincos::of(self.sines, scalar)
+    }
+}
+
+/// Whether D is an output and differs from the model's by more than rounding:
+/// something was left out of it, or its sines are polynomials.
+pub(super) fn changes_inertia(stages: &[Stage], emitted: &Program, sines: &[AngleKernel]) -> bool {
+    has_inertia(emitted) && (has_edits(stages) || !sines.is_empty())
+}
+
+/// The text of a claim: a program and its sines, printed by themselves.
+pub(super) fn printed(
+    program: &Program,
+    scalar: ScalarType,
+    library: Library,
+    sines: &[AngleKernel],
+) -> String {
+    function::with_sines(program, scalar, &MathPath::of(library), sines, &[])
+}

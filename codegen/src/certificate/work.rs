@@ -1,0 +1,232 @@
+//! Bounds on the work of a check, found before any of it is done.
+//!
+//! Constants are exact, and folding multiplies them out: eighteen squarings of
+//! 3/10 in a row have a quarter of a million digits. How large a constant can
+//! become follows from how large its operands can, so a program that would
+//! take long is refused before anything of it is computed.
+
+use std::fmt;
+
+use dalembert_model::number::{Exact, Extent};
+
+use super::Certificate;
+use crate::edits::{Edit, EditSite, Stage};
+use crate::program::{Operand, Operation, Program};
+use std::collections::BTreeMap;
+
+/// The most programs of a certificate that are edited one after another.
+pub const MAX_STAGES: usize = 64;
+/// The most steps of a program.
+pub const MAX_STEPS: usize = 50_000;
+/// The most edits of a program.
+pub const MAX_EDITS: usize = 10_000;
+/// The most angles whose sine or cosine a program reads.
+pub const MAX_ANGLES: usize = 256;
+/// The most bits of a constant's coefficient.
+pub const MAX_BITS: u64 = 1 << 16;
+/// The most monomials of a constant.
+pub const MAX_TERMS: u64 = 20_000;
+/// The largest degree of a constant in sines and cosines.
+pub const MAX_DEGREE: u64 = 256;
+/// What all constants of a program may cost together: terms times degrees
+/// times bits.
+pub const MAX_COST: u64 = 1 << 30;
+
+/// What would take too long.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TooMuch {
+    /// Where.
+    pub place: String,
+    /// What there is too much of.
+    pub what: &'static str,
+    /// How much there is, or can become.
+    pub found: u64,
+    /// The most that is checked.
+    pub most: u64,
+}
+
+impl fmt::Display for TooMuch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let TooMuch {
+            place,
+            what,
+            found,
+            most,
+        } = self;
+        write!(
+            f,
+            "{place}: {found} {what}, of which {most} are the most that is checked"
+        )
+    }
+}
+
+impl std::error::Error for TooMuch {}
+
+/// Whether a certificate can be checked with bounded work.
+pub(super) fn check(certificate: &Certificate) -> Result<(), TooMuch> {
+    let stages = &certificate.stages;
+    within("the certificate", "stages", stages.len(), MAX_STAGES)?;
+    for (index, stage) in stages.iter().enumerate() {
+        program(&format!("stage {}", index + 1), stage)?;
+    }
+    program(
+        "the emitted program",
+        &Stage::unedited(certificate.emitted.clone()),
+    )
+}
+
+fn within(place: &str, what: &'static str, found: usize, most: usize) -> Result<(), TooMuch> {
+    limit(place, what, found as u64, most as u64)
+}
+
+fn limit(place: &str, what: &'static str, found: u64, most: u64) -> Result<(), TooMuch> {
+    if found <= most {
+        return Ok(());
+    }
+    Err(TooMuch {
+        place: place.to_owned(),
+        what,
+        found,
+        most,
+    })
+}
+
+fn program(place: &str, stage: &Stage) -> Result<(), TooMuch> {
+    let Stage { program, edits } = stage;
+    within(place, "steps", program.steps.len(), MAX_STEPS)?;
+    within(place, "edits", edits.len(), MAX_EDITS)?;
+    within(place, "angles", program.trig.len(), MAX_ANGLES)?;
+    let mut cost = 0u64;
+    for constant in constants(program, edits) {
+        let extent = constant.extent();
+        admit(place, &extent)?;
+        cost = cost.saturating_add(work(&extent));
+    }
+    limit(place, "units of work for its constants", cost, MAX_COST)?;
+    let edits = edits.iter().map(|edit| (edit.place, edit)).collect();
+    Sizes::default().steps(place, program, &BTreeMap::new())?;
+    Sizes::default().steps(place, program, &edits)
+}
+
+fn constants<'a>(program: &'a Program, edits: &'a [Edit]) -> impl Iterator<Item = &'a Exact> {
+    let steps = program
+        .steps
+        .iter()
+        .flat_map(|step| [&step.left, &step.right]);
+    let outputs = program.outputs.iter().map(|output| &output.value);
+    let edits = edits.iter().map(|edit| &edit.value);
+    let all = steps.chain(outputs).chain(edits);
+    all.filter_map(|operand| match operand {
+        Operand::Constant(constant) => Some(constant),
+        _ => None,
+    })
+}
+
+fn work(extent: &Extent) -> u64 {
+    let size = extent.terms.saturating_mul(1 + extent.degree);
+    size.saturating_mul(64 + extent.bits)
+}
+
+fn admit(place: &str, extent: &Extent) -> Result<(), TooMuch> {
+    limit(place, "bits of a constant", extent.bits, MAX_BITS)?;
+    limit(place, "terms of a constant", extent.terms, MAX_TERMS)?;
+    limit(place, "degrees of a constant", extent.degree, MAX_DEGREE)
+}
+
+/// How large the constant in a value can become by folding: the value itself,
+/// or the factor in front of it.
+type Size = Option<Extent>;
+
+/// Of every step, with edits or without.
+#[derive(Default)]
+struct Sizes {
+    /// The size, and whether the step is that constant itself.
+    steps: Vec<(Size, bool)>,
+}
+
+impl Sizes {
+    fn steps(
+        &mut self,
+        place: &str,
+        program: &Program,
+        edits: &BTreeMap<EditSite, &Edit>,
+    ) -> Result<(), TooMuch> {
+        for (index, step) in program.steps.iter().enumerate() {
+            let left = self.operand(&step.left, EditSite::Left(index), edits);
+            let right = self.operand(&step.right, EditSite::Right(index), edits);
+            let value = match edits.get(&EditSite::Step(index)) {
+                Some(edit) => self.read(&edit.value),
+                None => operate(step.operation, left, right),
+            };
+            if let (Some(extent), _) = &value {
+                let place = format!("{place}, t{}", index + 1);
+                admit(&place, extent)?;
+            }
+            self.steps.push(value);
+        }
+        Ok(())
+    }
+
+    fn operand(
+        &self,
+        operand: &Operand,
+        place: EditSite,
+        edits: &BTreeMap<EditSite, &Edit>,
+    ) -> (Size, bool) {
+        match (edits.get(&place), operand) {
+            (Some(edit), _) => self.read(&edit.value),
+            (None, Operand::Input(input)) => match edits.get(&EditSite::Input(*input)) {
+                Some(edit) => self.read(&edit.value),
+                None => (None, false),
+            },
+            (None, operand) => self.read(operand),
+        }
+    }
+
+    fn read(&self, operand: &Operand) -> (Size, bool) {
+        match operand {
+            Operand::Constant(constant) => (Some(constant.extent()), true),
+            Operand::Input(_) => (None, false),
+            Operand::Step(index) => self.steps.get(*index).copied().unwrap_or_default(),
+        }
+    }
+}
+
+fn operate(operation: Operation, a: (Size, bool), b: (Size, bool)) -> (Size, bool) {
+    let ((Some(x), x_is), (Some(y), y_is)) = (a, b) else {
+        // A constant times a value is a factor in front of it, any other
+        // operation with a value is a value without one.
+        return match (operation, a, b) {
+            (Operation::Mul, (size @ Some(_), true), (None, _))
+            | (Operation::Mul, (None, _), (size @ Some(_), true)) => (size, false),
+            _ => (None, false),
+        };
+    };
+    match operation {
+        Operation::Mul if x_is || y_is => (Some(product(&x, &y)), x_is && y_is),
+        Operation::Add | Operation::Sub if x_is && y_is => (Some(sum(&x, &y)), true),
+        _ => (None, false),
+    }
+}
+
+fn product(x: &Extent, y: &Extent) -> Extent {
+    let angles = x.angles.min(y.angles).min(63);
+    let terms = x.terms.saturating_mul(y.terms);
+    // A squared sine makes two monomials; equal ones are added up.
+    let equal = x.terms.min(y.terms);
+    Extent {
+        terms: terms.saturating_mul(1 << angles),
+        angles: x.angles.saturating_add(y.angles),
+        degree: x.degree.saturating_add(y.degree),
+        bits: x.bits.saturating_add(y.bits).saturating_mul(equal),
+    }
+}
+
+fn sum(x: &Extent, y: &Extent) -> Extent {
+    Extent {
+        terms: x.terms.saturating_add(y.terms),
+        angles: x.angles.max(y.angles),
+        degree: x.degree.max(y.degree),
+        bits: x.bits.saturating_add(y.bits).saturating_add(1),
+    }
+}

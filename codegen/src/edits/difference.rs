@@ -1,0 +1,230 @@
+//! The edited program, and the program of its error.
+//!
+//! **Soundness.** Write x for a value of the program, x' for the same place
+//! after the edits, Δx = x' − x. Then, exactly and for every state,
+//!
+//! - Δ(a ± b) = Δa ± Δb
+//! - Δ(a·b) = a'·Δb + b·Δa
+//! - where a + b is replaced by a: Δ = Δa − b, and so on
+//!
+//! so [`difference`] is a program for Δ of the outputs, not an approximation
+//! of one: nothing is left of second order. It forms no difference of two
+//! large values, so bounding *it* over a box bounds the error without the
+//! difference of two enclosures.
+
+use std::collections::BTreeMap;
+
+use super::{Edit, EditSite, Stage};
+use crate::graph::builder::Value;
+use crate::graph::{Builder, Folding, Graph};
+use crate::program::{Operand, Operation, Program};
+
+impl Stage {
+    /// The edited program's graph, folded; what nothing reads is gone.
+    pub fn edited(&self, folding: Folding) -> Graph {
+        let mut run = Run::new(self, folding);
+        run.steps();
+        let outputs: Vec<Value> = self
+            .program
+            .outputs
+            .iter()
+            .map(|output| {
+                let value = run.after(&output.value);
+                run.builder.negate_if(&value, output.negative)
+            })
+            .collect();
+        run.builder.finish(&outputs)
+    }
+
+    /// The edited program.
+    pub fn program(&self, folding: Folding) -> Program {
+        self.program.with_graph(&self.edited(folding))
+    }
+}
+
+/// The errors of all stages together: edited − exact, output by output. Each
+/// stage's edited program must be equal to the next stage's program.
+pub fn difference(stages: &[Stage]) -> Graph {
+    let mut builder = Builder::new(Folding::Syntactic);
+    let mut sums: Vec<Value> = Vec::new();
+    for stage in stages {
+        let mut run = Run::with(stage, builder);
+        run.steps();
+        let deltas: Vec<Value> = stage
+            .program
+            .outputs
+            .iter()
+            .map(|output| {
+                let delta = run.delta(&output.value);
+                run.builder.negate_if(&delta, output.negative)
+            })
+            .collect();
+        builder = run.builder;
+        sums = if sums.is_empty() {
+            deltas
+        } else {
+            let pairs = sums.iter().zip(&deltas);
+            pairs.map(|(a, b)| builder.add(a, b)).collect()
+        };
+    }
+    builder.finish(&sums)
+}
+
+/// A stage's values before (x) and after (x') its edits, and Δx.
+struct Run<'a> {
+    stage: &'a Stage,
+    /// The edit of each place; its first, if a place has several.
+    edits: BTreeMap<EditSite, &'a Edit>,
+    builder: Builder,
+    exact: Vec<Value>,
+    edited: Vec<Value>,
+    deltas: Vec<Value>,
+}
+
+impl<'a> Run<'a> {
+    fn new(stage: &'a Stage, folding: Folding) -> Self {
+        Run::with(stage, Builder::new(folding))
+    }
+
+    fn with(stage: &'a Stage, builder: Builder) -> Self {
+        let edits = stage.edits.iter().rev();
+        Run {
+            stage,
+            edits: edits.map(|edit| (edit.place, edit)).collect(),
+            builder,
+            exact: Vec::new(),
+            edited: Vec::new(),
+            deltas: Vec::new(),
+        }
+    }
+
+    fn edit(&self, place: EditSite) -> Option<&'a Edit> {
+        self.edits.get(&place).copied()
+    }
+
+    fn before(&mut self, operand: &Operand) -> Value {
+        match operand {
+            Operand::Input(input) => self.builder.input(*input),
+            Operand::Constant(constant) => Value::Constant(constant.clone()),
+            Operand::Step(index) => self.exact[*index].clone(),
+        }
+    }
+
+    fn after(&mut self, operand: &Operand) -> Value {
+        match operand {
+            Operand::Input(input) => match self.edit(EditSite::Input(*input)) {
+                Some(edit) => self.replacement(edit),
+                None => self.builder.input(*input),
+            },
+            Operand::Constant(constant) => Value::Constant(constant.clone()),
+            Operand::Step(index) => self.edited[*index].clone(),
+        }
+    }
+
+    fn replacement(&mut self, edit: &Edit) -> Value {
+        let value = self.after(&edit.value);
+        self.builder.negate_if(&value, edit.negative)
+    }
+
+    /// replacement after − operand before
+    fn moved(&mut self, edit: &Edit, operand: &Operand) -> Value {
+        let after = self.replacement(edit);
+        let before = self.before(operand);
+        self.builder.sub(&after, &before)
+    }
+
+    fn delta(&mut self, operand: &Operand) -> Value {
+        match operand {
+            Operand::Input(input) => match self.edit(EditSite::Input(*input)) {
+                Some(edit) => self.moved(edit, operand),
+                None => Value::zero(),
+            },
+            Operand::Constant(_) => Value::zero(),
+            Operand::Step(index) => self.deltas[*index].clone(),
+        }
+    }
+
+    /// An operand of a step: before, after, and the difference.
+    fn operand(&mut self, operand: &Operand, place: EditSite) -> [Value; 3] {
+        let before = self.before(operand);
+        match self.edit(place) {
+            None => [before, self.after(operand), self.delta(operand)],
+            Some(edit) => {
+                let after = self.replacement(edit);
+                [before, after, self.moved(edit, operand)]
+            }
+        }
+    }
+
+    fn steps(&mut self) {
+        for (index, step) in self.stage.program.steps.iter().enumerate() {
+            let [a, a_after, da] = self.operand(&step.left, EditSite::Left(index));
+            let [b, b_after, db] = self.operand(&step.right, EditSite::Right(index));
+            let exact = operate(&mut self.builder, step.operation, &a, &b);
+            self.exact.push(exact.clone());
+            let (edited, delta) = match self.edit(EditSite::Step(index)) {
+                None => (
+                    operate(&mut self.builder, step.operation, &a_after, &b_after),
+                    self.unedited(step.operation, [&b, &da, &db, &a_after]),
+                ),
+                Some(edit) => {
+                    let edited = self.replacement(edit);
+                    // s·r' − x = s·Δr + (s·r − x); for an operand of the sum
+                    // the second part is the other operand.
+                    let right = if step.operation == Operation::Sub {
+                        self.builder.negate_if(&b, true)
+                    } else {
+                        b.clone()
+                    };
+                    let sum = matches!(step.operation, Operation::Add | Operation::Sub);
+                    let minus = step.operation == Operation::Sub;
+                    let rest = if sum && edit.value == step.left && !edit.negative {
+                        self.builder.negate_if(&right, true)
+                    } else if sum && edit.value == step.right && edit.negative == minus {
+                        self.builder.negate_if(&a, true)
+                    } else {
+                        let before = self.before(&edit.value);
+                        let before = self.builder.negate_if(&before, edit.negative);
+                        self.builder.sub(&before, &exact)
+                    };
+                    let moved = self.delta(&edit.value);
+                    let moved = self.builder.negate_if(&moved, edit.negative);
+                    (edited, self.builder.add(&moved, &rest))
+                }
+            };
+            self.edited.push(edited);
+            self.deltas.push(delta);
+        }
+    }
+
+    fn unedited(&mut self, operation: Operation, [b, da, db, a_after]: [&Value; 4]) -> Value {
+        match operation {
+            Operation::Add => self.builder.add(da, db),
+            Operation::Sub => self.builder.sub(da, db),
+            Operation::Mul => {
+                let left = self.builder.mul(a_after, db);
+                let right = self.builder.mul(b, da);
+                self.builder.add(&left, &right)
+            }
+            // (a + Δa)/(b + Δb) − a/b = (Δa − (a/b) Δb)/(b + Δb)
+            Operation::Div => {
+                let before = self.builder.sub(a_after, da);
+                let quotient = self.builder.div(&before, b);
+                let part = self.builder.mul(&quotient, db);
+                let moved = self.builder.sub(da, &part);
+                let divisor = self.builder.add(b, db);
+                self.builder.div(&moved, &divisor)
+            }
+        }
+    }
+}
+
+/// A step's operation on values.
+pub(crate) fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
+    match operation {
+        Operation::Add => builder.add(a, b),
+        Operation::Sub => builder.sub(a, b),
+        Operation::Mul => builder.mul(a, b),
+        Operation::Div => builder.div(a, b),
+    }
+}

@@ -1,0 +1,13 @@
+//! Programs with less work in them, and how far they are off.
+//!
+//! - `edit`: what was left out
+//! - `difference`: the edited program, and the program of its error
+//! - [`text`]: edits as plans and certificates write them
+
+mod difference;
+mod edit;
+pub mod text;
+
+pub use difference::difference;
+pub(crate) use difference::operate;
+pub use edit::{BadEdit, Edit, EditSite, Stage, has_edits};

@@ -1,0 +1,179 @@
+//! An attempt to refute a certificate: the emitted text is run at corners and
+//! random states of the box, and climbs to where it errs most.
+//!
+//! The yardstick is the certificate's exact program in double precision; what
+//! that costs by rounding is bounded as well and granted, so a violation
+//! found here is one.
+
+use crate::backend::read::TextError;
+use crate::bound::input_box::InputBox;
+use crate::bound::magnitude::relative;
+use crate::bound::sample::{climb, draw};
+use crate::bound::sensitivity::{Rounding, rounding};
+use crate::certificate::Certificate;
+use crate::program::columns::Columns;
+use crate::program::{Lowered, ScalarType};
+use crate::random::Random;
+use crate::states::JointState;
+
+/// The largest errors that were seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Falsification {
+    /// Of each output, relative to its T.
+    pub observed: Vec<f64>,
+    /// The first output that errs more than is claimed, and where.
+    pub violation: Option<(usize, JointState)>,
+    /// States at which the text was run.
+    pub states: usize,
+}
+
+/// Samples, then climbs from the worst of them, output by output.
+///
+/// # Errors
+/// A text of the certificate cannot be read.
+pub fn falsify(
+    certificate: &Certificate,
+    samples: usize,
+    climbs: usize,
+    seed: u64,
+) -> Result<Falsification, TextError> {
+    let mut falsifier = Falsifier::new(certificate)?;
+    let limits = &certificate.limits;
+    let outputs = certificate.scales.len();
+    let mut random = Random::new(seed);
+    let mut worst: Vec<(f64, JointState)> = vec![(-1.0, JointState::default()); outputs];
+    let mut left = samples;
+    while left > 0 {
+        let count = left.min(BLOCK);
+        left -= count;
+        let states: Vec<JointState> = (0..count).map(|_| draw(limits, &mut random)).collect();
+        let errors = falsifier.errors(&states);
+        for (worst, errors) in worst.iter_mut().zip(errors) {
+            for (error, state) in errors.into_iter().zip(&states) {
+                if error > worst.0 {
+                    *worst = (error, state.clone());
+                }
+            }
+        }
+    }
+    for (output, (_, state)) in worst.into_iter().enumerate() {
+        if state.q.is_empty() {
+            continue;
+        }
+        for round in 0..climbs {
+            let from = if round == 0 {
+                state.clone()
+            } else {
+                draw(limits, &mut random)
+            };
+            let mut climbing = random.clone();
+            climb(limits, from, MOVES, &mut climbing, &mut |state| {
+                let errors = falsifier.errors(std::slice::from_ref(state));
+                errors[output][0]
+            });
+            random.bits();
+        }
+    }
+    Ok(falsifier.falsification)
+}
+
+/// States that are run at once: their columns stay in a processor's cache.
+const BLOCK: usize = 128;
+
+/// Moves of a climb.
+const MOVES: usize = 600;
+
+/// Both texts, and what was seen of them.
+struct Falsifier<'c> {
+    certificate: &'c Certificate,
+    emitted: Lowered,
+    exact: Lowered,
+    granted: Vec<Rounding>,
+    falsification: Falsification,
+}
+
+impl<'c> Falsifier<'c> {
+    fn new(certificate: &'c Certificate) -> Result<Falsifier<'c>, TextError> {
+        let Certificate { text: printed, .. } = certificate;
+        let function = certificate.emitted.function;
+        let program = &certificate.stages[0].program;
+        let limits = &certificate.limits;
+        Ok(Falsifier {
+            certificate,
+            emitted: Lowered::parse(printed, function, certificate.scalar)?,
+            exact: program.lower(ScalarType::F64, |_| None),
+            granted: rounding(program, ScalarType::F64, limits, 64),
+            falsification: Falsification {
+                observed: vec![0.0; certificate.scales.len()],
+                violation: None,
+                states: 0,
+            },
+        })
+    }
+
+    /// The errors relative to T, a column an output; the largest are noted.
+    fn errors(&mut self, states: &[JointState]) -> Vec<Vec<f64>> {
+        let Certificate { scalar, limits, .. } = self.certificate;
+        let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
+        let exact = self.exact.run_columns(&Columns::<f64>::of(&states));
+        let emitted = match scalar {
+            ScalarType::F64 => self.emitted.run_columns(&Columns::<f64>::of(&states)),
+            ScalarType::F32 => {
+                let single = self.emitted.run_columns(&Columns::<f32>::of(&states));
+                let wide = |column: Vec<f32>| column.into_iter().map(f64::from).collect();
+                single.into_iter().map(wide).collect()
+            }
+        };
+        self.falsification.states += states.len();
+        let mut all = Vec::with_capacity(emitted.len());
+        for (i, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
+            let granted = self.granted[i].arithmetic + self.granted[i].sincos;
+            let bound = self.certificate.bounds[i].total();
+            let mut errors = Vec::with_capacity(states.len());
+            for ((x, y), state) in emitted.iter().zip(exact).zip(&states) {
+                // What is no number at all is no small error either.
+                let error = match x.is_finite() {
+                    true => ((x - y).abs() - granted).max(0.0),
+                    false => f64::INFINITY,
+                };
+                let error = relative(error, self.certificate.scales[i]);
+                self.falsification.observed[i] = self.falsification.observed[i].max(error);
+                if error > bound && self.falsification.violation.is_none() {
+                    self.falsification.violation = Some((i, state.clone()));
+                }
+                errors.push(error);
+            }
+            all.push(errors);
+        }
+        all
+    }
+}
+
+/// The nearest state of the scalar's numbers inside the box.
+fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
+    if scalar == ScalarType::F64 {
+        return state.clone();
+    }
+    let hold = |values: &[f64], ranges: &[crate::interval::Interval]| {
+        let pairs = values.iter().zip(ranges);
+        pairs
+            .map(|(&x, range)| {
+                let near = x as f32;
+                let inside = if f64::from(near) > range.high() {
+                    near.next_down()
+                } else if f64::from(near) < range.low() {
+                    near.next_up()
+                } else {
+                    near
+                };
+                f64::from(inside)
+            })
+            .collect()
+    };
+    JointState {
+        q: hold(&state.q, &limits.position),
+        qd: hold(&state.qd, &limits.velocity),
+        qdd: hold(&state.qdd, &limits.acceleration),
+        ..JointState::default()
+    }
+}
