@@ -102,7 +102,7 @@ impl<'c> Falsifier<'c> {
             certificate,
             emitted: Lowered::parse(printed, function, certificate.scalar)?,
             exact: program.lower(ScalarType::F64, |_| None),
-            granted: rounding(program, ScalarType::F64, limits, 64),
+            granted: rounding(program, ScalarType::F64, &[], limits, 64),
             falsification: Falsification {
                 observed: vec![0.0; certificate.scales.len()],
                 violation: None,

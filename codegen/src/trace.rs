@@ -7,7 +7,6 @@ use std::rc::Rc;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::Motion;
-use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use crate::function::{Argument, Function};
@@ -23,11 +22,6 @@ pub struct Trace {
     pub graph: Graph,
     /// The operations of the formula as it was executed, before folding.
     pub traced: Counts,
-}
-
-/// Runs a formulation with symbols.
-pub fn trace(robot: &Robot, function: Function, formulation: Formulation) -> Trace {
-    trace_in(&Setting::whole(robot), function, formulation)
 }
 
 /// The motion of a setting in symbols. Of the arguments that are no part of a
@@ -47,7 +41,7 @@ pub fn symbols(
 }
 
 /// Runs a formulation with symbols in a setting.
-pub fn trace_in(setting: &Setting, function: Function, formulation: Formulation) -> Trace {
+pub fn trace(setting: &Setting, function: Function, formulation: Formulation) -> Trace {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let constant = |constant: &Exact| Symbol::from(constant.clone());
     let arm = Arm::from_robot(setting.robot(), &mut { constant });

@@ -13,6 +13,7 @@ use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::scene::Setting;
 
 fn bar(tolerance: f64, operations: usize) {
     let robot = support::robot("puma560");
@@ -36,7 +37,7 @@ fn bar(tolerance: f64, operations: usize) {
         &limits,
         &scales,
     );
-    certificate.check(&robot).unwrap();
+    certificate.check(&Setting::whole(&robot)).unwrap();
     let falsification = falsify(&certificate, 20_000, 4, 7).unwrap();
     assert_eq!(falsification.violation, None);
     let worst = |values: Vec<f64>| values.into_iter().fold(0.0, f64::max);
@@ -65,7 +66,7 @@ fn pumas_inertia_is_positive_definite_over_the_whole_box() {
     let program = &generated.functions[0].program;
     let limits = InputBox::of(&robot).unwrap();
     for scalar in ScalarType::ALL {
-        let least = least_eigenvalue(program, scalar, &limits).unwrap();
+        let least = least_eigenvalue(program, scalar, &[], &limits).unwrap();
         // Sampled: 0.187.
         assert!((0.1..0.187).contains(&least), "{least}");
     }

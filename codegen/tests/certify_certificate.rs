@@ -14,6 +14,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::graph::Folding;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Program, ScalarType};
+use dalembert_codegen::scene::Setting;
 use dalembert_codegen::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
 
@@ -96,7 +97,7 @@ fn a_pruned_program_is_cheaper_certified_and_not_refuted() {
     let (before, after) = (case.program.counts(), case.pruned.program.counts());
     assert!(after.operations() < before.operations(), "{after}");
     let certificate = case.certificate(ScalarType::F64);
-    certificate.check(&case.robot).unwrap();
+    certificate.check(&Setting::whole(&case.robot)).unwrap();
     let falsification = falsify(&certificate, 2000, 3, 1).unwrap();
     assert_eq!(
         falsification.violation, None,
@@ -121,14 +122,17 @@ fn a_bound_made_too_small_is_caught_by_the_check_and_by_the_sampler() {
     }
     let mut lie = honest.clone();
     lie.bounds[worst].model /= 4.0;
-    assert!(matches!(lie.check(&case.robot), Err(Refuted::Bound { .. })));
+    assert!(matches!(
+        lie.check(&Setting::whole(&case.robot)),
+        Err(Refuted::Bound { .. })
+    ));
     let found = falsify(&lie, 2000, 3, 1).unwrap();
     assert_eq!(found.violation.map(|v| v.0), Some(worst));
 
     let mut rounding = honest.clone();
     rounding.bounds[0].rounding /= 2.0;
     assert!(matches!(
-        rounding.check(&case.robot),
+        rounding.check(&Setting::whole(&case.robot)),
         Err(Refuted::Bound { .. })
     ));
 }
@@ -140,20 +144,29 @@ fn every_other_lie_is_caught() {
 
     let mut other = case.robot.clone();
     other.joints[0].mass = dalembert_model::number::Rational::from_integer(3.into());
-    assert_eq!(honest.check(&other), Err(Refuted::Robot));
+    assert_eq!(honest.check(&Setting::whole(&other)), Err(Refuted::Robot));
 
     let mut forgotten = honest.clone();
     forgotten.stages[0].edits.pop();
-    assert_eq!(forgotten.check(&case.robot), Err(Refuted::Step(0)));
+    assert_eq!(
+        forgotten.check(&Setting::whole(&case.robot)),
+        Err(Refuted::Step(0))
+    );
 
     let mut text = honest.clone();
     text.text = text.text.replacen(" + ", " - ", 1);
-    assert!(matches!(text.check(&case.robot), Err(Refuted::Text { .. })));
+    assert!(matches!(
+        text.check(&Setting::whole(&case.robot)),
+        Err(Refuted::Text { .. })
+    ));
 
     let mut exact = honest.clone();
     let output = &mut exact.stages[0].program.outputs[0];
     output.negative = !output.negative;
-    assert!(matches!(exact.check(&case.robot), Err(Refuted::Exact(_))));
+    assert!(matches!(
+        exact.check(&Setting::whole(&case.robot)),
+        Err(Refuted::Exact(_))
+    ));
 
     let mut edit = honest.clone();
     let last = edit.stages[0].program.steps.len() - 1;
@@ -166,11 +179,17 @@ fn every_other_lie_is_caught() {
         negative: false,
         value,
     }];
-    assert!(matches!(edit.check(&case.robot), Err(Refuted::Edits(0, _))));
+    assert!(matches!(
+        edit.check(&Setting::whole(&case.robot)),
+        Err(Refuted::Edits(0, _))
+    ));
 
     let mut short = honest;
     short.bounds.pop();
-    assert_eq!(short.check(&case.robot), Err(Refuted::Shape));
+    assert_eq!(
+        short.check(&Setting::whole(&case.robot)),
+        Err(Refuted::Shape)
+    );
 }
 
 /// Putting any single omission back into the same program raises its cost,
@@ -264,7 +283,7 @@ fn rounding_is_bounded_and_not_wildly() {
     let program = exact(&robot);
     let scales = [20.0, 10.0, 5.0];
     let certificate = Certificate::make(&robot, &[], &program, ScalarType::F32, &limits, &scales);
-    certificate.check(&robot).unwrap();
+    certificate.check(&Setting::whole(&robot)).unwrap();
     let falsification = falsify(&certificate, 4000, 3, 2).unwrap();
     assert_eq!(falsification.violation, None);
     for (bound, seen) in certificate.bounds.iter().zip(&falsification.observed) {
@@ -279,14 +298,17 @@ fn what_a_scalar_cannot_hold_is_found() {
     let robot = robot();
     let mut limits = InputBox::of(&robot).unwrap();
     let program = exact(&robot);
-    let none = ranges(&program, ScalarType::F32, &limits, 8).findings;
+    let none = ranges(&program, ScalarType::F32, &[], &limits, 8).findings;
     assert_eq!(none, []);
     for rate in &mut limits.velocity {
         *rate = dalembert_codegen::interval::Interval::symmetric(1e25);
     }
-    let overflow = ranges(&program, ScalarType::F32, &limits, 8).findings;
+    let overflow = ranges(&program, ScalarType::F32, &[], &limits, 8).findings;
     assert!(matches!(overflow[0], Finding::Overflow { .. }) && overflow[0].is_error());
-    assert_eq!(ranges(&program, ScalarType::F64, &limits, 8).findings, []);
+    assert_eq!(
+        ranges(&program, ScalarType::F64, &[], &limits, 8).findings,
+        []
+    );
 }
 
 #[test]

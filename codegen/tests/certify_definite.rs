@@ -69,7 +69,7 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     let found = pruned(&program, &limits, 3, 4);
     let found = certificate(&robot, &found.stages, &found.program, &limits);
     assert!(found.lambda_min.is_some_and(|least| least > 0.0));
-    found.check(&robot).unwrap();
+    found.check(&Setting::whole(&robot)).unwrap();
 
     for joint in &mut robot.joints {
         joint.armature = Rational::from_integer(1.into());
@@ -80,11 +80,11 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     assert!(counts.1.operations() < counts.0.operations(), "{counts:?}");
     let honest = certificate(&robot, &pruned.stages, &pruned.program, &limits);
     assert!(honest.lambda_min.is_some_and(|least| least > 0.0));
-    honest.check(&robot).unwrap();
+    honest.check(&Setting::whole(&robot)).unwrap();
     for lie in [honest.lambda_min.map(|least| 1.5 * least), None, Some(-1.0)] {
         let mut other = honest.clone();
         other.lambda_min = lie;
-        let refuted = other.check(&robot);
+        let refuted = other.check(&Setting::whole(&robot));
         assert!(
             matches!(refuted, Err(Refuted::Eigenvalue { .. })),
             "{lie:?}"
@@ -148,7 +148,7 @@ fn a_plan_keeps_the_least_eigenvalue() {
     let setting = Setting::of(robot, request.scene.as_ref()).unwrap();
     for (certificate, first) in again.certificates.iter().zip(&admitted.certificates) {
         assert_eq!(certificate.lambda_min, first.lambda_min);
-        certificate.check_in(&setting).unwrap();
+        certificate.check(&setting).unwrap();
     }
     for (line, words) in [
         ("# ", "expected `eigenvalue`"),
@@ -175,7 +175,7 @@ fn a_singular_d_gets_no_certificate() {
             edits: vec![Edit::zero(EditSite::Step(step))],
         };
         let emitted = stage.program(Folding::Semantic);
-        let bound = least_eigenvalue(&emitted, ScalarType::F64, &limits);
+        let bound = least_eigenvalue(&emitted, ScalarType::F64, &[], &limits);
         let text = emitted.lower(ScalarType::F64, |_| None);
         let mut random = Random::new(4);
         let singular = (0..2000).any(|_| {
@@ -186,7 +186,10 @@ fn a_singular_d_gets_no_certificate() {
             assert!(bound.is_err(), "t{} = 0", step + 1);
             let made = certificate(&robot, &[stage], &emitted, &limits);
             assert_eq!(made.lambda_min, None);
-            assert!(matches!(made.check(&robot), Err(Refuted::Indefinite(_))));
+            assert!(matches!(
+                made.check(&Setting::whole(&robot)),
+                Err(Refuted::Indefinite(_))
+            ));
             found += 1;
         }
     }
@@ -202,7 +205,7 @@ fn a_link_without_inertia_is_named() {
     robot.joints[last].mass = zero();
     robot.joints[last].inertia = robot.joints[last].inertia.map(|_| zero());
     let (program, limits) = inertia(&robot);
-    let why = least_eigenvalue(&program, ScalarType::F64, &limits).unwrap_err();
+    let why = least_eigenvalue(&program, ScalarType::F64, &[], &limits).unwrap_err();
     assert_eq!(why, Indefinite::Massless { joint: last });
     assert!(why.to_string().contains("joint 3"), "{why}");
 
@@ -215,7 +218,7 @@ fn a_link_without_inertia_is_named() {
     }
     robot.joints[0].mass = zero();
     let (program, limits) = inertia(&robot);
-    let bound = least_eigenvalue(&program, ScalarType::F64, &limits);
+    let bound = least_eigenvalue(&program, ScalarType::F64, &[], &limits);
     assert!(matches!(bound, Err(Indefinite::Unproved)), "{bound:?}");
 }
 
@@ -240,7 +243,7 @@ fn sines_that_are_off_leave_d_positive() {
             };
             let setting = Setting::new(&robot, &scenes[0]).unwrap();
             assert!(matches!(
-                silent.check_in(&setting),
+                silent.check(&setting),
                 Err(Refuted::Eigenvalue { .. })
             ));
         }

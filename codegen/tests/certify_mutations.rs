@@ -241,7 +241,7 @@ fn judge(texts: impl Iterator<Item = String>, robot: &Reading) -> usize {
             continue;
         };
         for claim in claims {
-            match claim.check_in(&setting) {
+            match claim.check(&setting) {
                 Err(_) => refused += 1,
                 Ok(_) => assert!(is_true(&claim, &setting), "accepted, and false:\n{text}"),
             }
@@ -322,7 +322,7 @@ fn honest_certificates_hold_and_the_judge_can_tell() {
     let reading = reading(ROBOT).unwrap();
     let setting = Setting::new(&reading.robot, &reading.scenes[0]).unwrap();
     for claim in honest() {
-        claim.check_in(&setting).unwrap();
+        claim.check(&setting).unwrap();
         assert!(is_true(&claim, &setting));
         // The judge is no rubber stamp.
         let mut lie = claim.clone();
@@ -508,7 +508,7 @@ fn plans() {
             Err(_) => refused += 1,
             Ok(generated) => {
                 let claim = certificate(&generated);
-                match claim.check_in(&setting) {
+                match claim.check(&setting) {
                     Err(_) => refused += 1,
                     Ok(_) => {
                         assert!(is_true(claim, &setting), "{}", changed.join("\n"));

@@ -89,7 +89,7 @@ fn a_certificate_with_polynomials_holds_and_is_not_refuted() {
     for (scalar, tolerance) in [(ScalarType::F64, TOLERANCE), (ScalarType::F32, 1e-3)] {
         let sines = case.sines(scalar, tolerance);
         let certificate = case.certificate(scalar, &sines);
-        certificate.check(&case.robot).unwrap();
+        certificate.check(&Setting::whole(&case.robot)).unwrap();
         let falsification = falsify(&certificate, 4000, 3, 1).unwrap();
         assert_eq!(
             falsification.violation, None,
@@ -142,7 +142,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
             }
         }
         let lie = case.with_other(&honest, changed.clone());
-        let refuted = lie.check(&case.robot);
+        let refuted = lie.check(&Setting::whole(&case.robot));
         assert!(
             matches!(refuted, Err(Refuted::Sine { .. })),
             "x{}",
@@ -158,7 +158,10 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
         // In the text alone it is not the certificate's polynomial.
         let mut text = honest.clone();
         text.text = lie.text;
-        assert!(matches!(text.check(&case.robot), Err(Refuted::Text { .. })));
+        assert!(matches!(
+            text.check(&Setting::whole(&case.robot)),
+            Err(Refuted::Text { .. })
+        ));
     }
 }
 
@@ -167,7 +170,7 @@ fn a_claim_made_too_small_is_caught() {
     let case = planar();
     let sines = case.sines(ScalarType::F64, TOLERANCE);
     let honest = case.certificate(ScalarType::F64, &sines);
-    let refuted = |lie: &Certificate| lie.check(&case.robot).unwrap_err();
+    let refuted = |lie: &Certificate| lie.check(&Setting::whole(&case.robot)).unwrap_err();
 
     let mut error = honest.clone();
     error.sines[0].errors.cos *= 0.999;
@@ -251,7 +254,7 @@ fn a_joint_without_limits_turns_on() {
                 _ => assert!(held.high() >= stated(scalar), "{held:?}"),
             }
             // Runs the text over all of it, against 256 bits.
-            certificate.check_in(&setting).unwrap();
+            certificate.check(&setting).unwrap();
         }
     }
 }

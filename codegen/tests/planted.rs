@@ -6,6 +6,7 @@ mod support;
 use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::program::{Library, Lowered, Operand, Operation, Program, ScalarType};
+use dalembert_codegen::scene::Setting;
 use dalembert_codegen::verify::exact::{Disproof, prove};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
@@ -36,13 +37,16 @@ fn some(program: &Program) -> impl Iterator<Item = usize> + use<> {
 }
 
 fn refused(robot: &Robot, program: &Program) -> bool {
-    matches!(prove(robot, program), Err(Disproof::Output { .. }))
+    matches!(
+        prove(&Setting::whole(robot), program),
+        Err(Disproof::Output { .. })
+    )
 }
 
 #[test]
 fn a_wrong_sign() {
     for (robot, program) in programs() {
-        assert!(prove(&robot, &program).is_ok());
+        assert!(prove(&Setting::whole(&robot), &program).is_ok());
         for index in some(&program) {
             let mut wrong = program.clone();
             let operation = &mut wrong.steps[index].operation;
@@ -114,7 +118,10 @@ fn a_missing_output() {
         .remove(0)
         .program;
     program.outputs.pop();
-    assert_eq!(prove(&robot, &program), Err(Disproof::Shape));
+    assert_eq!(
+        prove(&Setting::whole(&robot), &program),
+        Err(Disproof::Shape)
+    );
 }
 
 /// The text of a program, and whether it passes for the program.

@@ -53,7 +53,7 @@ fn a_wrong_quotient_is_no_proof() {
     let robot = support::robot("planar3r");
     for function in INVERTING {
         let right = program(&robot, function);
-        assert!(prove(&robot, &right).is_ok());
+        assert!(prove(&Setting::whole(&robot), &right).is_ok());
         for index in quotients(&right) {
             let mut upside_down = right.clone();
             let step = &mut upside_down.steps[index];
@@ -63,7 +63,11 @@ fn a_wrong_quotient_is_no_proof() {
             let mut other = right.clone();
             other.steps[index].right = Operand::Step(0);
             for wrong in [upside_down, product, other] {
-                assert!(prove(&robot, &wrong).is_err(), "{function} t{}", index + 1);
+                assert!(
+                    prove(&Setting::whole(&robot), &wrong).is_err(),
+                    "{function} t{}",
+                    index + 1
+                );
             }
         }
     }
@@ -79,7 +83,7 @@ fn a_divisor_that_is_zero_everywhere_proves_nothing() {
     };
     let step = &mut wrong.steps[index];
     step.right = Operand::Constant("0".parse().unwrap());
-    assert!(prove(&robot, &wrong).is_err());
+    assert!(prove(&Setting::whole(&robot), &wrong).is_err());
 }
 
 #[test]

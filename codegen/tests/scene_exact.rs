@@ -8,7 +8,7 @@ use dalembert_codegen::plan::{Entry, Plan};
 use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
 use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
 use dalembert_codegen::states::seeded;
-use dalembert_codegen::verify::exact::{Disproof, prove_in};
+use dalembert_codegen::verify::exact::{Disproof, prove};
 use dalembert_codegen::verify::floating::Runtime;
 use dalembert_model::number::{Angle, Rational, Rounded};
 use dalembert_model::outputs::Axis;
@@ -264,7 +264,7 @@ fn another_scene_disproves() {
     let program = &generated.functions[0].program;
     let proved = |scene: &Scene| {
         let setting = Setting::new(&robot, scene).unwrap_or_else(|error| panic!("{error}"));
-        prove_in(&setting, program)
+        prove(&setting, program)
     };
     assert!(proved(&own).is_ok());
     for other in [scene(pi_times(1, 3), 2), scene(pi_times(1, 2), 3)] {

@@ -178,7 +178,7 @@ fn a_tolerance_says_how_exact_sines_are() {
     let setting = Setting::of(&reading.robot, Some(scene)).unwrap();
     let certificate = &function.admitted.as_ref().unwrap().certificates[0];
     assert_eq!(certificate.sines, function.sines(ScalarType::F64));
-    certificate.check_in(&setting).unwrap();
+    certificate.check(&setting).unwrap();
     let most = |of: fn(&Split) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
     let (all, part) = (most(|b| b.total()), most(|b| b.sincos));
     assert!(all <= 1e-4 && part > 1e-7, "{all:e} {part:e}");

@@ -81,7 +81,7 @@ fn certificates_name_the_library() {
     let admitted = generated.functions[0].admitted.as_ref().unwrap();
     let certificate = &admitted.certificates[0];
     assert_eq!(certificate.library, Library::Together);
-    certificate.check_in(&setting).unwrap();
+    certificate.check(&setting).unwrap();
     let json = certificate.to_json();
     assert!(json.contains("dalembert-sines") && !json.contains("libm's, within"));
     assert_eq!(
@@ -90,13 +90,13 @@ fn certificates_name_the_library() {
     );
 
     let alone = certificate.calling(Library::Libm);
-    alone.check_in(&setting).unwrap();
+    alone.check(&setting).unwrap();
     assert_eq!(alone.bounds, certificate.bounds);
     let mixed = dalembert_codegen::certificate::Certificate {
         text: alone.text.clone(),
         ..certificate.clone()
     };
-    let refused = mixed.check_in(&setting);
+    let refused = mixed.check(&setting);
     assert!(
         matches!(refused, Err(Refuted::Text { line: 3, .. })),
         "{refused:?}"

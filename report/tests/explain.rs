@@ -8,7 +8,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::verify::exact::{prove, prove_in};
+use dalembert_codegen::verify::exact::prove;
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
 use dalembert_report::explain::parameters::{Parameter, ParameterStatus, Together};
@@ -35,7 +35,8 @@ fn every_row_is_proved() {
                 if let Code::Program(program) = row.code {
                     let step = row.step.key();
                     assert_eq!(row.counts, program.counts());
-                    prove(&robot, &program).unwrap_or_else(|e| panic!("{name} {step}: {e}"));
+                    prove(&Setting::whole(&robot), &program)
+                        .unwrap_or_else(|e| panic!("{name} {step}: {e}"));
                 }
             }
         }
@@ -57,7 +58,7 @@ fn a_scene_is_explained() {
     for row in exact {
         if let Code::Program(program) = &row.code {
             let step = row.step.key();
-            prove_in(&setting, program).unwrap_or_else(|e| panic!("{step}: {e}"));
+            prove(&setting, program).unwrap_or_else(|e| panic!("{step}: {e}"));
         }
     }
     let searched = operations(&explained, SearchStep::Search);

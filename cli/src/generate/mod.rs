@@ -71,7 +71,7 @@ fn certificates(
     let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     for certificate in &certificates {
         let function = certificate.emitted.function;
-        certificate.check_in(&setting).map_err(|why| {
+        certificate.check(&setting).map_err(|why| {
             Failure::Check(format!("error: the certificate of `{function}`: {why}"))
         })?;
     }

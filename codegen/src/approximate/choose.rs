@@ -320,7 +320,7 @@ impl<'a> ErrorBudget<'a> {
     /// belong together, bounds are not found anew.
     ///
     /// # Errors
-    /// What [`Certificate::check_in`] would find.
+    /// What [`Certificate::check`] would find.
     pub fn replayed(
         &self,
         stages: &[Stage],
@@ -393,7 +393,7 @@ impl<'a> ErrorBudget<'a> {
         if has_inertia(self.exact) {
             // Nothing may go. Is that the model's own fault?
             for &scalar in scalars {
-                least_eigenvalue(self.exact, scalar, &self.limits)
+                least_eigenvalue(self.exact, scalar, &[], &self.limits)
                     .map_err(ToleranceError::Indefinite)?;
             }
         }

@@ -13,7 +13,7 @@ use std::fmt;
 use crate::bound::expand::expand;
 use crate::bound::grid;
 use crate::bound::input_box::InputBox;
-use crate::bound::sensitivity::rounding_with;
+use crate::bound::sensitivity::rounding;
 use crate::edits::Stage;
 use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
@@ -76,18 +76,6 @@ impl std::error::Error for Indefinite {}
 pub fn least_eigenvalue(
     program: &Program,
     scalar: ScalarType,
-    limits: &InputBox,
-) -> Result<f64, Indefinite> {
-    least_eigenvalue_with(program, scalar, &[], limits)
-}
-
-/// [`least_eigenvalue`] with polynomials for sines.
-///
-/// # Errors
-/// As [`least_eigenvalue`].
-pub fn least_eigenvalue_with(
-    program: &Program,
-    scalar: ScalarType,
     sines: &[AngleKernel],
     limits: &InputBox,
 ) -> Result<f64, Indefinite> {
@@ -104,7 +92,7 @@ pub fn least_eigenvalue_with(
     }
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let costs = rounding_with(program, scalar, sines, limits, 64);
+    let costs = rounding(program, scalar, sines, limits, 64);
     let graph = Stage::unedited(program.clone()).edited(Folding::Syntactic);
     let outputs = lower.iter().map(|&(i, j)| graph.outputs[entry(i, j)]);
     let graph = Graph {

@@ -70,13 +70,8 @@ impl std::fmt::Display for Finding {
 }
 
 /// The range table over a box, from at most `boxes` sub-boxes; sines are
-/// libm's.
-pub fn ranges(program: &Program, scalar: ScalarType, limits: &InputBox, boxes: usize) -> Ranges {
-    ranges_with(program, scalar, &[], limits, boxes)
-}
-
-/// The same with polynomials for sines.
-pub fn ranges_with(
+/// libm's where there are no polynomials for them.
+pub fn ranges(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],

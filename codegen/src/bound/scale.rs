@@ -117,7 +117,7 @@ pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
 /// understated.
 pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {
     let exact = program.lower(ScalarType::F64, |_| None);
-    let granted = rounding(program, ScalarType::F64, limits, 64);
+    let granted = rounding(program, ScalarType::F64, &[], limits, 64);
     let mut random = Random::new(0x7a46e);
     let mut most = vec![0.0f64; program.outputs.len()];
     for output in 0..most.len() {

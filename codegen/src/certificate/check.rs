@@ -1,13 +1,12 @@
 //! The check of a certificate, part by part.
 
-use dalembert_model::robot::Robot;
 use dalembert_model::scene::{Scale, Tolerance};
 
 use super::subject::{Subject, changes_inertia, printed};
 use super::{Certificate, Checked, Ran, Refuted, run, shape, work};
-use crate::bound::definite::least_eigenvalue_with;
+use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
-use crate::bound::ranges::ranges_with;
+use crate::bound::ranges::ranges;
 use crate::bound::scale;
 use crate::bound::sensitivity::BoundEffort;
 use crate::graph::Folding;
@@ -15,25 +14,17 @@ use crate::program::Trig;
 use crate::scene::Setting;
 use crate::scene::{SceneKey, input_hash};
 use crate::sincos;
-use crate::sincos::proof::prove;
+use crate::sincos::proof;
 use crate::split::Split;
-use crate::verify::exact::{prove_in, prove_same};
+use crate::verify::exact::{prove, prove_same};
 
 impl Certificate {
-    /// Checks every part of the claim about a whole robot.
-    ///
-    /// # Errors
-    /// The first part that is not so.
-    pub fn check(&self, robot: &Robot) -> Result<Checked, Refuted> {
-        self.check_in(&Setting::whole(robot))
-    }
-
     /// Checks every part of the claim. In a scene with a tolerance, it must
     /// also be met, whether the claim is about the scene with it or without.
     ///
     /// # Errors
     /// The first part that is not so.
-    pub fn check_in(&self, setting: &Setting) -> Result<Checked, Refuted> {
+    pub fn check(&self, setting: &Setting) -> Result<Checked, Refuted> {
         let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
         self.check_within(setting, tolerance)
     }
@@ -41,7 +32,7 @@ impl Certificate {
     /// The same with another tolerance than the scene's, or with none.
     ///
     /// # Errors
-    /// As [`Certificate::check_in`].
+    /// As [`Certificate::check`].
     pub fn check_within(
         &self,
         setting: &Setting,
@@ -54,10 +45,10 @@ impl Certificate {
         self.check_text()?;
         self.check_scales(setting)?;
         self.check_tolerance(tolerance)?;
-        let proof = prove_in(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
+        let equal = prove(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
         self.check_edits()?;
         self.check_sines()?;
-        let table = ranges_with(&self.emitted, self.scalar, &self.sines, &self.limits, 256);
+        let table = ranges(&self.emitted, self.scalar, &self.sines, &self.limits, 256);
         let findings = table.findings;
         if let Some(&finding) = findings.iter().find(|finding| finding.is_error()) {
             return Err(Refuted::Range(finding));
@@ -66,7 +57,7 @@ impl Certificate {
         let found = self.check_bounds(&self.subject(setting, &sines))?;
         self.check_definite()?;
         Ok(Checked {
-            proof,
+            proof: equal,
             bounds: found,
             ran: run::check(self, setting)?,
             findings,
@@ -92,7 +83,7 @@ impl Certificate {
     ///
     /// # Errors
     /// [`Refuted::Ran`] where it errs more than is claimed.
-    pub fn run_in(&self, setting: &Setting, states: usize) -> Result<Ran, Refuted> {
+    pub fn run(&self, setting: &Setting, states: usize) -> Result<Ran, Refuted> {
         work::check(self).map_err(Refuted::Work)?;
         shape::check(self, setting)?;
         run::check_at(self, setting, states)
@@ -140,7 +131,7 @@ impl Certificate {
                 return Err(Refuted::Polynomials { angle });
             }
             let whole = sincos::range_of(sine.angle, &self.limits.position, self.scalar);
-            let found = prove(&sine.kernel, self.scalar, sine.range);
+            let found = proof::prove(&sine.kernel, self.scalar, sine.range);
             let claimed = sine.errors;
             match found {
                 _ if !sine.range.encloses(whole) => return Err(Refuted::SineRange { angle }),
@@ -176,7 +167,7 @@ impl Certificate {
             return Ok(());
         }
         let claimed = self.lambda_min.unwrap_or(0.0);
-        let found = least_eigenvalue_with(&self.emitted, self.scalar, &self.sines, &self.limits)
+        let found = least_eigenvalue(&self.emitted, self.scalar, &self.sines, &self.limits)
             .map_err(Refuted::Indefinite)?;
         if claimed > 0.0 && claimed <= found {
             return Ok(());

@@ -4,7 +4,7 @@ use dalembert_model::scene::Scale;
 
 use super::Certificate;
 use crate::backend::{MathPath, function};
-use crate::bound::definite::least_eigenvalue_with;
+use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
@@ -74,7 +74,7 @@ impl Subject<'_> {
         if !changes_inertia(self.stages, self.emitted, self.sines(scalar)) {
             return None;
         }
-        least_eigenvalue_with(self.emitted, scalar, self.sines(scalar), self.limits).ok()
+        least_eigenvalue(self.emitted, scalar, self.sines(scalar), self.limits).ok()
     }
 
     /// The claim for a scalar with these bounds, whether they hold or not;

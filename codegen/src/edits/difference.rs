@@ -220,7 +220,7 @@ impl<'a> Run<'a> {
 }
 
 /// A step's operation on values.
-pub(crate) fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
+fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
     match operation {
         Operation::Add => builder.add(a, b),
         Operation::Sub => builder.sub(a, b),

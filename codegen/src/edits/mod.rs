@@ -9,5 +9,4 @@ mod edit;
 pub mod text;
 
 pub use difference::difference;
-pub(crate) use difference::operate;
 pub use edit::{BadEdit, Edit, EditSite, Stage, has_edits};

@@ -34,16 +34,14 @@ pub(super) fn check(
     for generated in functions {
         if let Some(admitted) = &generated.admitted {
             for certificate in &admitted.certificates {
-                certificate
-                    .run_in(setting, STATES)
-                    .map_err(|why| match why {
-                        Refuted::Ran { .. } => GenerateError::Contradicted {
-                            function: generated.function,
-                            scalar: certificate.scalar,
-                            why: why.to_string(),
-                        },
-                        other => GenerateError::Variant(generated.function, other),
-                    })?;
+                certificate.run(setting, STATES).map_err(|why| match why {
+                    Refuted::Ran { .. } => GenerateError::Contradicted {
+                        function: generated.function,
+                        scalar: certificate.scalar,
+                        why: why.to_string(),
+                    },
+                    other => GenerateError::Variant(generated.function, other),
+                })?;
             }
             continue;
         }

@@ -31,7 +31,7 @@ use crate::program::{Library, Lowered, ScalarType};
 use crate::scene::{Setting, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
-use crate::verify::exact::prove_in;
+use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
@@ -192,7 +192,7 @@ fn one(
         }
         None => found(setting, function, request)?,
     };
-    let proof = prove_in(setting, &program).map_err(|disproof| match vanishing(setting) {
+    let proof = prove(setting, &program).map_err(|disproof| match vanishing(setting) {
         Some(value) => GenerateError::Vanishing(function, value.to_string()),
         None => GenerateError::Disproved(function, disproof),
     })?;

@@ -80,7 +80,7 @@ pub(super) fn warn_of_overflow(
     let Ok(limits) = InputBox::of(robot) else {
         return;
     };
-    let findings = ranges(program, scalar, &limits, 1).findings;
+    let findings = ranges(program, scalar, &[], &limits, 1).findings;
     let mut overflows = findings
         .iter()
         .filter(|finding| matches!(finding, Finding::Overflow { .. }));

@@ -1,9 +1,12 @@
 //! Intervals, rounded outward: what every rigorous bound is made of.
 //!
-//! - `doubles`: arithmetic
+//! - `doubles`: arithmetic; `scalar`: as a scalar
 //! - `trig`: sines and cosines
+//! - [`rounding`]: what rounding costs straight-line code
 
 mod doubles;
+pub mod rounding;
+mod scalar;
 mod trig;
 
 pub use doubles::Interval;

@@ -23,7 +23,7 @@ use crate::graph::{Builder, Folding, Graph};
 use crate::program::{AngleSum, Counts, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
-use crate::trace::{symbols, trace_in};
+use crate::trace::{symbols, trace};
 use crate::watch::{FunctionWatch, Part};
 pub use start::Start;
 use tune::Tuned;
@@ -135,7 +135,7 @@ pub struct Variant {
 
 /// A textbook formulation.
 pub fn textbook(setting: &Setting, function: Function, formulation: Formulation) -> Variant {
-    let trace = trace_in(setting, function, formulation);
+    let trace = trace(setting, function, formulation);
     Variant {
         source: Source::Textbook(formulation),
         graph: trace.graph,

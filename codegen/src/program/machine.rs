@@ -2,8 +2,12 @@
 
 use dalembert_model::scalar::Divide;
 
+use super::ScalarType;
+
 /// A float that emitted code runs in.
 pub trait Machine: Divide + Copy {
+    /// Its name in emitted code, and what it rounds.
+    const SCALAR: ScalarType;
     /// The literal's value: exact, since it was parsed in this type.
     fn literal(value: f64) -> Self;
     /// Exact.
@@ -20,8 +24,9 @@ pub trait Machine: Divide + Copy {
 }
 
 macro_rules! machine {
-    ($t:ty, $sin:path, $cos:path, $sincos:path, $together:path) => {
+    ($t:ty, $scalar:expr, $sin:path, $cos:path, $sincos:path, $together:path) => {
         impl Machine for $t {
+            const SCALAR: ScalarType = $scalar;
             fn literal(value: f64) -> Self {
                 value as $t
             }
@@ -46,6 +51,7 @@ macro_rules! machine {
 }
 machine!(
     f64,
+    ScalarType::F64,
     libm::sin,
     libm::cos,
     libm::sincos,
@@ -53,6 +59,7 @@ machine!(
 );
 machine!(
     f32,
+    ScalarType::F32,
     libm::sinf,
     libm::cosf,
     libm::sincosf,

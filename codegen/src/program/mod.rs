@@ -9,9 +9,11 @@
 //! - [`library`]: who computes the sines that are called
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
+//! - [`adjoint`]: backwards in any scalar: what a result changes by
 //! - [`text`]: operands and steps as plans and certificates write them
 //! - [`machine`]: floats that run as emitted code does
 
+pub mod adjoint;
 pub mod columns;
 pub mod counts;
 mod evaluate;

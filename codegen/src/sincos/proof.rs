@@ -6,10 +6,8 @@
 //! integers: the sum of the coefficients' magnitudes bounds it, and what
 //! Taylor leaves out is added.
 //!
-//! **Rounding.** Every operation gives (x ∘ y)(1 + δ) + η. The error of a
-//! result is exactly Σ r_step·ā_step with adjoints ā that mix computed and
-//! exact operands; both are in the intervals here (see
-//! [`crate::bound::sensitivity`]), so the sum over sub-ranges bounds it.
+//! **Rounding.** As of every other code ([`crate::interval::rounding`]), over
+//! sub-ranges.
 //!
 //! **Reduction.** Where whole turns are taken off first, both hold for what
 //! is left of the angle, and a sine moves no more than its angle.
@@ -21,6 +19,8 @@ use super::poly::Poly;
 use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
 use crate::interval::Interval;
+use crate::interval::rounding::{self, Forward};
+use crate::program::adjoint::backward;
 use crate::program::kernel::{Kernel, Term, Value};
 use crate::program::scalar_type::underflow;
 use crate::program::{Operation, ScalarType};
@@ -170,9 +170,9 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
             end(cell + 1)
         };
         let cell = Interval::new(end(cell), high).unwrap_or(range);
-        let (values, own) = forward(kernel, scalar, cell);
+        let ran = forward(kernel, scalar, cell);
         let one = |value: Option<Value>| match value {
-            Some(value) => backward(kernel, &values, &own, value.value, cell),
+            Some(value) => error(kernel, &ran, value.value, cell),
             None => 0.0,
         };
         worst.sin = worst.sin.max(one(kernel.sin));
@@ -189,65 +189,37 @@ fn interval(term: Term, values: &[Interval], angle: Interval) -> Interval {
     }
 }
 
-/// Intervals that hold what is exact and what is computed, and each step's
-/// own rounding.
-fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> (Vec<Interval>, Vec<f64>) {
+/// What each step is, and what it rounds.
+fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
-    let mut values: Vec<Interval> = Vec::with_capacity(kernel.steps.len());
-    let mut own = Vec::with_capacity(kernel.steps.len());
-    for step in &kernel.steps {
-        let x = interval(step.left, &values, angle);
-        let y = interval(step.right, &values, angle);
-        let (exact, eta) = match step.operation {
-            Operation::Add => (x + y, 0.0),
-            Operation::Sub => (x - y, 0.0),
-            Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
-            Operation::Mul => (x * y, underflow(scalar)),
-            // No polynomial.
-            Operation::Div => (Interval::ALL, underflow(scalar)),
+    let operands = |index: usize, values: &[Interval]| {
+        let step = &kernel.steps[index];
+        [step.left, step.right].map(|term| interval(term, values, angle))
+    };
+    rounding::forward(&kernel.steps, operands, |index, exact| {
+        let eta = match kernel.steps[index].operation {
+            Operation::Add | Operation::Sub => 0.0,
+            Operation::Mul | Operation::Div => underflow(scalar),
         };
-        let rounding = ((u * exact.magnitude()).next_up() + eta).next_up();
-        values.push(exact.widened(rounding));
-        own.push(rounding);
-    }
-    (values, own)
+        ((u * exact.magnitude()).next_up() + eta).next_up()
+    })
 }
 
 /// Σ |adjoint|·rounding for one result.
-fn backward(
-    kernel: &Kernel,
-    values: &[Interval],
-    own: &[f64],
-    result: Term,
-    angle: Interval,
-) -> f64 {
+fn error(kernel: &Kernel, ran: &Forward, result: Term, angle: Interval) -> f64 {
     let Term::Step(top) = result else { return 0.0 };
-    let mut adjoints = vec![Interval::ZERO; values.len()];
     let mut sum = Interval::ZERO;
-    if let Some(adjoint) = adjoints.get_mut(top) {
-        *adjoint = Interval::ONE;
-    }
-    for (index, step) in kernel.steps.iter().enumerate().rev() {
-        let adjoint = adjoints[index];
-        if adjoint == Interval::ZERO {
-            continue;
+    let operands = |index: usize| {
+        let step = &kernel.steps[index];
+        [step.left, step.right].map(|term| interval(term, &ran.values, angle))
+    };
+    let visit = |index: usize, adjoint: &Interval| {
+        if *adjoint == Interval::ZERO {
+            return false;
         }
-        sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(own[index]);
-        let x = interval(step.left, values, angle);
-        let y = interval(step.right, values, angle);
-        let (left, right) = match step.operation {
-            Operation::Add => (adjoint, adjoint),
-            Operation::Sub => (adjoint, -adjoint),
-            Operation::Mul => (adjoint * y, adjoint * x),
-            Operation::Div => (Interval::ALL, Interval::ALL),
-        };
-        for (term, part) in [(step.left, left), (step.right, right)] {
-            if let Term::Step(before) = term
-                && let Some(place) = adjoints.get_mut(before)
-            {
-                *place = *place + part;
-            }
-        }
-    }
+        sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(ran.own[index]);
+        true
+    };
+    backward(&kernel.steps, top, operands, visit, |_, _| {});
     sum.high()
 }

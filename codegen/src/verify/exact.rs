@@ -26,7 +26,6 @@ use std::fmt;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::Motion;
-use dalembert_model::robot::Robot;
 use dalembert_model::scalar::residue::Residue;
 use dalembert_model::scalar::{Divide, Scalar};
 
@@ -128,14 +127,9 @@ impl fmt::Display for Disproof {
 
 impl std::error::Error for Disproof {}
 
-/// Proves a program of a whole robot.
-pub fn prove(robot: &Robot, program: &Program) -> Result<Proof, Disproof> {
-    prove_in(&Setting::whole(robot), program)
-}
-
 /// Proves a program of a setting: against the full arm's formula with
 /// constants in place of what the setting fixes, whatever was merged.
-pub fn prove_in(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
+pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
     if program.rows != setting.rows() {
         return Err(Disproof::Shape);
     }

@@ -13,6 +13,7 @@ use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use num_traits::Signed;
 
+use crate::program::adjoint::{Leaf, backward};
 use crate::program::{Input, Operand, Operation, Program};
 use crate::states::{self, JointState};
 
@@ -83,175 +84,144 @@ impl Rounding {
     }
 }
 
-/// Where a value comes from.
-#[derive(Clone, Copy, Debug)]
-enum Source {
-    Input(Input),
-    Constant(usize),
-    Step(usize),
-}
-
 /// A program whose constants are shared: one rounding each, wherever it is used.
 struct Network<'a> {
     program: &'a Program,
     /// The rounded constants; whether each is a power of two, which costs no
     /// digit as it stands and none as a factor.
     constants: Vec<(f64, bool)>,
-    steps: Vec<(Operation, Source, Source)>,
-    outputs: Vec<Source>,
+    /// Which constants each step reads.
+    shared: Vec<[Option<usize>; 2]>,
 }
 
 impl<'a> Network<'a> {
     fn new(program: &'a Program) -> Self {
         let mut known: BTreeMap<&'a Exact, usize> = BTreeMap::new();
         let mut constants = Vec::new();
-        let mut source = |operand: &'a Operand| match operand {
-            Operand::Input(input) => Source::Input(*input),
-            Operand::Step(step) => Source::Step(*step),
-            Operand::Constant(value) => {
-                Source::Constant(*known.entry(value).or_insert_with(|| {
-                    constants.push((f64::nearest(value), is_power_of_two(value)));
-                    constants.len() - 1
-                }))
-            }
+        let mut place = |operand: &'a Operand| match operand {
+            Operand::Constant(value) => Some(*known.entry(value).or_insert_with(|| {
+                constants.push((f64::nearest(value), is_power_of_two(value)));
+                constants.len() - 1
+            })),
+            Operand::Input(_) | Operand::Step(_) => None,
         };
         let steps = program.steps.iter();
-        let steps = steps.map(|step| (step.operation, source(&step.left), source(&step.right)));
-        let steps = steps.collect();
-        let outputs = program.outputs.iter();
-        let outputs = outputs.map(|output| source(&output.value)).collect();
+        let shared = steps.map(|step| [place(&step.left), place(&step.right)]);
         Network {
+            shared: shared.collect(),
             program,
             constants,
-            steps,
-            outputs,
         }
     }
 
     /// Each output with its error, in units of u.
     fn errors(&self, state: &JointState) -> Vec<(f64, f64)> {
+        let steps = &self.program.steps;
         // The sine and the cosine of each angle, in the order of `trig`.
-        let pairs: Vec<(f64, f64)> = self
-            .program
-            .trig
-            .iter()
-            .map(|trig| {
-                let signed = |(joint, negative): (usize, bool)| match negative {
-                    true => -state.q[joint],
-                    false => state.q[joint],
-                };
-                libm::sincos(trig.angle.terms().map(signed).sum())
-            })
-            .collect();
-        let place = |angle| {
-            let found = self
-                .program
-                .trig
-                .iter()
-                .position(|trig| trig.angle == angle);
-            found.unwrap_or(usize::MAX)
-        };
+        let trig = &self.program.trig;
+        let angles = trig.iter().map(|trig| {
+            let signed = |(joint, negative): (usize, bool)| match negative {
+                true => -state.q[joint],
+                false => state.q[joint],
+            };
+            libm::sincos(trig.angle.terms().map(signed).sum())
+        });
+        let pairs: Vec<(f64, f64)> = angles.collect();
+        let place = |angle| trig.iter().position(|trig| trig.angle == angle);
+        let pair = |angle| place(angle).and_then(|place| pairs.get(place));
         let input = |input: Input| match input {
             Input::Entry(argument, joint) => state.entry(argument, joint),
-            Input::Sin(angle) => pairs.get(place(angle)).map_or(0.0, |pair| pair.0),
-            Input::Cos(angle) => pairs.get(place(angle)).map_or(1.0, |pair| pair.1),
+            Input::Sin(angle) => pair(angle).map_or(0.0, |pair| pair.0),
+            Input::Cos(angle) => pair(angle).map_or(1.0, |pair| pair.1),
         };
-        let mut values: Vec<f64> = Vec::with_capacity(self.steps.len());
-        let read = |source: &Source, values: &[f64]| match *source {
-            Source::Input(of) => input(of),
-            Source::Constant(index) => self.constants[index].0,
-            Source::Step(step) => values[step],
-        };
-        let mut operands = Vec::with_capacity(self.steps.len());
-        for (operation, left, right) in &self.steps {
-            let (x, y) = (read(left, &values), read(right, &values));
-            operands.push((x, y));
-            values.push(match operation {
-                Operation::Add => x + y,
-                Operation::Sub => x - y,
-                Operation::Mul => x * y,
-                Operation::Div => x / y,
-            });
+        let mut values: Vec<f64> = Vec::with_capacity(steps.len());
+        let mut operands: Vec<[f64; 2]> = Vec::with_capacity(steps.len());
+        for (step, shared) in steps.iter().zip(&self.shared) {
+            let read = |(operand, shared): (&Operand, Option<usize>)| match (operand, shared) {
+                (_, Some(constant)) => self.constants[constant].0,
+                (operand, None) => self.value(operand, &values, input),
+            };
+            let [x, y] = [(&step.left, shared[0]), (&step.right, shared[1])].map(read);
+            operands.push([x, y]);
+            values.push(step.operation.apply(&x, &y));
         }
-        let mut slopes = Slopes {
-            steps: vec![0.0; values.len()],
-            constants: vec![0.0; self.constants.len()],
-            pairs: vec![(0.0, 0.0); pairs.len()],
+        let outputs = self.program.outputs.iter().map(|output| {
+            let error = self.error(&output.value, &values, &operands, &pairs);
+            (self.value(&output.value, &values, input), error)
+        });
+        outputs.collect()
+    }
+
+    fn value(&self, operand: &Operand, values: &[f64], input: impl Fn(Input) -> f64) -> f64 {
+        match operand {
+            Operand::Input(of) => input(*of),
+            Operand::Constant(constant) => f64::nearest(constant),
+            Operand::Step(step) => values[*step],
+        }
+    }
+
+    /// The root of the sum of squares of all errors, as they reach an output.
+    fn error(
+        &self,
+        output: &Operand,
+        values: &[f64],
+        operands: &[[f64; 2]],
+        pairs: &[(f64, f64)],
+    ) -> f64 {
+        let mut squares = 0.0;
+        let mut constants = vec![0.0; self.constants.len()];
+        let mut slopes = vec![(0.0, 0.0); pairs.len()];
+        let mut note = |operand: &Operand, slope: f64| {
+            let Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) = operand else {
+                return;
+            };
+            let mut trig = self.program.trig.iter().zip(&mut slopes);
+            match (trig.find(|(trig, _)| trig.angle == *angle), input) {
+                (Some((_, (sin, _))), Input::Sin(_)) => *sin += slope,
+                (Some((_, (_, cos))), _) => *cos += slope,
+                (None, _) => {}
+            }
         };
-        let add = |slopes: &mut Slopes, source: &Source, slope: f64| match *source {
-            Source::Step(step) => slopes.steps[step] += slope,
-            Source::Constant(index) => slopes.constants[index] += slope,
-            Source::Input(Input::Sin(angle)) => slopes.sin(place(angle), slope),
-            Source::Input(Input::Cos(angle)) => slopes.cos(place(angle), slope),
-            Source::Input(_) => {}
-        };
-        let mut results = Vec::with_capacity(self.outputs.len());
-        for output in &self.outputs {
-            slopes.clear();
-            add(&mut slopes, output, 1.0);
-            let mut squares = 0.0;
-            for (index, (operation, left, right)) in self.steps.iter().enumerate().rev() {
-                let slope = slopes.steps[index];
-                if slope == 0.0 {
-                    continue;
-                }
-                let (x, y) = operands[index];
-                let (to_left, to_right) = match operation {
-                    Operation::Add => (slope, slope),
-                    Operation::Sub => (slope, -slope),
-                    Operation::Mul => (slope * y, slope * x),
-                    Operation::Div => (slope / y, -slope * values[index] / y),
+        match output {
+            Operand::Step(top) => {
+                let visit = |index: usize, slope: &f64| {
+                    let step = &self.program.steps[index];
+                    let mut shared = self.shared[index].iter().flatten();
+                    let is_exact = step.operation == Operation::Mul
+                        && shared.any(|constant| self.constants[*constant].1);
+                    if *slope != 0.0 && !is_exact {
+                        squares += square(slope * values[index]);
+                    }
+                    *slope != 0.0
                 };
-                add(&mut slopes, left, to_left);
-                add(&mut slopes, right, to_right);
-                let is_exact = *operation == Operation::Mul
-                    && [left, right].into_iter().any(|source| match *source {
-                        Source::Constant(index) => self.constants[index].1,
-                        _ => false,
-                    });
-                if !is_exact {
-                    squares += square(slope * values[index]);
-                }
+                let leaf = |leaf: Leaf<'_, Exact, Input>, slope: f64| match self.shared[leaf.step]
+                    [leaf.side]
+                {
+                    Some(constant) => constants[constant] += slope,
+                    None => note(leaf.operand, slope),
+                };
+                backward(
+                    &self.program.steps,
+                    *top,
+                    |index| operands[index],
+                    visit,
+                    leaf,
+                );
             }
-            for ((value, is_exact), slope) in self.constants.iter().zip(&slopes.constants) {
-                if !is_exact {
-                    squares += square(slope * value);
-                }
+            Operand::Constant(value) if !is_power_of_two(value) => {
+                squares += square(f64::nearest(value));
             }
-            for ((sin, cos), slope) in pairs.iter().zip(&slopes.pairs) {
-                squares += square(slope.0 * sin) + square(slope.1 * cos);
+            operand => note(operand, 1.0),
+        }
+        for ((value, is_exact), slope) in self.constants.iter().zip(&constants) {
+            if !is_exact {
+                squares += square(slope * value);
             }
-            results.push((read(output, &values), squares.sqrt()));
         }
-        results
-    }
-}
-
-/// The derivatives of one output.
-struct Slopes {
-    steps: Vec<f64>,
-    constants: Vec<f64>,
-    /// By each sine and cosine.
-    pairs: Vec<(f64, f64)>,
-}
-
-impl Slopes {
-    fn clear(&mut self) {
-        self.steps.fill(0.0);
-        self.constants.fill(0.0);
-        self.pairs.fill((0.0, 0.0));
-    }
-
-    fn sin(&mut self, place: usize, slope: f64) {
-        if let Some(pair) = self.pairs.get_mut(place) {
-            pair.0 += slope;
+        for ((sin, cos), slope) in pairs.iter().zip(&slopes) {
+            squares += square(slope.0 * sin) + square(slope.1 * cos);
         }
-    }
-
-    fn cos(&mut self, place: usize, slope: f64) {
-        if let Some(pair) = self.pairs.get_mut(place) {
-            pair.1 += slope;
-        }
+        squares.sqrt()
     }
 }
 

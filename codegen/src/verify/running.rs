@@ -16,19 +16,94 @@
 
 use std::collections::BTreeMap;
 
-use crate::program::ScalarType;
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::{Divide, Scalar};
+
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
-use crate::program::{AngleSum, Input, Library};
-use crate::program::{Operand, Operation, Program};
+use crate::program::{AngleSum, Input, Library, Program, ScalarType};
 use crate::sincos::AngleKernel;
 use crate::states::JointState;
 
-/// A computed value and a bound of its error.
+/// A computed value and a bound of its error: a scalar, so that a program runs in
+/// it as in any other.
 #[derive(Clone, Copy, Debug)]
 struct Bounded<T> {
     value: T,
     error: f64,
+}
+
+impl<T: Machine> Bounded<T> {
+    fn exact(value: T) -> Self {
+        Bounded { value, error: 0.0 }
+    }
+
+    /// The magnitude of the computed value.
+    fn size(&self) -> f64 {
+        self.value.to_f64().abs()
+    }
+
+    /// A computed value with what its operands' errors make of it and what it
+    /// rounds itself.
+    fn rounded(value: T, carried: f64) -> Self {
+        let own = T::SCALAR.unit_roundoff() * value.to_f64().abs();
+        Bounded {
+            value,
+            // The bound's own arithmetic: a handful of roundings, upward.
+            error: (carried + own) * (1.0 + 1e-14) + f64::from_bits(1),
+        }
+    }
+}
+
+/// The least subnormal.
+fn least(scalar: ScalarType) -> f64 {
+    2.0 * scalar.least_normal() * scalar.unit_roundoff()
+}
+
+impl<T: Machine> Scalar for Bounded<T> {
+    fn zero() -> Self {
+        Bounded::exact(T::zero())
+    }
+    fn one() -> Self {
+        Bounded::exact(T::one())
+    }
+    fn add(&self, other: &Self) -> Self {
+        Bounded::rounded(self.value.add(&other.value), self.error + other.error)
+    }
+    fn sub(&self, other: &Self) -> Self {
+        Bounded::rounded(self.value.sub(&other.value), self.error + other.error)
+    }
+    fn mul(&self, other: &Self) -> Self {
+        let carried = self.size() * other.error
+            + other.size() * self.error
+            + self.error * other.error
+            + least(T::SCALAR);
+        Bounded::rounded(self.value.mul(&other.value), carried)
+    }
+    fn neg(&self) -> Self {
+        Bounded {
+            value: self.value.neg(),
+            ..*self
+        }
+    }
+    fn half(&self) -> Self {
+        self.mul(&Bounded::exact(T::literal(0.5)))
+    }
+}
+
+impl<T: Machine> Divide for Bounded<T> {
+    /// |x/y − X/Y| = |(x/y)(Y − y) + (x − X)|/|Y|, and |Y| ≥ |y| − e_y.
+    fn div(&self, other: &Self) -> Self {
+        let divisor = other.size() - other.error;
+        let carried = match divisor > 0.0 {
+            true => {
+                let both = self.error + self.size() / other.size() * other.error;
+                both / (divisor * (1.0 - 1e-15)) + least(T::SCALAR)
+            }
+            false => f64::INFINITY,
+        };
+        Bounded::rounded(self.value.div(&other.value), carried)
+    }
 }
 
 /// Bounds of a program's errors at a state of the scalar's own numbers, one a
@@ -41,132 +116,76 @@ pub fn errors(
     state: &JointState,
 ) -> Vec<f64> {
     match scalar {
-        ScalarType::F64 => Run::<f64>::new(scalar, library, state).errors(program, sines),
-        ScalarType::F32 => Run::<f32>::new(scalar, library, state).errors(program, sines),
+        ScalarType::F64 => errors_in::<f64>(program, library, sines, state),
+        ScalarType::F32 => errors_in::<f32>(program, library, sines, state),
     }
 }
 
-struct Run<'s, T> {
-    scalar: ScalarType,
+fn errors_in<T: Machine>(
+    program: &Program,
     library: Library,
-    state: &'s JointState,
-    q: Vec<T>,
-    trig: BTreeMap<Input, Bounded<T>>,
+    sines: &[AngleKernel],
+    state: &JointState,
+) -> Vec<f64> {
+    let q: Vec<T> = state.q.iter().map(|&x| T::literal(x)).collect();
+    let mut trig: BTreeMap<Input, Bounded<T>> = BTreeMap::new();
+    for angle in program.trig.iter().map(|trig| trig.angle) {
+        let own = sines.iter().find(|sine| sine.angle == angle);
+        let [sin, cos] = pair(angle, own, library, &q);
+        trig.insert(Input::Sin(angle), sin);
+        trig.insert(Input::Cos(angle), cos);
+    }
+    let input = |input: &Input| match *input {
+        Input::Entry(argument, joint) => {
+            let entry = state.entry(argument, joint);
+            Some(Bounded::exact(T::literal(entry)))
+        }
+        Input::Sin(_) | Input::Cos(_) => trig.get(input).copied(),
+    };
+    let constant = |constant: &Exact| {
+        let value = T::SCALAR.round(constant);
+        Some(Bounded {
+            value: T::literal(value),
+            error: T::SCALAR.unit_roundoff() * value.abs() + least(T::SCALAR),
+        })
+    };
+    match program.evaluate(input, constant) {
+        Some(results) => results.iter().map(|result| sound(result.error)).collect(),
+        None => vec![f64::INFINITY; program.outputs.len()],
+    }
 }
 
-impl<'s, T: Machine> Run<'s, T> {
-    fn new(scalar: ScalarType, library: Library, state: &'s JointState) -> Self {
-        Run {
-            scalar,
-            library,
-            state,
-            q: state.q.iter().map(|&x| T::literal(x)).collect(),
-            trig: BTreeMap::new(),
+/// Sine and cosine of an angle, by a library or by a polynomial of its own.
+fn pair<T: Machine>(
+    angle: AngleSum,
+    own: Option<&AngleKernel>,
+    library: Library,
+    q: &[T],
+) -> [Bounded<T>; 2] {
+    let (u, computed) = (T::SCALAR.unit_roundoff(), angle_value(angle, q));
+    // A sum of angles is rounded; a sine moves no more than its angle.
+    let terms = angle.terms().map(|(joint, _)| q[joint].to_f64().abs());
+    let moved = 1.01 * angle.additions() as f64 * u * terms.sum::<f64>();
+    let ((sin, cos), [sin_error, cos_error]) = match own {
+        None => {
+            let (sin, cos) = library.pair(computed, true, true);
+            // Within one ulp, and twice that to be generous.
+            let error = |x: T| 4.0 * u * x.to_f64().abs() + least(T::SCALAR);
+            ((sin, cos), [sin, cos].map(error))
         }
-    }
-
-    fn errors(mut self, program: &Program, sines: &[AngleKernel]) -> Vec<f64> {
-        for trig in &program.trig {
-            let own = sines.iter().find(|sine| sine.angle == trig.angle);
-            self.pair(trig.angle, own);
+        Some(own) => {
+            let at = computed.to_f64();
+            let inside = own.range.low() <= at && at <= own.range.high();
+            let error = |x: f64| if inside { x } else { f64::INFINITY };
+            let errors = [own.errors.sin, own.errors.cos].map(error);
+            (own.kernel.run(computed), errors)
         }
-        let mut steps: Vec<Bounded<T>> = Vec::with_capacity(program.steps.len());
-        for step in &program.steps {
-            let (x, y) = (
-                self.read(&step.left, &steps),
-                self.read(&step.right, &steps),
-            );
-            steps.push(self.operate(step.operation, x, y));
-        }
-        let outputs = program.outputs.iter();
-        outputs
-            .map(|output| sound(self.read(&output.value, &steps).error))
-            .collect()
-    }
-
-    fn least(&self) -> f64 {
-        2.0 * self.scalar.least_normal() * self.scalar.unit_roundoff()
-    }
-
-    fn pair(&mut self, angle: AngleSum, own: Option<&AngleKernel>) {
-        let (u, computed) = (self.scalar.unit_roundoff(), angle_value(angle, &self.q));
-        // A sum of angles is rounded; a sine moves no more than its angle.
-        let reach: f64 = angle
-            .terms()
-            .map(|(joint, _)| self.state.q[joint].abs())
-            .sum();
-        let moved = 1.01 * angle.additions() as f64 * u * reach;
-        let ((sin, cos), [sin_error, cos_error]) = match own {
-            None => {
-                let pair = self.library.pair(computed, true, true);
-                // Within one ulp, and twice that to be generous.
-                (
-                    pair,
-                    [pair.0, pair.1].map(|x| 4.0 * u * x.to_f64().abs() + self.least()),
-                )
-            }
-            Some(own) => {
-                let at = computed.to_f64();
-                let inside = own.range.low() <= at && at <= own.range.high();
-                let error = |x: f64| if inside { x } else { f64::INFINITY };
-                let errors = [error(own.errors.sin), error(own.errors.cos)];
-                (own.kernel.run(computed), errors)
-            }
-        };
-        let bounded = |value, error: f64| Bounded {
-            value,
-            error: error + moved,
-        };
-        self.trig.insert(Input::Sin(angle), bounded(sin, sin_error));
-        self.trig.insert(Input::Cos(angle), bounded(cos, cos_error));
-    }
-
-    fn read(&self, operand: &Operand, steps: &[Bounded<T>]) -> Bounded<T> {
-        let exact = |value: f64| Bounded {
-            value: T::literal(value),
-            error: 0.0,
-        };
-        match operand {
-            Operand::Step(step) => steps[*step],
-            Operand::Constant(constant) => {
-                let value = self.scalar.round(constant);
-                Bounded {
-                    error: self.scalar.unit_roundoff() * value.abs() + self.least(),
-                    ..exact(value)
-                }
-            }
-            Operand::Input(Input::Entry(argument, joint)) => {
-                exact(self.state.entry(*argument, *joint))
-            }
-            Operand::Input(input) => self.trig.get(input).copied().unwrap_or(Bounded {
-                error: f64::INFINITY,
-                ..exact(0.0)
-            }),
-        }
-    }
-
-    fn operate(&self, operation: Operation, x: Bounded<T>, y: Bounded<T>) -> Bounded<T> {
-        let value = operation.apply(&x.value, &y.value);
-        let (a, b) = (x.value.to_f64().abs(), y.value.to_f64().abs());
-        let carried = match operation {
-            Operation::Add | Operation::Sub => x.error + y.error,
-            Operation::Mul => a * y.error + b * x.error + x.error * y.error + self.least(),
-            // |x/y − X/Y| = |(x/y)(Y − y) + (x − X)|/|Y|, and |Y| ≥ |y| − e_y.
-            Operation::Div => {
-                let divisor = b - y.error;
-                match divisor > 0.0 {
-                    true => (x.error + a / b * y.error) / (divisor * (1.0 - 1e-15)) + self.least(),
-                    false => f64::INFINITY,
-                }
-            }
-        };
-        let own = self.scalar.unit_roundoff() * value.to_f64().abs();
-        Bounded {
-            value,
-            // The bound's own arithmetic: a handful of roundings, upward.
-            error: (carried + own) * (1.0 + 1e-14) + f64::from_bits(1),
-        }
-    }
+    };
+    let bounded = |value, error: f64| Bounded {
+        value,
+        error: error + moved,
+    };
+    [bounded(sin, sin_error), bounded(cos, cos_error)]
 }
 
 /// A bound that is no number says nothing.

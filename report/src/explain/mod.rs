@@ -22,7 +22,7 @@ use dalembert_codegen::graph::Graph;
 use dalembert_codegen::portfolio;
 use dalembert_codegen::program::Program;
 use dalembert_codegen::scene::{Setting, input_hash};
-use dalembert_codegen::trace::trace_in;
+use dalembert_codegen::trace::trace;
 use merged::Merged;
 use parameters::Parameters;
 use steps::Row;
@@ -114,12 +114,12 @@ fn exact(
     };
     if robot.joints.len() <= MAX_WRITTEN {
         let formulation = Formulation::LagrangeEuler;
-        let trace = trace_in(setting, function, formulation);
+        let trace = trace(setting, function, formulation);
         fingerprints(formulation, &trace.graph);
         rows.extend(steps::lagrange_euler(setting, function, &trace, request));
     }
     let formulation = Formulation::NewtonEulerLink;
-    let trace = trace_in(setting, function, formulation);
+    let trace = trace(setting, function, formulation);
     fingerprints(formulation, &trace.graph);
     rows.extend(steps::newton_euler(setting, function, &trace));
     rows.extend(steps::chain(setting, function, tuned));

@@ -267,7 +267,8 @@ impl Search<'_> {
 
     /// Whether D, if it is an output, is positive definite.
     fn is_definite(&self, program: &Program) -> bool {
-        !has_inertia(program) || least_eigenvalue(program, ScalarType::F64, self.limits).is_ok()
+        !has_inertia(program)
+            || least_eigenvalue(program, ScalarType::F64, &[], self.limits).is_ok()
     }
 
     /// Positions where the error is large join the samples.

@@ -1,12 +1,15 @@
 //! The program of all adjoints of a program.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::edits::operate;
-use crate::graph::builder::Value;
+use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Edge, Folding, Graph};
-use crate::program::{Input, Operand, Operation, Program};
+use crate::program::adjoint::{Leaf, backward};
+use crate::program::{Input, Operand, Program};
 
 /// A graph with the value of each step and, output by output, the derivatives
 /// of the output with respect to them: all of them its outputs.
@@ -28,29 +31,38 @@ pub(super) struct Adjoints {
 
 impl Gradient {
     pub(super) fn of(program: &Program) -> Gradient {
-        let mut builder = Builder::new(Folding::Syntactic);
-        let mut values: Vec<Value> = Vec::with_capacity(program.steps.len());
+        let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
+        let read = |operand: &Operand, values: &[Symbol]| match operand {
+            Operand::Step(index) => values[*index].clone(),
+            Operand::Constant(constant) => Symbol::from(constant.clone()),
+            Operand::Input(input) => Symbol::input(&builder, *input),
+        };
+        let mut values: Vec<Symbol> = Vec::with_capacity(program.steps.len());
         for step in &program.steps {
-            let x = read(&mut builder, &values, &step.left);
-            let y = read(&mut builder, &values, &step.right);
-            values.push(operate(&mut builder, step.operation, &x, &y));
+            let (x, y) = (read(&step.left, &values), read(&step.right, &values));
+            values.push(step.operation.apply(&x, &y));
         }
+        let operands = |index: usize| {
+            let step = &program.steps[index];
+            [&step.left, &step.right].map(|operand| read(operand, &values))
+        };
         let outputs = program.outputs.iter();
         let adjoints: Vec<_> = outputs
-            .map(|output| adjoints(program, &output.value, &values, &mut builder))
+            .map(|output| adjoints(program, &output.value, operands))
             .collect();
-        let values: Vec<Edge> = values.iter().map(|value| builder.edge(value)).collect();
-        let mut edges = |steps: Parts<usize>, sines: Parts<Input>| Adjoints {
-            steps: (steps.into_iter())
-                .map(|(step, value)| (step, builder.edge(&value)))
-                .collect(),
-            sines: (sines.into_iter())
-                .map(|(input, value)| (input, builder.edge(&value)))
-                .collect(),
+        let edge = |value: &Symbol| {
+            let value = value.value(&mut builder.borrow_mut());
+            builder.borrow_mut().edge(&value)
         };
-        let adjoints = adjoints.into_iter();
-        let adjoints: Vec<Adjoints> = adjoints.map(|(steps, sines)| edges(steps, sines)).collect();
-        let mut graph = builder.finish(&[]);
+        let values: Vec<Edge> = values.iter().map(edge).collect();
+        let adjoints = adjoints.iter().map(|(steps, sines)| Adjoints {
+            steps: steps.iter().map(|(step, x)| (*step, edge(x))).collect(),
+            sines: sines.iter().map(|(input, x)| (*input, edge(x))).collect(),
+        });
+        let adjoints: Vec<Adjoints> = adjoints.collect();
+        let mut graph = builder
+            .replace(Builder::new(Folding::Syntactic))
+            .finish(&[]);
         graph.outputs.clone_from(&values);
         for Adjoints { steps, sines } in &adjoints {
             graph.outputs.extend(steps.iter().map(|(_, edge)| *edge));
@@ -64,78 +76,43 @@ impl Gradient {
     }
 }
 
-fn read(builder: &mut Builder, values: &[Value], operand: &Operand) -> Value {
-    match operand {
-        Operand::Step(index) => values[*index].clone(),
-        Operand::Constant(constant) => Value::Constant(constant.clone()),
-        Operand::Input(input) => builder.input(*input),
-    }
-}
+type Parts<T> = Vec<(T, Symbol)>;
 
-type Parts<T> = Vec<(T, Value)>;
-
-/// From the output backwards.
+/// The derivatives of an output with respect to steps, last to first, and to
+/// sines and cosines.
 fn adjoints(
     program: &Program,
     output: &Operand,
-    values: &[Value],
-    builder: &mut Builder,
+    operands: impl Fn(usize) -> [Symbol; 2],
 ) -> (Parts<usize>, Parts<Input>) {
-    let mut steps: Vec<Option<Value>> = vec![None; program.steps.len()];
-    let mut sines: Parts<Input> = Vec::new();
-    let mut found = Vec::new();
-    let one = Value::Constant(Exact::one());
-    pass(output, one, &mut steps, &mut sines, builder);
-    for index in (0..program.steps.len()).rev() {
-        let Some(adjoint) = steps[index].take() else {
-            continue;
-        };
-        let step = &program.steps[index];
-        let parts = match step.operation {
-            Operation::Add => [adjoint.clone(), adjoint.clone()],
-            Operation::Sub => [adjoint.clone(), builder.negate_if(&adjoint, true)],
-            Operation::Mul => {
-                let x = read(builder, values, &step.left);
-                let y = read(builder, values, &step.right);
-                [builder.mul(&adjoint, &y), builder.mul(&adjoint, &x)]
-            }
-            Operation::Div => {
-                let x = read(builder, values, &step.left);
-                let y = read(builder, values, &step.right);
-                let by_left = builder.div(&adjoint, &y);
-                let quotient = builder.div(&x, &y);
-                let by_right = builder.mul(&by_left, &quotient);
-                [by_left, builder.negate_if(&by_right, true)]
-            }
-        };
-        for (operand, part) in [&step.left, &step.right].into_iter().zip(parts) {
-            pass(operand, part, &mut steps, &mut sines, builder);
+    let (mut steps, mut sines) = (Vec::new(), Vec::new());
+    let mut note = |input: Input, part: Symbol| {
+        if input.angle().is_none() {
+            return;
         }
-        found.push((index, adjoint));
+        match sines.iter_mut().find(|(known, _)| *known == input) {
+            None => sines.push((input, part)),
+            Some((_, sum)) => *sum = sum.add(&part),
+        }
+    };
+    match output {
+        Operand::Step(top) => {
+            let visit = |index: usize, adjoint: &Symbol| {
+                let counts = !adjoint.is_zero();
+                if counts {
+                    steps.push((index, adjoint.clone()));
+                }
+                counts
+            };
+            let leaf = |leaf: Leaf<'_, Exact, Input>, part: Symbol| {
+                if let Operand::Input(input) = leaf.operand {
+                    note(*input, part);
+                }
+            };
+            backward(&program.steps, *top, operands, visit, leaf);
+        }
+        Operand::Input(input) => note(*input, Symbol::one()),
+        Operand::Constant(_) => {}
     }
-    (found, sines)
-}
-
-fn pass(
-    to: &Operand,
-    part: Value,
-    steps: &mut [Option<Value>],
-    sines: &mut Parts<Input>,
-    builder: &mut Builder,
-) {
-    match to {
-        Operand::Step(index) => {
-            steps[*index] = Some(match steps[*index].take() {
-                None => part,
-                Some(sum) => builder.add(&sum, &part),
-            });
-        }
-        Operand::Input(input @ (Input::Sin(_) | Input::Cos(_))) => {
-            match sines.iter_mut().find(|(known, _)| known == input) {
-                None => sines.push((*input, part)),
-                Some((_, sum)) => *sum = builder.add(sum, &part),
-            }
-        }
-        _ => {}
-    }
+    (steps, sines)
 }

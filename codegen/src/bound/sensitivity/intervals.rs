@@ -1,9 +1,8 @@
 //! Adjoints in interval arithmetic over sub-boxes.
 //!
-//! **Soundness.** Every operation is widened by its rounding, so the intervals
-//! contain x̂ *and* x, and adjoints computed from them contain the mixed ones
-//! of the [model](super): the sum bounds the whole error, not only its first
-//! order.
+//! **Soundness.** The intervals contain x̂ *and* x ([`rounding`]), and adjoints
+//! computed from them contain the mixed ones of the [model](super): the sum bounds
+//! the whole error, not only its first order.
 //!
 //! The dependency of values on common angles is lost: for programs that were
 //! searched, the bound is hundreds of times what is seen unless the box is
@@ -16,6 +15,8 @@ use super::{Rounding, binade, note};
 use crate::bound::input_box::InputBox;
 use crate::bound::subdivide::sub_boxes;
 use crate::interval::Interval;
+use crate::interval::rounding::{self, Forward};
+use crate::program::adjoint::{Leaf, backward};
 use crate::program::scalar_type::underflow;
 use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Step};
 use crate::sincos::AngleKernel;
@@ -108,13 +109,6 @@ fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
     (exact.hull(rounded), (exact - rounded).magnitude())
 }
 
-/// Values that contain what is computed and what is exact, and how far the
-/// two can be apart at the node itself.
-pub(in crate::bound) struct Forward {
-    pub(in crate::bound) values: Vec<Interval>,
-    own: Vec<f64>,
-}
-
 /// Runs a program with every operation widened by its rounding.
 pub(in crate::bound) fn forward(
     program: &Program,
@@ -123,31 +117,25 @@ pub(in crate::bound) fn forward(
     sub: &InputBox,
 ) -> Forward {
     let u = scalar.unit_roundoff();
-    let mut values: Vec<Interval> = Vec::with_capacity(program.steps.len());
-    let mut own = Vec::with_capacity(program.steps.len());
-    for (step, known) in program.steps.iter().zip(&constants.steps) {
+    let operands = |index: usize, values: &[Interval]| {
         let value = |operand, known: Option<(Interval, f64)>| match known {
             Some((constant, _)) => constant,
-            None => read(operand, &values, scalar, constants, sub).0,
+            None => read(operand, values, scalar, constants, sub).0,
         };
-        let x = value(&step.left, known[0]);
-        let y = value(&step.right, known[1]);
-        let (exact, eta) = match step.operation {
-            Operation::Add => (x + y, 0.0),
-            Operation::Sub => (x - y, 0.0),
-            Operation::Mul if step.left == step.right => (x.square(), underflow(scalar)),
-            Operation::Mul => (x * y, underflow(scalar)),
-            // No certificate is about a quotient: nothing is known of it.
-            Operation::Div => (Interval::ALL, underflow(scalar)),
+        let (step, [left, right]) = (&program.steps[index], constants.steps[index]);
+        [value(&step.left, left), value(&step.right, right)]
+    };
+    rounding::forward(&program.steps, operands, |index, exact| {
+        let step = &program.steps[index];
+        let eta = match step.operation {
+            Operation::Add | Operation::Sub => 0.0,
+            Operation::Mul | Operation::Div => underflow(scalar),
         };
-        let rounding = match is_exact(step, known) {
+        match is_exact(step, &constants.steps[index]) {
             true => eta,
             false => (u * binade(exact.magnitude())).next_up() + eta,
-        };
-        values.push(exact.widened(rounding));
-        own.push(rounding.next_up());
-    }
-    Forward { values, own }
+        }
+    })
 }
 
 /// An operand's interval and its own error.
@@ -184,8 +172,8 @@ pub(super) fn read(
 }
 
 /// Bounds over one sub-box.
-fn over(
-    program: &Program,
+fn over<'p>(
+    program: &'p Program,
     scalar: ScalarType,
     constants: &Constants,
     sub: &InputBox,
@@ -201,52 +189,36 @@ fn over(
             })
         })
         .collect();
-    let mut adjoints = vec![Interval::ZERO; program.steps.len()];
     let mut bounds = Vec::with_capacity(program.outputs.len());
     for output in &program.outputs {
         let mut bound = Rounding::default();
-        let top = match &output.value {
-            Operand::Step(index) => *index + 1,
+        // One way to sum sines and cosines too: an error of an input counts
+        // with its whole adjoint, not use by use.
+        let mut inputs: Vec<(&'p Operand, f64, Interval)> = Vec::new();
+        match &output.value {
+            Operand::Step(top) => {
+                let visit = |index: usize, adjoint: &Interval| {
+                    let counts = *adjoint != Interval::ZERO;
+                    if counts {
+                        bound.arithmetic += (adjoint.magnitude() * own[index].next_up()).next_up();
+                    }
+                    counts
+                };
+                let leaf = |leaf: Leaf<'p, Exact, Input>, part: Interval| {
+                    let error = operands[leaf.step][leaf.side].1;
+                    let known = inputs.iter_mut().find(|(known, ..)| known == &leaf.operand);
+                    match known {
+                        Some(known) => known.2 = known.2 + part,
+                        None if error > 0.0 => inputs.push((leaf.operand, error, part)),
+                        None => {}
+                    }
+                };
+                let values = |index: usize| operands[index].map(|(value, _)| value);
+                backward(&program.steps, *top, values, visit, leaf);
+            }
             other => {
                 let (_, error) = read(other, &values, scalar, constants, sub);
                 note(&mut bound, other, error);
-                0
-            }
-        };
-        adjoints.fill(Interval::ZERO);
-        // One way to sum sines and cosines too: an error of an input counts
-        // with its whole adjoint, not use by use.
-        let mut inputs: Vec<(&Operand, f64, Interval)> = Vec::new();
-        if top > 0 {
-            adjoints[top - 1] = Interval::ONE;
-        }
-        for index in (0..top).rev() {
-            let adjoint = adjoints[index];
-            if adjoint == Interval::ZERO {
-                continue;
-            }
-            bound.arithmetic += (adjoint.magnitude() * own[index]).next_up();
-            let step = &program.steps[index];
-            let [(x, x_error), (y, y_error)] = operands[index];
-            let (left, right) = match step.operation {
-                Operation::Add => (adjoint, adjoint),
-                Operation::Sub => (adjoint, -adjoint),
-                Operation::Mul => (adjoint * y, adjoint * x),
-                Operation::Div => (Interval::ALL, Interval::ALL),
-            };
-            for (operand, error, part) in
-                [(&step.left, x_error, left), (&step.right, y_error, right)]
-            {
-                match operand {
-                    Operand::Step(before) => adjoints[*before] = adjoints[*before] + part,
-                    other if error > 0.0 => {
-                        match inputs.iter_mut().find(|(known, ..)| *known == other) {
-                            Some(known) => known.2 = known.2 + part,
-                            None => inputs.push((other, error, part)),
-                        }
-                    }
-                    _ => {}
-                }
             }
         }
         for (operand, error, adjoint) in inputs {

@@ -99,18 +99,9 @@ impl Rounding {
 }
 
 /// Quick bounds over a box, one an output, from at most `boxes` sub-boxes.
-/// Sines are libm's.
+/// Sines are libm's where there are no polynomials for them, whose errors are as
+/// they are claimed.
 pub fn rounding(
-    program: &Program,
-    scalar: ScalarType,
-    limits: &InputBox,
-    boxes: usize,
-) -> Vec<Rounding> {
-    rounding_with(program, scalar, &[], limits, boxes)
-}
-
-/// The same with polynomials for sines, whose errors are as they are claimed.
-pub fn rounding_with(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],

@@ -74,7 +74,7 @@ impl From<serde_json::Error> for FormatError {
 }
 
 /// Reads a certificate, or a list of them. Nothing that it says is believed:
-/// that is for [`Certificate::check_in`] to decide.
+/// that is for [`Certificate::check`] to decide.
 ///
 /// # Errors
 /// What is not as [`write`] writes it.
