@@ -6,6 +6,7 @@
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code, and why they disagree
+//! - [`table3`]: the paper's counts beside the formulas' and the generator's
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
 
@@ -15,3 +16,4 @@ pub mod explain;
 pub mod states;
 pub mod stress;
 pub mod sweep;
+pub mod table3;

@@ -9,10 +9,11 @@ use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
 use dalembert_report::explain::parameters::{LinkParameters, Parameter, ParameterStatus, Together};
 use dalembert_report::explain::steps::Code;
+use dalembert_report::table3::{self, Pair};
 use serde_json::{Map, Value, json};
 
 use super::{Measured, QUANTITIES, REASONS, tally};
-use crate::{count, table3};
+use crate::count;
 
 /// Everything.
 pub fn write(
@@ -39,7 +40,7 @@ pub fn write(
 fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Value {
     let mut rows = Vec::new();
     if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
-        let [mul, add] = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
+        let Pair { mul, add } = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
         rows.push(json!({ "step": "lagrange_euler_table3", "mul": mul, "add": add }));
     }
     for (row, errors) in explanation.rows.iter().zip(errors) {

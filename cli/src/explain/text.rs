@@ -12,9 +12,10 @@ use dalembert_report::explain::parameters::{
     LinkParameters, Parameter, ParameterStatus, Parameters, Together,
 };
 use dalembert_report::explain::steps::Code;
+use dalembert_report::table3::{self, Pair};
 
 use super::{Measured, QUANTITIES, REASONS, tally};
-use crate::{output, table3};
+use crate::output;
 
 /// Everything.
 pub fn write(
@@ -71,7 +72,7 @@ fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<
     let mut rows = vec![head.map(String::from).collect::<Vec<_>>()];
     // Table 3 is about whole arms.
     if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
-        let [mul, add] = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
+        let Pair { mul, add } = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
         rows.push(vec![
             "Lagrange–Euler, Table 3".to_owned(),
             mul.to_string(),

@@ -2,15 +2,14 @@
 //!
 //! - this file: code and certificates
 //! - [`files`]: what goes where, and what is there already
-//! - [`keep`]: the plan
 //! - [`report`]: what a person wants to know about the code
 
 mod files;
-mod keep;
 pub mod report;
 
 use dalembert_codegen::certificate::format;
 use dalembert_codegen::emit::Layout;
+use dalembert_codegen::generate::keep::keep;
 use dalembert_codegen::generate::{GenerateError, Generated, Request};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::simplify::Effort;
@@ -46,9 +45,13 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     }
     output::note(&report::text(&robot, &request, &generated, states));
     let plan = args.save_plan.then(|| {
-        let (plan, notes) = keep::plan(&robot, &request, &generated, kept);
-        notes.iter().for_each(|note| output::note(note));
-        plan.write()
+        let kept = keep(&robot, &request, &generated, kept);
+        for (function, scalar) in kept.own {
+            output::note(&format!(
+                "the plan keeps its own `{function}` in {scalar}: what was found until the early end is no cheaper"
+            ));
+        }
+        kept.plan.write()
     });
     match args.check {
         true => files.compare(&generated.text, certificates.as_deref()),

@@ -3,6 +3,7 @@
 //! - [`request`]: what somebody wants; [`in_scene`]: in which of a file's scenes
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
+//! - [`mod@keep`]: what was generated, in a plan
 //! - [`early`]: a search that was ended early, and what programs are compared by
 //! - `contradiction`: what was proved, tried
 //! - `range`: what a scalar cannot hold
@@ -12,6 +13,7 @@ mod contradiction;
 pub mod early;
 pub mod error;
 pub mod in_scene;
+pub mod keep;
 mod range;
 pub mod request;
 #[doc(hidden)]

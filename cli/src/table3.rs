@@ -1,57 +1,18 @@
 //! `dalembert table3`: the paper's Table 3 beside what the formulas cost as
-//! written and what is generated.
-//!
-//! - [`paper`]: the polynomials of the table
-//! - [`written`]: the formulas with the counting scalar
-//! - [`generic`]: an arm without special numbers
-
-mod generic;
-mod paper;
-mod written;
+//! written and what is generated ([`dalembert_report::table3`]), printed.
 
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::portfolio::{Source, Start};
-use dalembert_codegen::program::{Counts, ScalarType};
+use dalembert_codegen::program::Counts;
 use dalembert_codegen::simplify::Stage;
-use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
+use dalembert_report::table3::{self, FORMULATIONS, JOINTS, Pair, Row};
 use serde_json::{Map, Value, json};
 
 use crate::args::Table3Args;
 use crate::count;
-use crate::outcome::{Failure, Outcome};
+use crate::outcome::Outcome;
 use crate::{input, output};
-
-/// The formulations of the table, and what it calls them.
-const FORMULATIONS: [(Formulation, &str); 3] = [
-    (Formulation::LagrangeEuler, "Lagrange–Euler"),
-    (Formulation::NewtonEulerLink, "Newton–Euler"),
-    (Formulation::Dalembert, "generalized D'Alembert"),
-];
-
-/// The rows of the table.
-const JOINTS: std::ops::RangeInclusive<usize> = 1..=7;
-
-/// Multiplications and additions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Pair {
-    mul: u64,
-    add: u64,
-}
-
-/// One formulation at one number of joints.
-struct Cell {
-    paper: Pair,
-    written: Pair,
-    generated: Counts,
-}
-
-/// What the paper counts for a formulation: multiplications, additions.
-pub fn paper(formulation: Formulation, n: usize) -> [u64; 2] {
-    let Pair { mul, add } = paper::counts(formulation, n as u64);
-    [mul, add]
-}
 
 /// Runs the subcommand.
 pub fn run(args: &Table3Args) -> Outcome {
@@ -61,16 +22,8 @@ pub fn run(args: &Table3Args) -> Outcome {
     }
 }
 
-/// One number of joints: a cell a formulation, and what is generated from the
-/// best start.
-struct Row {
-    n: usize,
-    cells: Vec<Cell>,
-    auto: Counts,
-}
-
 fn table(as_json: bool) -> Outcome {
-    let rows: Vec<Row> = JOINTS.map(row).collect::<Result<_, _>>()?;
+    let rows: Vec<Row> = JOINTS.map(table3::row).collect::<Result<_, _>>()?;
     if as_json {
         let rows: Vec<Value> = rows.iter().map(row_json).collect();
         return output::print_json(&json!({ "table3": rows }));
@@ -102,54 +55,28 @@ fn table(as_json: bool) -> Outcome {
     output::print(&text)
 }
 
-fn row(n: usize) -> Result<Row, Failure> {
-    let robot = generic::robot(n);
-    let cell = |(formulation, _): (Formulation, &str)| -> Result<Cell, Failure> {
-        Ok(Cell {
-            paper: paper::counts(formulation, n as u64),
-            written: written::generic(formulation, n),
-            generated: generated(&robot, Start::Only(formulation))?,
-        })
-    };
-    Ok(Row {
-        n,
-        cells: FORMULATIONS
-            .into_iter()
-            .map(cell)
-            .collect::<Result<_, Failure>>()?,
-        auto: generated(&robot, Start::Auto)?,
-    })
-}
-
-fn generated(robot: &Robot, start: Start) -> Result<Counts, Failure> {
-    let stages = stages(robot, start)?;
-    Ok(stages.last().map(|stage| stage.counts).unwrap_or_default())
-}
-
 /// For one robot: the paper at its n, the formula with its numbers, and the
 /// counts after every stage, from each formulation and from all.
 fn robot(robot: &Robot, as_json: bool) -> Outcome {
     let n = robot.joints.len();
     let mut starts = Vec::new();
     for (formulation, name) in FORMULATIONS {
-        let paper = paper::counts(formulation, n as u64);
-        let written = written::robot(formulation, robot);
-        let stages = stages(robot, Start::Only(formulation))?;
+        let found = table3::comparison(robot, formulation)?;
         let key = Source::Textbook(formulation).name();
-        starts.push((key, name, Some((paper, written)), stages));
+        starts.push((key, name, Some([found.paper, found.written]), found.stages));
     }
     starts.push((
         "auto",
         "the best start (auto)",
         None,
-        stages(robot, Start::Auto)?,
+        table3::stages(robot, Start::Auto)?,
     ));
     if as_json {
         let formulations: Map<String, Value> = starts
             .iter()
             .map(|(key, _, formula, stages)| {
                 let mut value = json!({});
-                if let Some((paper, written)) = formula {
+                if let Some([paper, written]) = formula {
                     value["paper"] = pair_json(*paper);
                     value["as_written"] = pair_json(*written);
                 }
@@ -173,7 +100,7 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
     for (_, name, formula, stages) in &starts {
         text += &format!("\nfrom {name}\n");
         let mut lines = Vec::new();
-        if let Some((paper, written)) = formula {
+        if let Some([paper, written]) = formula {
             lines.push(vec!["Table 3".to_owned(), pair_text(*paper)]);
             lines.push(vec!["formula as written".to_owned(), pair_text(*written)]);
         }
@@ -183,17 +110,6 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
         text += &output::table(&lines, 0);
     }
     output::print(&text)
-}
-
-fn stages(robot: &Robot, start: Start) -> Result<Vec<Stage>, Failure> {
-    let request = Request {
-        functions: vec![Function::InverseDynamics],
-        scalars: vec![ScalarType::F64],
-        start,
-        ..Request::default()
-    };
-    let functions = generate(robot, &request)?.functions;
-    Ok(functions.into_iter().flat_map(|f| f.stages).collect())
 }
 
 fn row_json(row: &Row) -> Value {

@@ -1,28 +1,35 @@
-//! The plan: programs kept for later runs.
+//! The plan with the programs of a run in it, for later runs.
 
-use dalembert_codegen::generate::early::price;
-use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
-use dalembert_codegen::plan::{Edited, Entry, Plan};
-use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::{SceneKey, input_hash};
 use dalembert_model::robot::Robot;
 
-/// The plan with the programs in it, and what is to be said of it. Those of
-/// other requests for the same robot stay, and after a search that was ended
-/// early those that are no dearer than what it found.
-pub fn plan(
-    robot: &Robot,
-    request: &Request,
-    generated: &Generated,
-    kept: Option<Plan>,
-) -> (Plan, Vec<String>) {
+use super::early::price;
+use super::{Generated, GeneratedFunction, Request};
+use crate::function::Function;
+use crate::plan::{Edited, Entry, Plan};
+use crate::program::{Program, ScalarType};
+use crate::scene::{SceneKey, input_hash};
+
+/// A plan with what was generated in it.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// The plan.
+    pub plan: Plan,
+    /// Where the plan keeps its own program: a search that was ended early had
+    /// found none that is cheaper.
+    pub own: Vec<(Function, ScalarType)>,
+}
+
+/// The plan with the programs of a run in it. Those of other requests for the
+/// same robot stay, and after a search that was ended early those that are no
+/// dearer than what it found.
+pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Option<Plan>) -> Kept {
     let input = input_hash(robot);
-    let mut plan = kept.filter(|plan| plan.input == input).unwrap_or(Plan {
+    let mut plan = plan.filter(|plan| plan.input == input).unwrap_or(Plan {
         robot: robot.name.clone(),
         input,
         entries: Vec::new(),
     });
-    let mut notes = Vec::new();
+    let mut own = Vec::new();
     for function in &generated.functions {
         for scalar in scalars(request, function) {
             let entry = entry(request, function, scalar);
@@ -32,15 +39,13 @@ pub fn plan(
                 other.scene == entry.scene && price(emitted(other)) <= price(emitted(&entry))
             };
             if generated.ended && other.is_some_and(as_good) {
-                notes.push(format!(
-                    "the plan keeps its own `{name}` in {scalar}: what was found until the early end is no cheaper"
-                ));
+                own.push((name, scalar));
             } else {
                 plan.insert(entry);
             }
         }
     }
-    (plan, notes)
+    Kept { plan, own }
 }
 
 fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) -> Entry {
@@ -86,22 +91,21 @@ fn exact(function: &GeneratedFunction) -> &Program {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
+    use dalembert_model::read;
 
-    use dalembert_codegen::function::Function;
-    use dalembert_codegen::generate::{Request, generate};
+    use super::*;
+    use crate::generate::generate;
 
-    use super::{emitted, plan, price};
-    use crate::input;
+    const PENDULUM: &str = "name = \"pendulum\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n\
+        [[joint]]\nkind = \"revolute\"\na = 1\nmass = 2\ncom = [-0.5, 0, 0]\n\
+        inertia = [0, 0.1, 0.1, 0, 0, 0]\n";
 
     /// The plan's own program stays after an early end that found a dearer one
     /// or an equal one, and only then.
     #[test]
     fn an_early_end_takes_nothing_better_away() {
-        let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
-        let Ok(robot) = input::robot(&robots.join("planar2r.toml")) else {
-            panic!("a checked-in robot");
-        };
+        let robot = read::parse(PENDULUM, &read::Options::default());
+        let robot = robot.unwrap().robot;
         let request = Request {
             functions: vec![Function::Gravity],
             ..Request::default()
@@ -112,12 +116,12 @@ mod tests {
         let step = dear.functions[0].program.steps[0].clone();
         dear.functions[0].program.steps.push(step);
         let prices = |kept, found: &_| {
-            let (plan, notes) = plan(&robot, &request, found, kept);
+            let Kept { plan, own } = keep(&robot, &request, found, kept);
             let prices = plan.entries.iter().map(|entry| price(emitted(entry)));
             let prices: Vec<u64> = prices.collect();
             assert_eq!(prices.len(), 2, "one a scalar");
             assert_eq!(prices[0], prices[1]);
-            (plan, prices[0], notes.len())
+            (plan, prices[0], own.len())
         };
         let (of_good, low, _) = prices(None, &good);
         let (of_dear, high, _) = prices(None, &dear);
@@ -126,8 +130,8 @@ mod tests {
         assert_eq!(prices(Some(of_good.clone()), &dear).1, high);
         for generated in [&mut dear, &mut good.clone()] {
             generated.ended = true;
-            let (_, price, notes) = prices(Some(of_good.clone()), generated);
-            assert_eq!((price, notes), (low, 2));
+            let (_, price, own) = prices(Some(of_good.clone()), generated);
+            assert_eq!((price, own), (low, 2));
         }
         let ended = {
             let mut good = good;
