@@ -96,11 +96,13 @@ fn puma_at_a_tenth() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
 fn stanford_at_a_hundredth() {
     campaign("stanford", 1e-2, &ScalarType::ALL, 5);
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
 fn ur10_at_a_tenth() {
     campaign("ur10", 1e-1, &ScalarType::ALL, 3);
 }
