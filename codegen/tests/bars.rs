@@ -81,7 +81,7 @@ fn auto_is_never_dearer_than_one_formulation() {
 #[test]
 fn other_kinds_of_arms() {
     for (name, most) in [
-        ("scara", 71),
+        ("scara", 62),
         ("gantry", 257),
         ("rprpr", 315),
         ("general6r", 687),

@@ -5,6 +5,9 @@ use super::egraph::SaturationLimits;
 use super::extract::Schedule;
 use super::search::Settings;
 
+/// A program of at most so many operations is a small one.
+const SMALL: usize = 100;
+
 /// The levels of the command line and the macro.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Effort {
@@ -66,8 +69,21 @@ impl Effort {
         }
     }
 
-    pub(super) fn search(self) -> Settings {
+    /// The rounds for a program of so many operations. A small one gets many short
+    /// rounds: a SCARA's torques need some without any gain to come from 71 to 62,
+    /// and a long round finds no more in them.
+    pub(super) fn search(self, operations: usize) -> Settings {
         match self {
+            Effort::Quick if operations <= SMALL => Settings {
+                rounds: 30,
+                patience: 8,
+                pairs: 500,
+                substitutes: 700,
+                schedule: Schedule {
+                    moves: 10_000,
+                    ..Schedule::COOLING
+                },
+            },
             Effort::Quick => Settings {
                 rounds: 3,
                 patience: 1,

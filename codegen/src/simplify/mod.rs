@@ -132,7 +132,7 @@ pub fn watched(
     stages.push(Stage::of("e-graph", &best));
     let saturated = best.clone();
 
-    let settings = effort.search();
+    let settings = effort.search(best.counts().operations());
     let mut idle = 0;
     for round in 0..settings.rounds {
         if watch.is_some_and(|watch| watch.is_over()) {
