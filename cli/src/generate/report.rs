@@ -10,6 +10,7 @@ use dalembert_codegen::program::Counts;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::of_program;
+use dalembert_report::stress::truth::Truth;
 
 use crate::output;
 
@@ -85,10 +86,11 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
     for scalar in &request.scalars {
         head.extend(["normwise", "per joint"].map(|what| format!("{scalar} {what}")));
     }
+    let truth = Truth::in_setting(&setting);
     let mut rows = vec![head];
     for function in &generated.functions {
         let mut row = vec![function.function.to_string()];
-        for errors in of_program(&setting, &function.program, &request.scalars, states) {
+        for errors in of_program(&truth, &function.program, &request.scalars, states) {
             row.extend([errors.normwise, errors.per_joint].map(|error| format!("{error:.1}")));
         }
         rows.push(row);

@@ -146,6 +146,9 @@ pub fn textbook(setting: &Setting, function: Function, formulation: Formulation)
 /// Longer chains are tuned by the price before the search alone.
 const MAX_QUICK_LINKS: usize = 10;
 
+/// The starts of longer chains are compared without a round of the search.
+const MAX_GLANCED: usize = 3;
+
 /// How far a program is above the error that is allowed: at most one where it
 /// is admitted.
 pub type Limit<'a> = &'a dyn Fn(&Graph) -> f64;
@@ -210,8 +213,15 @@ pub fn tuned(
         .map(with)
         .collect();
     if effort == Effort::Quick && starts.len() > 1 {
-        // One descent: from where the others look dearer already.
-        starts.sort_by_cached_key(|from| glance(&Chain::new(&arm, from), forms[0], u64::MAX));
+        // One descent: from where the others look dearer already. Of a short chain
+        // a round of the search is cheap, and tells more than the folded formula.
+        starts.sort_by_cached_key(|from| {
+            let chain = Chain::new(&arm, from);
+            match arm.links.len() <= MAX_GLANCED {
+                true => glance(&chain, forms[0], u64::MAX),
+                false => price(&merged(&chain, forms[0]), limit, u64::MAX),
+            }
+        });
         starts.truncate(1);
     }
     starts.extend_from_slice(from);

@@ -1,6 +1,9 @@
 //! The reference: the link-frame recursion over a big float of 134 digits, at
 //! the exact parameters and the exact binary state.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::{Angle, Exact};
 use dalembert_model::robot::Robot;
@@ -17,7 +20,13 @@ use dalembert_codegen::states::JointState;
 pub struct Truth {
     setting: Setting,
     arm: Arm<Big>,
+    /// The sines and cosines of the last states' positions, by their bits: most of
+    /// the work of a state, and functions are compared at the same states.
+    sines: RefCell<BTreeMap<u64, (Big, Big)>>,
 }
+
+/// The most sines that are kept.
+const MAX_SINES: usize = 1 << 14;
 
 impl Truth {
     /// Of a robot, nothing snapped, each parameter rounded to 448 bits.
@@ -31,7 +40,23 @@ impl Truth {
         Truth {
             arm: Arm::from_robot(setting.robot(), &mut number),
             setting: setting.clone(),
+            sines: RefCell::default(),
         }
+    }
+
+    /// What it is about.
+    pub fn setting(&self) -> &Setting {
+        &self.setting
+    }
+
+    /// Sine and cosine of a position.
+    fn pair(&self, q: f64) -> (Big, Big) {
+        let mut sines = self.sines.borrow_mut();
+        if sines.len() >= MAX_SINES {
+            sines.clear();
+        }
+        let made = || Big::from_f64(q).unwrap_or_else(Big::zero).sin_cos();
+        sines.entry(q.to_bits()).or_insert_with(made).clone()
     }
 
     /// The results of a function over the setting's rows, flat; `None` at a
@@ -44,18 +69,9 @@ impl Truth {
             return None;
         }
         let finite = |x: f64| Big::from_f64(x).unwrap_or_else(Big::zero);
-        // A motion reads the angles of single joints only; each joint's pair
-        // is made once.
-        let mut pairs: Vec<(AngleSum, (Big, Big))> = Vec::new();
-        let mut pair = |sum: AngleSum| match pairs.last() {
-            Some((last, pair)) if *last == sum => pair.clone(),
-            _ => {
-                let joint = sum.terms().map(|(joint, _)| joint).sum::<usize>();
-                let made = finite(state.q[joint]).sin_cos();
-                pairs.push((sum, made.clone()));
-                made
-            }
-        };
+        // A motion reads the angles of single joints only.
+        let joint = |sum: AngleSum| sum.terms().map(|(joint, _)| joint).sum::<usize>();
+        let pair = |sum: AngleSum| self.pair(state.q[joint(sum)]);
         let input = |input| match input {
             Input::Sin(sum) => pair(sum).0,
             Input::Cos(sum) => pair(sum).1,
