@@ -137,6 +137,38 @@ pub(crate) fn together<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T
     (sines, cosines)
 }
 
+/// Sines and cosines of any number of angles in every lane of a caller.
+#[inline(always)]
+pub fn all_across<T: Angle, const N: usize, const L: usize>(
+    angles: &[[T; L]; N],
+) -> ([[T; L]; N], [[T; L]; N]) {
+    let (mut sines, mut cosines) = ([[T::default(); L]; N], [[T::default(); L]; N]);
+    for ((angles, sines), cosines) in angles.iter().zip(&mut sines).zip(&mut cosines) {
+        (*sines, *cosines) = across(angles);
+    }
+    (sines, cosines)
+}
+
+/// Those of one angle in every lane: a loop over scalars, which a compiler makes
+/// vectors of as wide as the processor that the caller is compiled for has.
+#[inline(always)]
+pub(crate) fn across<T: Angle, const L: usize>(angles: &[T; L]) -> ([T; L], [T; L]) {
+    let (mut sines, mut cosines) = ([T::default(); L], [T::default(); L]);
+    let mut usual = true;
+    let mut lane = 0;
+    while lane < L {
+        let angle = angles[lane];
+        let (shifted, sin, cos) = rest::<T, T>(angle);
+        (sines[lane], cosines[lane]) = T::turned(shifted, sin, cos);
+        usual &= angle.is_usual();
+        lane += 1;
+    }
+    if !usual {
+        unusual(angles, &mut sines, &mut cosines);
+    }
+    (sines, cosines)
+}
+
 /// The angles that the polynomials are not for.
 #[cold]
 #[inline(never)]
