@@ -2,6 +2,8 @@
 //!
 //! - [`function`]: one program as one function
 //! - `statement`: one operation as one line
+//! - [`result`]: the array or the struct that it ends with
+//! - `place`: what a line calls values, in a state or in a lane
 //! - `trig`: sines and cosines that are called
 //! - `sines`: sines and cosines as polynomials
 //! - [`parts`]: very long functions, cut into functions of their own
@@ -9,7 +11,9 @@
 
 pub mod function;
 pub mod parts;
+mod place;
 pub mod read;
+pub mod result;
 mod sines;
 mod statement;
 mod trig;

@@ -9,7 +9,7 @@ use super::figures::decimal;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{sines, variant};
-use crate::backend::{MathPath, function};
+use crate::backend::{MathPath, function, result};
 use crate::emit::GeneratedFunction;
 use crate::program::ScalarType;
 use crate::scene::Setting;
@@ -127,7 +127,7 @@ fn module(
     }
     for generated in functions {
         text.push('\n');
-        if let Some(structure) = function::structure(generated.function, rows.len(), scalar) {
+        if let Some(structure) = result::structure(generated.function, rows.len(), scalar) {
             text.push_str(&structure);
             text.push('\n');
         }
