@@ -155,7 +155,7 @@ pub fn sincosf<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
 pub fn sincos_lanes<const N: usize, const L: usize>(
     angles: &[[f64; L]; N],
 ) -> ([[f64; L]; N], [[f64; L]; N]) {
-    angle::all_across(angles)
+    angle::across(angles)
 }
 
 /// [`sincos_lanes`] in f32.
@@ -169,5 +169,5 @@ pub fn sincos_lanes<const N: usize, const L: usize>(
 pub fn sincosf_lanes<const N: usize, const L: usize>(
     angles: &[[f32; L]; N],
 ) -> ([[f32; L]; N], [[f32; L]; N]) {
-    angle::all_across(angles)
+    angle::across(angles)
 }
