@@ -22,6 +22,13 @@ impl Place {
         lane: "",
     };
 
+    /// In a loop over lanes.
+    pub(super) const LANE: Place = Place {
+        indent: "        ",
+        binding: "",
+        lane: "[l]",
+    };
+
     /// How the place names the angle that sines are taken of, whose sum stands
     /// in a line of its own.
     pub(super) fn angle(self, angle: AngleSum) -> String {
