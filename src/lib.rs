@@ -32,6 +32,9 @@ pub use dalembert_model::{equations, number, reference, robot, scalar};
 #[cfg(feature = "std")]
 pub use dalembert_model::read;
 
+#[cfg(feature = "batch")]
+pub use dalembert_batch as batch;
+
 /// Generates verified dynamics of one robot as a module of flat functions.
 ///
 /// ```
