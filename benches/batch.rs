@@ -67,7 +67,6 @@ impl<F: Function<3, 6, 6>, const L: usize> pulp::NullaryFnOnce for Columns<'_, '
 /// Runs what AVX2 can do by it; `None` where there is none.
 #[cfg(target_arch = "x86_64")]
 fn with_avx2<F: pulp::NullaryFnOnce>(f: F) -> Option<F::Output> {
-    use pulp::Simd;
     pulp::x86::V3::try_new().map(|avx2| avx2.vectorize(f))
 }
 
