@@ -32,6 +32,9 @@ pub use dalembert_model::{equations, number, reference, robot, scalar};
 #[cfg(feature = "std")]
 pub use dalembert_model::read;
 
+#[cfg(feature = "batch")]
+pub use dalembert_batch as batch;
+
 /// Generates verified dynamics of one robot as a module of flat functions.
 ///
 /// ```
@@ -118,10 +121,54 @@ pub use dalembert_model::read;
 /// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for
 ///   `sincos: polynomial;` alone. The default is `1e-6`; in a scene with a
 ///   tolerance that decides, and no error is given.
+/// - `entries: single;`, or more ways to call each function, which share its
+///   arithmetic: `with_sincos` adds `NAME_with_sincos` for who has the sines
+///   already, `lanes` also `NAME_lanes`, several states at once, and `batch` also
+///   `NAME_batch` and `NAME_columns`, slices of states ([below](#many-states)).
 /// - `scene: NAME;` generates only what that scene of the robot needs, or
 ///   `scene: NAME { … };` what is said here. Then `outputs` and `scalar` may
 ///   be left out: they are the scene's.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
+///
+/// # Many states
+///
+/// Whoever has many states at once has them computed in the lanes of vectors:
+///
+#[cfg_attr(feature = "batch", doc = "```")]
+#[cfg_attr(not(feature = "batch"), doc = "```ignore (needs the feature batch)")]
+/// dalembert::dynamics! {
+///     mod arm = "generated/robots/planar2r.toml";
+///     outputs: gravity;
+///     entries: batch;
+/// }
+/// // An array of structures: an entry a state.
+/// let q = vec![[0.3, -0.5]; 1000];
+/// let mut load = vec![[0.0; 2]; 1000];
+/// arm::gravity_batch(&q, &mut load)?;
+/// assert_eq!(load[999], arm::gravity(&q[999]));
+///
+/// // A structure of arrays: a slice a joint, which is faster.
+/// let (shoulder, elbow) = (vec![0.3; 1000], vec![-0.5; 1000]);
+/// let (mut first, mut second) = (vec![0.0; 1000], vec![0.0; 1000]);
+/// arm::gravity_columns(&[&shoulder, &elbow], &mut [&mut first, &mut second])?;
+/// assert_eq!([first[0], second[0]], load[0]);
+///
+/// // Eight states, by arrays alone: entry [i][l] is joint i's in state l.
+/// let lanes: [[f64; 8]; 2] = arm::gravity_lanes(&[[0.3; 8], [-0.5; 8]]);
+/// assert_eq!([lanes[0][7], lanes[1][7]], load[0]);
+///
+/// // One state, of which somebody has the sines: those of `angles`.
+/// let (sin, cos) = (q[0].map(f64::sin), q[0].map(f64::cos));
+/// let same = arm::gravity_with_sincos(&q[0], &sin, &cos);
+/// assert!((same[0] - load[0][0]).abs() < 1e-14);
+/// # Ok::<(), dalembert::batch::Unequal>(())
+/// ```
+///
+/// Batches need the feature `batch` of this crate; with `std` too they take the
+/// vectors that the processor has, whatever the build is for. Every state has
+/// the results that it has alone, to the last bit. `sincos: together`, the
+/// default, and `polynomial` are computed in lanes; libm's sines are called for
+/// one state after the other.
 ///
 /// # Scenes
 ///

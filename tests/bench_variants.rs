@@ -1,7 +1,8 @@
 //! The functions that the bench of sines compares are what the generator
 //! writes: one program, certified with polynomials to stay within 1e-6 of the
 //! actuators' limits, printed with them, with libm's sines, with std's, and with
-//! those of all angles together.
+//! those of all angles together; and those of the bench of batches, by all their
+//! entries.
 //!
 //! What differs is written anew before the test fails.
 
@@ -9,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::approximate::sines::within;
-use dalembert_codegen::backend::{MathPath, function};
+use dalembert_codegen::backend::{Entries, MathPath, function};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::scale;
 use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
@@ -17,16 +18,16 @@ use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::scene::Setting;
+use dalembert_codegen::sincos::SinCos;
 use dalembert_model::read;
 
 const TOLERANCE: f64 = 1e-6;
 
 #[test]
 fn the_bench_of_sines_is_up_to_date() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let file = root.join("generated/robots/puma560.toml");
+    let file = root().join("generated/robots/puma560.toml");
     let source = fs::read_to_string(&file).unwrap();
     let robot = read::parse(&source, &read::Options::default())
         .unwrap()
@@ -71,7 +72,33 @@ fn the_bench_of_sines_is_up_to_date() {
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
     }
-    let kept = root.join("benches/generated/puma560_sines.rs");
+    keep("benches/generated/puma560_sines.rs", &text);
+}
+
+#[test]
+fn the_bench_of_batches_is_up_to_date() {
+    let file = root().join("generated/robots/puma560.toml");
+    let source = fs::read_to_string(&file).unwrap();
+    let reading = read::parse(&source, &read::Options::default()).unwrap();
+    let request = Request {
+        functions: vec![Function::InverseDynamics, Function::ForwardDynamics],
+        sincos: SinCos::Together,
+        math: MathPath::of(Library::Together),
+        entries: Entries::Batch,
+        plan: plan::file::beside(&file).unwrap(),
+        ..Request::default()
+    };
+    let generated = generate(&reading.robot, &request).unwrap();
+    keep("benches/generated/puma560_batch.rs", &generated.text);
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Writes the file anew if it is another, and says so.
+fn keep(file: &str, text: &str) {
+    let kept = root().join(file);
     if fs::read_to_string(&kept).is_ok_and(|old| old == text) {
         return;
     }

@@ -89,6 +89,8 @@ use dalembert_codegen::program::Library;
 use dalembert_model::robot::Severity;
 
 #[doc(inline)]
+pub use dalembert_codegen::backend::Entries;
+#[doc(inline)]
 pub use dalembert_codegen::clauses::RobotFileError;
 #[doc(inline)]
 pub use dalembert_codegen::emit::Layout;
@@ -226,6 +228,18 @@ impl Generator {
     #[must_use]
     pub fn sincos(mut self, sincos: SinCos) -> Self {
         self.request.sincos = sincos;
+        self
+    }
+
+    /// In how many ways each function can be called: [`Entries::WithSincos`] adds
+    /// `NAME_with_sincos` for who has the sines already, [`Entries::Lanes`]
+    /// `NAME_lanes`, which computes several states at once in vectors of the
+    /// processor's, and [`Entries::Batch`] `NAME_batch` and `NAME_columns` for
+    /// slices of states; that needs `dalembert-batch` in `Cargo.toml`. Lanes are
+    /// for [`SinCos::Together`] or polynomials: libm's sines are called one by one.
+    #[must_use]
+    pub fn entries(mut self, entries: Entries) -> Self {
+        self.request.entries = entries;
         self
     }
 

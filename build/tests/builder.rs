@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use dalembert_build::{BuildError, Generator, Layout, Output, Scalar, SinCos};
+use dalembert_build::{BuildError, Entries, Generator, Layout, Output, Scalar, SinCos};
 use dalembert_codegen::clauses::RobotFile;
 use dalembert_codegen::generate::{Request, generate};
 
@@ -112,6 +112,29 @@ fn sines_are_called_where_they_are() {
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.contains(&format!(" = {call}")), "{sincos:?} {text}");
     }
+}
+
+/// Another choice writes another file, and nobody has more entries who did not
+/// ask for them.
+#[test]
+fn more_entries_are_asked_for() {
+    let folder = folder("entries");
+    let path = folder.join("arm.rs");
+    for (head, least) in [
+        ("pub fn gravity_with_sincos(", Entries::WithSincos),
+        ("pub fn gravity_lanes<", Entries::Lanes),
+        ("pub fn gravity_batch(", Entries::Batch),
+    ] {
+        for chosen in Entries::ALL {
+            generator(&folder).entries(chosen).write_to(&path).unwrap();
+            let text = fs::read_to_string(&path).unwrap();
+            assert_eq!(text.contains(head), chosen >= least, "{chosen:?}");
+            assert_eq!(text.contains("dalembert_batch::"), chosen == Entries::Batch);
+        }
+    }
+    generator(&folder).write_to(&path).unwrap();
+    let single = fs::read_to_string(&path).unwrap();
+    assert!(!single.contains("with_sincos") && !single.contains("pub fn angles"));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use dalembert_codegen::backend::MathPath;
+use dalembert_codegen::backend::{Entries, MathPath};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Prefer, Request};
 use dalembert_codegen::portfolio::Start;
@@ -211,6 +211,11 @@ pub struct GenerateArgs {
     /// that is a module of your crate (`mod puma560;`). It has one scalar
     #[arg(long)]
     pub contents: bool,
+    /// In how many ways each function can be called: `with_sincos` also by whoever
+    /// has sines and cosines already, `lanes` also with several states at once,
+    /// `batch` also with slices of states, by the crate dalembert-batch
+    #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser())]
+    pub entries: Entries,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
@@ -482,6 +487,15 @@ fn prefer_parser() -> impl TypedValueParser<Value = Prefer> {
         let mut all = Prefer::ALL.into_iter();
         all.find(|prefer| prefer.name() == name)
             .ok_or("no such preference")
+    })
+}
+
+fn entries_parser() -> impl TypedValueParser<Value = Entries> {
+    let names = PossibleValuesParser::new(Entries::ALL.map(Entries::name));
+    names.try_map(|name| {
+        let mut all = Entries::ALL.into_iter();
+        all.find(|entries| entries.name() == name)
+            .ok_or("no such entries")
     })
 }
 

@@ -18,6 +18,35 @@ fn code_goes_to_stdout_and_the_report_to_stderr() {
     assert!(ran.err.contains("gravity") && ran.err.contains("proved"));
 }
 
+/// More ways to call a function are the file's, not the plan's: what is printed
+/// without them stays.
+#[test]
+fn entries_are_asked_for() {
+    let planar = robot("planar2r");
+    let plain = [
+        "generate",
+        &planar,
+        "--outputs",
+        "gravity",
+        "--scalar",
+        "f64",
+    ];
+    let single = run(&plain);
+    assert_eq!(single.code, 0, "{}", single.err);
+    assert_eq!(
+        run(&[&plain[..], &["--entries", "single"]].concat()).out,
+        single.out
+    );
+    let lanes = run(&[&plain[..], &["--entries", "lanes"]].concat());
+    assert_eq!(lanes.code, 0, "{}", lanes.err);
+    assert!(lanes.out.contains("pub fn gravity_lanes<const L: usize>("));
+    assert!(lanes.out.contains("pub fn gravity_with_sincos(") && !lanes.out.contains("_batch"));
+    assert!(lanes.err.contains("the text was read back"));
+    let wrong = run(&[&plain[..], &["--entries", "lane"]].concat());
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.err.contains("'lanes'"), "{}", wrong.err);
+}
+
 #[test]
 fn the_same_bytes_on_every_run() {
     let arguments = ["generate", &robot("puma560")];

@@ -87,7 +87,7 @@ pub mod verify;
 pub mod watch;
 
 #[doc(inline)]
-pub use backend::MathPath;
+pub use backend::{Entries, MathPath};
 #[doc(inline)]
 pub use clauses::{RobotFile, RobotFileError, expand};
 #[doc(inline)]

@@ -137,6 +137,35 @@ pub(crate) fn together<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T
     (sines, cosines)
 }
 
+/// Sines and cosines of any number of angles in every lane of a caller: a loop
+/// over scalars, which a compiler makes vectors of as wide as the processor that
+/// the caller is compiled for has.
+#[inline(always)]
+pub fn across<T: Angle, const N: usize, const L: usize>(
+    angles: &[[T; L]; N],
+) -> ([[T; L]; N], [[T; L]; N]) {
+    let (mut sines, mut cosines) = ([[T::default(); L]; N], [[T::default(); L]; N]);
+    let mut usual = true;
+    let mut angle = 0;
+    while angle < N {
+        let mut lane = 0;
+        while lane < L {
+            let x = angles[angle][lane];
+            let (shifted, sin, cos) = rest::<T, T>(x);
+            (sines[angle][lane], cosines[angle][lane]) = T::turned(shifted, sin, cos);
+            usual &= x.is_usual();
+            lane += 1;
+        }
+        angle += 1;
+    }
+    if !usual {
+        for ((angles, sines), cosines) in angles.iter().zip(&mut sines).zip(&mut cosines) {
+            unusual(angles, sines, cosines);
+        }
+    }
+    (sines, cosines)
+}
+
 /// The angles that the polynomials are not for.
 #[cold]
 #[inline(never)]

@@ -7,7 +7,7 @@ extern crate std;
 use dalembert_model::number::{Angle as Turn, Rational, Rounded};
 use std::vec::Vec;
 
-use crate::angle::{Angle, singly, together};
+use crate::angle::{Angle, across, singly, together};
 use crate::{double, single};
 
 fn exact(x: f64) -> Rational {
@@ -151,7 +151,15 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
     assert!((-26.33..-26.32).contains(&single), "{single}");
 }
 
-/// Which of the two is taken is a matter of time alone: whole vectors, a rest,
+/// Angles in seven lanes of three, as a caller has them.
+fn in_lanes<T: Angle>(angles: &[T; 21]) -> ([T; 21], [T; 21]) {
+    let lanes: [[T; 7]; 3] = core::array::from_fn(|i| core::array::from_fn(|l| angles[7 * i + l]));
+    let (sin, cos) = across(&lanes);
+    let flat = |lanes: [[T; 7]; 3]| core::array::from_fn(|i| lanes[i / 7][i % 7]);
+    (flat(sin), flat(cos))
+}
+
+/// Which of the three is taken is a matter of time alone: whole vectors, a rest,
 /// unusual angles among others.
 #[test]
 fn lanes_and_single_angles_have_the_same_bits() {
@@ -172,7 +180,13 @@ fn lanes_and_single_angles_have_the_same_bits() {
         let (a, b) = (singly(&angles), together(&angles));
         assert_eq!(a.0.map(f64::to_bits), b.0.map(f64::to_bits), "{angles:?}");
         assert_eq!(a.1.map(f64::to_bits), b.1.map(f64::to_bits), "{angles:?}");
+        let (a, b) = (in_lanes(&angles), together(&angles));
+        assert_eq!(a.0.map(f64::to_bits), b.0.map(f64::to_bits), "{angles:?}");
+        assert_eq!(a.1.map(f64::to_bits), b.1.map(f64::to_bits), "{angles:?}");
         let (a, b) = (singly(&singles), together(&singles));
+        assert_eq!(a.0.map(f32::to_bits), b.0.map(f32::to_bits), "{singles:?}");
+        assert_eq!(a.1.map(f32::to_bits), b.1.map(f32::to_bits), "{singles:?}");
+        let (a, b) = (in_lanes(&singles), together(&singles));
         assert_eq!(a.0.map(f32::to_bits), b.0.map(f32::to_bits), "{singles:?}");
         assert_eq!(a.1.map(f32::to_bits), b.1.map(f32::to_bits), "{singles:?}");
     }

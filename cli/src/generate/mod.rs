@@ -24,6 +24,7 @@ use files::Files;
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    request.entries = args.entries;
     if args.contents {
         request.layout = Layout::Contents;
     }

@@ -12,7 +12,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use dalembert_codegen::backend::function::structure;
+use dalembert_codegen::backend::result::structure;
 use dalembert_codegen::function::Argument;
 use dalembert_codegen::program::ScalarType;
 use dalembert_report::sweep::{Point, Time};

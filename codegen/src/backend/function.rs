@@ -7,9 +7,10 @@
 
 use std::fmt::Write;
 
+use crate::backend::result::{self, array_type};
 use crate::backend::statement::{last_uses, operand, statement};
 use crate::backend::{MathPath, parts, trig};
-use crate::function::{Argument, Function, Quantity};
+use crate::function::Argument;
 use crate::program::{Operand, Output, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
@@ -38,17 +39,29 @@ pub fn with_sines(
     doc: &[String],
 ) -> String {
     let mut text = String::new();
-    for line in doc {
-        let space = if line.is_empty() { "" } else { " " };
-        push(&mut text, format_args!("///{space}{line}"));
-    }
+    write_doc(&mut text, doc);
     push(&mut text, format_args!("#[must_use]"));
     push(&mut text, format_args!("{} {{", signature(program, scalar)));
     trig::write(&mut text, program, scalar, math, sines);
-    write_steps(&mut text, program, scalar);
-    write_result(&mut text, program, scalar);
+    write_body(&mut text, program, scalar);
     text.push_str("}\n");
     text
+}
+
+/// What follows the sines: the arithmetic and the result.
+pub(super) fn write_body(text: &mut String, program: &Program, scalar: ScalarType) {
+    write_steps(text, program, scalar);
+    let (function, n) = (program.function, program.rows.len());
+    let items = program.outputs.iter().map(|o| result_item(o, scalar));
+    result::write(text, function, function.structure(), n, items);
+}
+
+/// Documentation, one line an item.
+pub(super) fn write_doc(text: &mut String, doc: &[String]) {
+    for line in doc {
+        let space = if line.is_empty() { "" } else { " " };
+        push(text, format_args!("///{space}{line}"));
+    }
 }
 
 fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
@@ -95,10 +108,7 @@ fn signature(program: &Program, scalar: ScalarType) -> String {
             format!("{mark}{}: &[{scalar}; {n}]", argument.name())
         })
         .collect();
-    let result = match (function.structure(), function.quantities()) {
-        (Some(name), _) => name.to_owned(),
-        (None, quantities) => array_type(quantities[0], program.rows.len(), scalar),
-    };
+    let result = result_type(program, scalar);
     format!(
         "pub fn {}({}) -> {result}",
         function.name(),
@@ -106,28 +116,13 @@ fn signature(program: &Program, scalar: ScalarType) -> String {
     )
 }
 
-/// The array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
-pub fn array_type(quantity: Quantity, n: usize, scalar: ScalarType) -> String {
-    let lengths = quantity.shape().lengths(n).rev();
-    lengths.fold(scalar.to_string(), |inner, length| {
-        format!("[{inner}; {length}]")
-    })
-}
-
-/// The struct that a function returns, if it does.
-pub fn structure(function: Function, n: usize, scalar: ScalarType) -> Option<String> {
-    let name = function.structure()?;
-    let mut text = format!("/// What [`{function}`] returns.\n");
-    text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
-    push(&mut text, format_args!("pub struct {name} {{"));
-    for &quantity in function.quantities() {
-        let doc = quantity.summary();
-        push(&mut text, format_args!("    /// {doc}"));
-        let (field, array) = (quantity.field(), array_type(quantity, n, scalar));
-        push(&mut text, format_args!("    pub {field}: {array},"));
+/// What it returns.
+pub(super) fn result_type(program: &Program, scalar: ScalarType) -> String {
+    let function = program.function;
+    match function.structure() {
+        Some(name) => name.to_owned(),
+        None => array_type(function.quantities()[0], program.rows.len(), scalar),
     }
-    text.push_str("}\n");
-    Some(text)
 }
 
 fn reads(program: &Program, argument: Argument) -> bool {
@@ -143,56 +138,6 @@ fn reads(program: &Program, argument: Argument) -> bool {
 fn result_item(output: &Output, scalar: ScalarType) -> String {
     let sign = if output.negative { "-" } else { "" };
     format!("{sign}{}", operand(&output.value, scalar))
-}
-
-fn write_result(text: &mut String, program: &Program, scalar: ScalarType) {
-    let n = program.rows.len();
-    let mut items = program.outputs.iter().map(|o| result_item(o, scalar));
-    let function = program.function;
-    match function.structure() {
-        None => {
-            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(n).collect();
-            text.push_str("    ");
-            write_array(text, &mut items, &lengths, 1);
-            text.push('\n');
-        }
-        Some(name) => {
-            push(text, format_args!("    {name} {{"));
-            for quantity in function.quantities() {
-                let _ = write!(text, "        {}: ", quantity.field());
-                let lengths: Vec<usize> = quantity.shape().lengths(n).collect();
-                write_array(text, &mut items, &lengths, 2);
-                text.push_str(",\n");
-            }
-            text.push_str("    }\n");
-        }
-    }
-}
-
-/// An array of these lengths, the outermost first; a number without any.
-fn write_array(
-    text: &mut String,
-    items: &mut impl Iterator<Item = String>,
-    lengths: &[usize],
-    depth: usize,
-) {
-    let indent = "    ".repeat(depth);
-    match *lengths {
-        [] => text.push_str(&items.next().unwrap_or_default()),
-        [length] => {
-            let row: Vec<String> = items.take(length).collect();
-            let _ = write!(text, "[{}]", row.join(", "));
-        }
-        [length, ref inner @ ..] => {
-            push(text, format_args!("["));
-            for _ in 0..length {
-                let _ = write!(text, "{indent}    ");
-                write_array(text, items, inner, depth + 1);
-                text.push_str(",\n");
-            }
-            let _ = write!(text, "{indent}]");
-        }
-    }
 }
 
 /// A line. Writing to a string cannot fail.

@@ -1,20 +1,27 @@
 //! Programs as flat Rust, printed and read back.
 //!
 //! - [`function`]: one program as one function
+//! - [`entries`]: more ways to call it, which share its arithmetic
 //! - `statement`: one operation as one line
+//! - [`result`]: the array or the struct that it ends with
+//! - `place`: what a line calls values, in a state or in a lane
 //! - `trig`: sines and cosines that are called
 //! - `sines`: sines and cosines as polynomials
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`read`]: the printed text, and whether it is the program
 
+pub mod entries;
 pub mod function;
 pub mod parts;
+mod place;
 pub mod read;
+pub mod result;
 mod sines;
 mod statement;
 mod trig;
 
 use crate::program::Library;
+pub use entries::Entries;
 
 /// Whose sines emitted code calls, and the path where it finds them: `sincos`,
 /// `sin` and `cos` of libm's kind, `sincos` of all angles together; each with

@@ -10,6 +10,7 @@
 
 use std::fmt::Write;
 
+use crate::backend::place::Place;
 use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, Term, Value};
 
@@ -17,6 +18,7 @@ use crate::program::kernel::{Kernel, Term, Value};
 /// code names the angle.
 pub(super) fn write(
     text: &mut String,
+    place: Place,
     names: &str,
     argument: &str,
     kernel: &Kernel,
@@ -31,19 +33,22 @@ pub(super) fn write(
         let sign = if value.negative { "-" } else { "" };
         format!("{sign}{}", term(value.value))
     };
+    let Place {
+        indent, binding, ..
+    } = place;
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "    let {names} = {{");
+    let _ = writeln!(text, "{indent}{binding}{names} = {{");
     for (index, step) in kernel.steps.iter().enumerate() {
         let (left, right) = (term(step.left), term(step.right));
         let (number, symbol) = (index + 1, step.operation.symbol());
-        let _ = writeln!(text, "        let x{number} = {left} {symbol} {right};");
+        let _ = writeln!(text, "{indent}    let x{number} = {left} {symbol} {right};");
     }
     let result = match (kernel.sin, kernel.cos) {
         (Some(sin), Some(cos)) => format!("({}, {})", value(sin), value(cos)),
         (Some(only), None) | (None, Some(only)) => value(only),
         (None, None) => "()".to_owned(),
     };
-    let _ = writeln!(text, "        {result}\n    }};");
+    let _ = writeln!(text, "{indent}    {result}\n{indent}}};");
 }
 
 /// The shortest literal that reads back as the value in the scalar.

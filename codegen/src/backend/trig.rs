@@ -10,8 +10,9 @@
 
 use std::fmt::Write;
 
+use crate::backend::place::Place;
 use crate::backend::{MathPath, sines};
-use crate::program::{AngleSum, Library, Program, ScalarType, Trig};
+use crate::program::{Library, Program, ScalarType, Trig};
 use crate::sincos::AngleKernel;
 
 /// Prints them; angles that are not among `sines` are `math`'s.
@@ -22,85 +23,88 @@ pub(super) fn write(
     math: &MathPath,
     sines: &[AngleKernel],
 ) {
-    let mut called = Vec::new();
     for trig in &program.trig {
-        let argument = argument(text, trig.angle);
-        let own = sines.iter().find(|sine| sine.angle == trig.angle);
-        match (own, math.library) {
-            (Some(own), _) => sines::write(text, &names(trig), &argument, &own.kernel, scalar),
-            (None, Library::Libm) => alone(text, trig, &argument, scalar, math),
-            (None, Library::Together) => called.push((trig, argument)),
+        let place = Place::STATE;
+        if trig.angle.additions() > 0 {
+            let sum = place.sum(trig.angle);
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "    let a{} = {sum};", trig.angle);
+        }
+        if !is_together(trig, math, sines) {
+            alone(text, trig, place, scalar, math, sines);
         }
     }
-    if !called.is_empty() {
-        together(text, &called, scalar, math);
-    }
+    let angle = |trig: &Trig| Place::STATE.angle(trig.angle);
+    together(text, program, scalar, math, sines, "", angle);
 }
 
-/// How the code names an angle; a sum is formed first.
-fn argument(text: &mut String, angle: AngleSum) -> String {
-    let mut terms = angle.terms();
-    if angle.additions() == 0 {
-        return terms
-            .next()
-            .map_or_else(String::new, |(joint, _)| format!("q[{joint}]"));
-    }
-    let mut sum = String::new();
-    for (index, (joint, negative)) in terms.enumerate() {
-        let sign = match (index, negative) {
-            (0, false) => "",
-            (0, true) => "-",
-            (_, false) => " + ",
-            (_, true) => " - ",
-        };
-        // Writing to a string cannot fail.
-        let _ = write!(sum, "{sign}q[{joint}]");
-    }
-    let _ = writeln!(text, "    let a{angle} = {sum};");
-    format!("a{angle}")
+/// Whether an angle's sines are of those that one call gives.
+pub(super) fn is_together(trig: &Trig, math: &MathPath, sines: &[AngleKernel]) -> bool {
+    math.library == Library::Together && own(trig, sines).is_none()
 }
 
-/// What a line gives names to.
-fn names(trig: &Trig) -> String {
-    let angle = trig.angle;
-    match (trig.sin, trig.cos) {
-        (true, false) => format!("s{angle}"),
-        (false, true) => format!("c{angle}"),
-        _ => format!("(s{angle}, c{angle})"),
-    }
+fn own<'k>(trig: &Trig, sines: &'k [AngleKernel]) -> Option<&'k AngleKernel> {
+    sines.iter().find(|sine| sine.angle == trig.angle)
 }
 
-fn alone(text: &mut String, trig: &Trig, argument: &str, scalar: ScalarType, math: &MathPath) {
+/// One angle's by polynomials or a call of its own.
+pub(super) fn alone(
+    text: &mut String,
+    trig: &Trig,
+    place: Place,
+    scalar: ScalarType,
+    math: &MathPath,
+    sines: &[AngleKernel],
+) {
+    if let Some(own) = own(trig, sines) {
+        let (pair, angle) = (place.pair(trig), place.angle(trig.angle));
+        return sines::write(text, place, &pair, &angle, &own.kernel, scalar);
+    }
     let call = match (trig.sin, trig.cos) {
         (true, false) => "sin",
         (false, true) => "cos",
         _ => "sincos",
     };
     let (path, suffix) = (&math.path, scalar.math_suffix());
-    let names = names(trig);
+    let (pair, angle) = (place.pair(trig), place.angle(trig.angle));
+    let Place {
+        indent, binding, ..
+    } = place;
     let _ = writeln!(
         text,
-        "    let {names} = {path}::{call}{suffix}({argument});"
+        "{indent}{binding}{pair} = {path}::{call}{suffix}({angle});"
     );
 }
 
-/// One call for all of them; what is not needed gets no name.
-fn together(text: &mut String, called: &[(&Trig, String)], scalar: ScalarType, math: &MathPath) {
+/// One call for all of them; what is not needed gets no name. In lanes, names
+/// and angles are arrays, and the function has another name.
+pub(super) fn together(
+    text: &mut String,
+    program: &Program,
+    scalar: ScalarType,
+    math: &MathPath,
+    sines: &[AngleKernel],
+    lanes: &str,
+    angle: impl Fn(&Trig) -> String,
+) {
+    let called = || {
+        let trigs = program.trig.iter();
+        trigs.filter(|trig| is_together(trig, math, sines))
+    };
+    if called().next().is_none() {
+        return;
+    }
     let name = |needed: bool, letter: char, trig: &Trig| match needed {
         true => format!("{letter}{}", trig.angle),
         false => "_".to_owned(),
     };
-    let trigs = || called.iter().map(|(trig, _)| *trig);
-    let sin: Vec<String> = trigs().map(|trig| name(trig.sin, 's', trig)).collect();
-    let cos: Vec<String> = trigs().map(|trig| name(trig.cos, 'c', trig)).collect();
-    let arguments: Vec<&str> = called
-        .iter()
-        .map(|(_, argument)| argument.as_str())
-        .collect();
+    let sin: Vec<String> = called().map(|trig| name(trig.sin, 's', trig)).collect();
+    let cos: Vec<String> = called().map(|trig| name(trig.cos, 'c', trig)).collect();
+    let angles: Vec<String> = called().map(angle).collect();
     let (path, suffix) = (&math.path, scalar.math_suffix());
-    let (sin, cos, arguments) = (sin.join(", "), cos.join(", "), arguments.join(", "));
+    let (sin, cos, angles) = (sin.join(", "), cos.join(", "), angles.join(", "));
     let _ = writeln!(
         text,
-        "    let ([{sin}], [{cos}]) = {path}::sincos{suffix}(&[{arguments}]);"
+        "    let ([{sin}], [{cos}]) = {path}::sincos{suffix}{lanes}(&[{angles}]);"
     );
 }

@@ -178,6 +178,8 @@ fn functions(
         plan: source.plan.clone(),
         sincos: invocation.sincos,
         math: module::math(invocation.sincos),
+        entries: invocation.entries,
+        batch: module::BATCH.to_owned(),
         module: Some(invocation.name.to_string()),
         work: Request::work_while_compiling(invocation.effort),
         ..Request::default()

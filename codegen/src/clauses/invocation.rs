@@ -12,6 +12,7 @@ use super::errors::Errors;
 use super::messages as m;
 use super::statement::{self, Pair, pairs, trees};
 use super::words::{self, Word};
+use crate::backend::Entries;
 use crate::function::Function;
 use crate::generate::Prefer;
 use crate::portfolio::Start;
@@ -35,6 +36,7 @@ pub(super) struct Invocation {
     pub(super) prefer: Prefer,
     /// The error of polynomials stands in it once all clauses are read.
     pub(super) sincos: SinCos,
+    pub(super) entries: Entries,
     /// The scene's name, and what it is if that stands here.
     pub(super) scene: Option<(Ident, Option<Group>)>,
     /// The path of the facade crate.
@@ -48,7 +50,7 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 9] = [
+const CLAUSES: [&str; 10] = [
     "outputs",
     "scalar",
     "formulation",
@@ -56,6 +58,7 @@ const CLAUSES: [&str; 9] = [
     "prefer",
     "sincos",
     "sincos_error",
+    "entries",
     "scene",
     "crate",
 ];
@@ -86,6 +89,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         effort: Effort::Quick,
         prefer: Prefer::Accuracy,
         sincos: SinCos::Auto,
+        entries: Entries::Single,
         scene: None,
         facade: quote!(::dalembert),
     };
@@ -195,6 +199,7 @@ impl Invocation {
             Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
             Some("prefer") => self.prefer = word(value, errors).unwrap_or(self.prefer),
             Some("sincos") => self.sincos = word(value, errors).unwrap_or(self.sincos),
+            Some("entries") => self.entries = word(value, errors).unwrap_or(self.entries),
             Some("scene") => match value {
                 [TokenTree::Ident(name)] => self.scene = Some((name.clone(), None)),
                 [TokenTree::Ident(name), body] if braces(body).is_some() => {

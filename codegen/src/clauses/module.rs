@@ -10,13 +10,16 @@ use syn::Attribute;
 
 use super::invocation::Invocation;
 use super::warnings::{self, Warning};
-use crate::backend::MathPath;
+use crate::backend::{Entries, MathPath};
 use crate::program::Library;
 use crate::sincos::SinCos;
 
 /// Where the bodies find sine and cosine: an import of the module, so that a
 /// wrong path to the facade is one error and not one a call.
 const MATH: &str = "__math";
+
+/// Where batches find the crate that runs them.
+pub(super) const BATCH: &str = "__batch";
 
 /// Whose sines the bodies call: by default those of all angles together, which
 /// the facade has with it.
@@ -45,6 +48,13 @@ pub(super) fn assemble(
         #[allow(unused_imports)]
         use #facade::__private::math as #math;
     };
+    let batches = (invocation.entries == Entries::Batch).then(|| {
+        let batch = Ident::new(BATCH, proc_macro2::Span::call_site());
+        quote! {
+            #[allow(unused_imports)]
+            use #facade::batch as #batch;
+        }
+    });
     let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
     let gap = attributes.iter().any(is_doc).then(|| quote!(#[doc = ""]));
     let notes = warnings.iter().map(Warning::documentation);
@@ -70,7 +80,7 @@ pub(super) fn assemble(
             TokenTree::Group(body) if body.delimiter() == Delimiter::Brace => {
                 let inner = body.stream();
                 let warnings = std::mem::take(&mut warnings);
-                let whole = Group::new(Delimiter::Brace, quote!(#import #warnings #inner));
+                let whole = Group::new(Delimiter::Brace, quote!(#import #batches #warnings #inner));
                 whole.to_tokens(&mut tokens);
                 start = true;
             }

@@ -1,10 +1,11 @@
-//! Outputs, scalars, formulations, efforts, preferences and sources of sines by
-//! name.
+//! Outputs, scalars, formulations, efforts, preferences, sources of sines and
+//! entries by name.
 
 use std::fmt;
 
 use dalembert_model::read::closest;
 
+use crate::backend::Entries;
 use crate::function::Function;
 use crate::generate::Prefer;
 use crate::portfolio::Start;
@@ -50,6 +51,14 @@ impl Word for Prefer {
 
     fn all() -> Vec<(&'static str, Self)> {
         Prefer::ALL.map(|p| (p.name(), p)).to_vec()
+    }
+}
+
+impl Word for Entries {
+    const WHAT: &'static str = "kind of entries";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        Entries::ALL.map(|e| (e.name(), e)).to_vec()
     }
 }
 
@@ -149,6 +158,7 @@ mod tests {
         check::<ScalarType>();
         check::<Effort>();
         check::<Prefer>();
+        check::<Entries>();
         check::<Start>();
         check::<SinCos>();
         assert_eq!(SinCos::all().len(), SinCos::NAMES.len());

@@ -9,7 +9,9 @@ use super::figures::decimal;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{sines, variant};
-use crate::backend::{MathPath, function};
+use crate::backend::entries::angles::Angles;
+use crate::backend::entries::{self, Around};
+use crate::backend::{Entries, MathPath, function, result};
 use crate::emit::GeneratedFunction;
 use crate::program::ScalarType;
 use crate::scene::Setting;
@@ -21,6 +23,10 @@ pub struct ModuleOptions<'a> {
     pub scalars: &'a [ScalarType],
     /// Where sine and cosine are.
     pub math: &'a MathPath,
+    /// In how many ways each function can be called.
+    pub entries: Entries,
+    /// Where `dalembert-batch` is.
+    pub batch: &'a str,
     /// The name of the f64 module.
     pub name: &'a str,
     /// Whether modules stand around the functions.
@@ -125,25 +131,40 @@ fn module(
     if let Some(state_box) = StateBox::of(functions, setting, scalar) {
         state_box.write(&mut text, scalar);
     }
+    let angles = angles(n, functions);
+    if options.entries > Entries::Single {
+        angles.write(&mut text, scalar);
+    }
     for generated in functions {
         text.push('\n');
-        if let Some(structure) = function::structure(generated.function, rows.len(), scalar) {
+        if let Some(structure) = result::structure(generated.function, rows.len(), scalar) {
             text.push_str(&structure);
             text.push('\n');
         }
         let doc = function_doc(generated, setting, scalar);
-        text.push_str(&function::with_sines(
-            &generated.program,
-            scalar,
-            options.math,
-            generated.sines(scalar),
-            &doc,
-        ));
+        let (program, sines) = (&generated.program, generated.sines(scalar));
+        text.push_str(&match options.entries {
+            Entries::Single => function::with_sines(program, scalar, options.math, sines, &doc),
+            more => {
+                let around = Around {
+                    scalar,
+                    math: options.math,
+                    batch: options.batch,
+                    angles: &angles,
+                };
+                entries::write(program, &around, sines, more, &doc)
+            }
+        });
     }
     if options.layout == Layout::Modules {
         text.push_str("}\n");
     }
     text
+}
+
+/// The angles of a robot's functions.
+pub fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
+    Angles::of(joints, functions.iter().map(|generated| &generated.program))
 }
 
 /// Robot, conventions, DH table, counts and proof.

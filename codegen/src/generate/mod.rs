@@ -24,12 +24,13 @@ pub mod tolerate;
 use dalembert_model::robot::Robot;
 
 pub use crate::approximate::choose::{ToleranceError, Unbounded};
+use crate::backend::entries::angles::Angles;
 use crate::backend::read::TextError;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::Function;
-use crate::program::{Library, Lowered, ScalarType};
+use crate::program::{Lowered, ScalarType};
 use crate::scene::{Setting, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
@@ -115,10 +116,13 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         &ModuleOptions {
             scalars: &scalars,
             math: &request.math,
+            entries: request.entries,
+            batch: &request.batch,
             name: &name,
             layout: request.layout,
         },
     );
+    let angles = module::angles(robot.joints.len(), &functions);
     let mut emitted = Vec::new();
     for &scalar in &scalars {
         for generated in &functions {
@@ -126,7 +130,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
                 Layout::Contents => Some(text.as_str()),
                 Layout::Modules => module::section(&text, &module::name(&name, scalar, &scalars)),
             };
-            emitted.push(read_back(section, generated, scalar, request.math.library)?);
+            emitted.push(read_back(section, generated, scalar, request, &angles)?);
         }
     }
     contradiction::check(&setting, &functions, &emitted)?;
@@ -240,12 +244,15 @@ fn read_back(
     section: Option<&str>,
     generated: &GeneratedFunction,
     scalar: ScalarType,
-    library: Library,
+    request: &Request,
+    angles: &Angles,
 ) -> Result<Emitted, GenerateError> {
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
     let section = section.ok_or_else(|| fail("its module is not in the text".into()))?;
-    let read = Lowered::parse(section, generated.function, scalar)
+    let (function, entries) = (generated.function, request.entries);
+    let read = Lowered::parse_entries(section, function, scalar, entries, angles)
         .map_err(|error: TextError| fail(error.to_string()))?;
+    let library = request.math.library;
     read.matches(&generated.program, library, generated.sines(scalar))
         .map_err(fail)?;
     if read.counts() != generated.counts_in(scalar) {

@@ -3,7 +3,7 @@
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use crate::backend::MathPath;
+use crate::backend::{Entries, MathPath};
 use crate::emit::Layout;
 use crate::function::Function;
 use crate::plan::Plan;
@@ -62,6 +62,10 @@ pub struct Request {
     pub sincos: SinCos,
     /// Where emitted code finds sine and cosine, if it calls them.
     pub math: MathPath,
+    /// In how many ways each function can be called.
+    pub entries: Entries,
+    /// Where emitted code finds `dalembert-batch`, if batches are asked for.
+    pub batch: String,
     /// The module's name; the robot's and the scene's if `None`. The f32
     /// module of a pair has `_f32` appended.
     pub module: Option<String>,
@@ -112,6 +116,8 @@ impl Default for Request {
             watch: Watch::default(),
             sincos: SinCos::default(),
             math: MathPath::default(),
+            entries: Entries::default(),
+            batch: "dalembert_batch".to_owned(),
             module: None,
             layout: Layout::default(),
             scene: None,

@@ -4,9 +4,13 @@
 //! - `reader`: the statements, line by line
 //! - `sines`: sines and cosines as polynomials
 //! - `together`: sines and cosines that one call gives
+//! - `given`: sines and cosines that a caller has
 //! - `part`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
+//! - `entries`: functions whose arithmetic stands in one of them
 
+mod entries;
+mod given;
 mod part;
 mod reader;
 mod result;
@@ -37,6 +41,16 @@ impl fmt::Display for TextError {
 
 impl std::error::Error for TextError {}
 
+impl TextError {
+    /// The same in a text of which so many lines come before.
+    fn after(self, lines: usize) -> TextError {
+        TextError {
+            line: self.line + lines,
+            ..self
+        }
+    }
+}
+
 impl Lowered {
     /// Reads the function of this name out of a module's text.
     pub fn parse(
@@ -44,48 +58,16 @@ impl Lowered {
         function: Function,
         scalar: ScalarType,
     ) -> Result<Lowered, TextError> {
-        let head = format!("pub fn {}(", function.name());
         let lines: Vec<&str> = module.lines().map(str::trim).collect();
-        let Some(first) = lines.iter().position(|line| line.starts_with(&head)) else {
-            let message = format!("there is no function `{function}`");
-            return Err(TextError { line: 1, message });
-        };
-        let read = Lowered::read(&lines[first + 1..], function, scalar);
-        read.map_err(|error| TextError {
-            line: error.line + first + 1,
-            ..error
-        })
-    }
-
-    /// Reads the lines after the signature.
-    fn read(lines: &[&str], function: Function, scalar: ScalarType) -> Result<Lowered, TextError> {
+        let first = head(&lines, function.name())?;
         let mut reader = Reader::new(scalar);
-        let mut tail = String::new();
-        for (number, &line) in (1..).zip(lines) {
-            let at = |message| TextError {
-                line: number,
-                message,
-            };
-            if tail.is_empty() && reader.block(line).map_err(at)? {
-                continue;
-            }
-            match line.strip_prefix("let ") {
-                Some(statement) if tail.is_empty() => {
-                    reader.statement(statement).map_err(at)?;
-                }
-                Some(_) => return Err(at("a statement after the result".into())),
-                None if line == "}" && result::is_complete(&tail) => {
-                    let items = result::items(&tail, function).map_err(at)?;
-                    return reader.finish(&items).map_err(at);
-                }
-                None => {
-                    tail.push_str(line);
-                    tail.push(' ');
-                }
-            }
-        }
-        let message = format!("`{function}` does not end");
-        Err(TextError { line: 0, message })
+        let tail = statements(&mut reader, &lines[first + 1..], function.name());
+        let read = tail.and_then(|(tail, end)| {
+            let at = |message| TextError { line: end, message };
+            let items = result::items(&tail, function).map_err(at)?;
+            reader.finish(&items).map_err(at)
+        });
+        read.map_err(|error| error.after(first + 1))
     }
 
     /// Compares with the program and its sines, in the text's scalar: every
@@ -106,6 +88,52 @@ impl Lowered {
             Some(difference) => Err(difference),
         }
     }
+}
+
+/// The line with the head of a function, from zero.
+fn head(lines: &[&str], name: &str) -> Result<usize, TextError> {
+    let starts = |line: &&str| {
+        let rest = line.strip_prefix("pub fn ");
+        let rest = rest.and_then(|rest| rest.strip_prefix(name));
+        rest.is_some_and(|rest| rest.starts_with(['(', '<']))
+    };
+    let found = lines.iter().position(starts);
+    found.ok_or_else(|| TextError {
+        line: 1,
+        message: format!("there is no function `{name}`"),
+    })
+}
+
+/// Reads the lines after a head: the statements, into the reader, and what the
+/// function ends with, with its line.
+fn statements(
+    reader: &mut Reader<'_>,
+    lines: &[&str],
+    name: &str,
+) -> Result<(String, usize), TextError> {
+    let mut tail = String::new();
+    for (number, &line) in (1..).zip(lines) {
+        let at = |message| TextError {
+            line: number,
+            message,
+        };
+        if tail.is_empty() && reader.block(line).map_err(at)? {
+            continue;
+        }
+        match line.strip_prefix("let ") {
+            Some(statement) if tail.is_empty() => {
+                reader.statement(statement).map_err(at)?;
+            }
+            Some(_) => return Err(at("a statement after the result".into())),
+            None if line == "}" && result::is_complete(&tail) => return Ok((tail, number)),
+            None => {
+                tail.push_str(line);
+                tail.push(' ');
+            }
+        }
+    }
+    let message = format!("`{name}` does not end");
+    Err(TextError { line: 0, message })
 }
 
 /// i of `name[i]`.

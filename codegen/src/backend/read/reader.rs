@@ -1,5 +1,7 @@
 //! The statements of an emitted function, line by line.
 
+use crate::backend::entries::angles::Angles;
+use crate::backend::read::given;
 use crate::backend::read::index_of;
 use crate::backend::read::part::Wrap;
 use crate::backend::read::sines::Block;
@@ -12,8 +14,10 @@ use crate::program::{
 };
 
 /// Reads one function.
-pub(super) struct Reader {
+pub(super) struct Reader<'a> {
     scalar: ScalarType,
+    /// Where a caller's sines stand, if none is computed here.
+    given: Option<&'a Angles>,
     program: Lowered,
     /// The sums of angles that lines before formed, and that none has read.
     sums: Vec<AngleSum>,
@@ -23,10 +27,11 @@ pub(super) struct Reader {
     sines: Option<Block>,
 }
 
-impl Reader {
-    pub(super) fn new(scalar: ScalarType) -> Reader {
+impl<'a> Reader<'a> {
+    pub(super) fn new(scalar: ScalarType) -> Reader<'a> {
         Reader {
             scalar,
+            given: None,
             program: Lowered {
                 scalar,
                 library: Library::Libm,
@@ -37,6 +42,14 @@ impl Reader {
             sums: Vec::new(),
             wrap: Wrap::default(),
             sines: None,
+        }
+    }
+
+    /// Of a function whose sines are its caller's.
+    pub(super) fn given(scalar: ScalarType, angles: &'a Angles) -> Reader<'a> {
+        Reader {
+            given: Some(angles),
+            ..Reader::new(scalar)
         }
     }
 
@@ -62,6 +75,12 @@ impl Reader {
         let (name, value) = line.split_once(" = ").ok_or("no ` = `")?;
         if let Some(angle) = name.strip_prefix('a') {
             return self.angle_sum(angle, value);
+        }
+        if let Some(angles) = self.given
+            && let Some(pair) = given::read(name, value, angles)
+        {
+            self.program.trig.push(pair?);
+            return Ok(());
         }
         if value.contains('(') {
             return self.trig(name, value);
@@ -108,6 +127,9 @@ impl Reader {
     }
 
     fn trig(&mut self, name: &str, value: &str) -> Result<(), String> {
+        if self.given.is_some() {
+            return Err(format!("`{value}` is no sine or cosine of the caller's"));
+        }
         if self.program.library == Library::Together {
             return Err("a call after that of all angles together".into());
         }
@@ -178,6 +200,11 @@ impl Reader {
             .flatten()
             .map(|value| Operand::Constant(Literal(value)))
             .ok_or_else(|| format!("`{word}` is neither a value nor a literal"))
+    }
+
+    /// The sums of angles that no line has read.
+    pub(super) fn take_sums(&mut self) -> Vec<AngleSum> {
+        std::mem::take(&mut self.sums)
     }
 
     /// The program with these results.

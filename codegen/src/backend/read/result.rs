@@ -100,13 +100,14 @@ impl<'a> Words<'a> {
             Some(end) => end,
             None => text.len(),
         };
-        // `t1` and `q[0]` are one word each: an index follows its name.
-        let end = match (end, text[end..].strip_prefix('[')) {
-            (1.., Some(index)) if is_name(&text[..end]) => {
-                index.find(']').map_or(end, |close| end + close + 2)
-            }
-            _ => end,
-        };
+        // `t1`, `q[0]` and `d[0][1]` are one word each: indices follow a name.
+        let mut end = end;
+        while is_name(&text[..end])
+            && let Some(index) = text[end..].strip_prefix('[')
+            && let Some(close) = index.find(']')
+        {
+            end += close + 2;
+        }
         let (word, rest) = text.split_at(end);
         self.0 = rest;
         word

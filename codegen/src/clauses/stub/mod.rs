@@ -1,11 +1,16 @@
 //! What stands for the modules after an error: the same functions without
 //! bodies, so that only the error is reported and not every call as well.
+//!
+//! - `entries`: more ways to call them
 
 use std::fmt::Write;
 
 use dalembert_model::outputs::Axis;
 
-use super::invocation::Invocation;
+mod entries;
+
+use crate::backend::Entries;
+use crate::clauses::invocation::Invocation;
 use crate::emit::module;
 use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
@@ -35,8 +40,12 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
             text,
             "#[allow(dead_code)]\npub mod {name} {{\npub const N: usize = {count};"
         );
+        if invocation.entries > Entries::Single {
+            text += &entries::angles(joints, scalar);
+        }
         for &function in functions {
             text += &self::function(function, joints, scalar);
+            text += &entries::write(function, joints, scalar, invocation.entries);
         }
         text += &state_box(&bounded(invocation, functions), joints, scalar);
         text += "}\n";

@@ -1,0 +1,70 @@
+//! Generated dynamics at any number of states, with the vectors that the
+//! processor has.
+//!
+//! A generator that is asked for `entries: batch` prints two functions beside
+//! each of its own, which end here: `NAME_batch` takes an array of structures,
+//! a slice of states; `NAME_columns` a structure of arrays, a slice for each
+//! joint. The latter is the faster one: nothing has to be moved.
+//!
+//! ```
+//! // What a generator prints; here the torque that holds a pendulum of 1 kg and 1 m.
+//! pub struct GravityBatch;
+//! impl dalembert_batch::Function<1, 1, 1> for GravityBatch {
+//!     type Scalar = f64;
+//!     type State = [f64; 1];
+//!     type Lanes<const L: usize> = [[f64; L]; 1];
+//!     fn lanes<const L: usize>([q]: &[[[f64; L]; 1]; 1]) -> [[f64; L]; 1] {
+//!         [q[0].map(|q| 9.81 * q.cos())]
+//!     }
+//!     fn state<const L: usize>(results: &[[f64; L]; 1], l: usize) -> [f64; 1] {
+//!         [results[0][l]]
+//!     }
+//!     fn columns<const L: usize>(results: &[[f64; L]; 1]) -> [[f64; L]; 1] {
+//!         [results[0]]
+//!     }
+//! }
+//!
+//! let q = [[0.0], [0.5], [1.0]];
+//! let mut tau = [[0.0]; 3];
+//! dalembert_batch::states::<GravityBatch, 1, 1, 1>([&q], &mut tau)?;
+//! assert_eq!(tau[1], [9.81 * 0.5f64.cos()]);
+//!
+//! let error = dalembert_batch::states::<GravityBatch, 1, 1, 1>([&q[..2]], &mut tau);
+//! assert_eq!(error.unwrap_err().to_string(), "argument 1 has 2 states, the results have 3");
+//! # Ok::<(), dalembert_batch::Unequal>(())
+//! ```
+//!
+//! A state's results are those that it has alone, bit for bit: each lane does the
+//! same operations in the same order, and none is contracted to a fused one. Only
+//! which NaN stands for "no number" is the processor's choice.
+//!
+//! With the feature `std` the processor is asked what it has, once a call: a
+//! plain `cargo build --release` computes in vectors of AVX-512 or AVX2 where
+//! they are, by the crate [`pulp`](https://docs.rs/pulp). Without it, code is
+//! compiled for the target as it is, and the crate needs `core` alone. The
+//! feature `rayon` has the same on all cores, in `parallel`.
+//!
+//! - `function`: what a generator says of a function
+//! - `unequal`: slices of different lengths
+//! - `slices`: from slices to lanes and back
+//! - `dispatch`: as wide as the processor's vectors are
+//! - `parallel`: on all cores
+#![no_std]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod function;
+mod unequal;
+
+mod slices;
+
+#[cfg_attr(not(feature = "std"), path = "portable.rs")]
+mod dispatch;
+
+#[cfg(feature = "rayon")]
+pub mod parallel;
+
+pub use dispatch::{columns, states};
+pub use function::Function;
+pub use slices::{columns_in_lanes, states_in_lanes};
+pub use unequal::{Slice, Unequal};

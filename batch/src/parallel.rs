@@ -1,0 +1,81 @@
+//! The same on all cores, by rayon: each half of the states by whoever has time.
+//!
+//! What comes out does not depend on who computes it.
+
+use core::array::from_fn;
+
+use crate::slices::{check_columns, check_states};
+use crate::{Function, Unequal};
+
+/// So many states are not worth sharing: some microseconds.
+const FEW: usize = 1024;
+
+/// [`states`](crate::states) on all cores.
+///
+/// # Errors
+/// [`Unequal`]; then nothing is computed.
+pub fn states<F, const A: usize, const N: usize, const M: usize>(
+    arguments: [&[[F::Scalar; N]]; A],
+    results: &mut [F::State],
+) -> Result<(), Unequal>
+where
+    F: Function<A, N, M>,
+    F::Scalar: Sync,
+    F::State: Send,
+{
+    check_states(&arguments, results.len())?;
+    let count = results.len();
+    if count <= FEW {
+        return crate::states::<F, A, N, M>(arguments, results);
+    }
+    let half = middle(count);
+    let (left, right) = results.split_at_mut(half);
+    let (first, second) = (
+        arguments.map(|argument| argument.split_at(half).0),
+        arguments.map(|argument| argument.split_at(half).1),
+    );
+    let (left, right) = rayon::join(
+        || states::<F, A, N, M>(first, left),
+        || states::<F, A, N, M>(second, right),
+    );
+    left.and(right)
+}
+
+/// [`columns`](crate::columns) on all cores.
+///
+/// # Errors
+/// [`Unequal`]; then nothing is computed.
+pub fn columns<F, const A: usize, const N: usize, const M: usize>(
+    arguments: [&[&[F::Scalar]; N]; A],
+    results: &mut [&mut [F::Scalar]; M],
+) -> Result<(), Unequal>
+where
+    F: Function<A, N, M>,
+    F::Scalar: Send + Sync,
+{
+    let count = check_columns(&arguments, results)?;
+    if count <= FEW {
+        return crate::columns::<F, A, N, M>(arguments, results);
+    }
+    let half = middle(count);
+    let first = arguments.map(|columns| columns.map(|column| column.split_at(half).0));
+    let second = arguments.map(|columns| columns.map(|column| column.split_at(half).1));
+    let halves = results.each_mut().map(|column| column.split_at_mut(half));
+    let (mut left, mut right) = (
+        from_fn::<&mut [F::Scalar], M, _>(|_| &mut []),
+        from_fn::<&mut [F::Scalar], M, _>(|_| &mut []),
+    );
+    for (((a, b), left), right) in halves.into_iter().zip(&mut left).zip(&mut right) {
+        (*left, *right) = (a, b);
+    }
+    let (left, right) = rayon::join(
+        || columns::<F, A, N, M>(first.each_ref(), &mut left),
+        || columns::<F, A, N, M>(second.each_ref(), &mut right),
+    );
+    left.and(right)
+}
+
+/// The middle of so many states, a whole number of vectors.
+fn middle(count: usize) -> usize {
+    (count / 2).next_multiple_of(64)
+}

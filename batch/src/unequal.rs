@@ -1,0 +1,60 @@
+//! Slices of different lengths.
+
+use core::fmt;
+
+/// Which slice of a call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Slice {
+    /// An argument, counted from one.
+    Argument(usize),
+    /// The column of an argument's entry, both counted from one.
+    Entry(usize, usize),
+    /// The column of a number of the result, counted from one.
+    Result(usize),
+}
+
+/// The slices of a call are of different lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Unequal {
+    /// The first that differs.
+    pub slice: Slice,
+    /// How many states it has.
+    pub found: usize,
+    /// How many states the results have; of columns, the first of them.
+    pub expected: usize,
+}
+
+impl Unequal {
+    /// Whether a slice is as long as the results are.
+    pub(crate) fn check(slice: Slice, found: usize, expected: usize) -> Result<(), Unequal> {
+        match found == expected {
+            true => Ok(()),
+            false => Err(Unequal {
+                slice,
+                found,
+                expected,
+            }),
+        }
+    }
+}
+
+impl fmt::Display for Unequal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Unequal {
+            found, expected, ..
+        } = self;
+        match self.slice {
+            Slice::Argument(a) => write!(f, "argument {a} has {found} states")?,
+            Slice::Entry(a, i) => write!(f, "entry {i} of argument {a} has {found} states")?,
+            Slice::Result(k) => {
+                return write!(
+                    f,
+                    "column {k} of the results has {found} states, the first has {expected}"
+                );
+            }
+        }
+        write!(f, ", the results have {expected}")
+    }
+}
+
+impl core::error::Error for Unequal {}

@@ -1,0 +1,105 @@
+//! `NAME_batch` and `NAME_columns`: the function at any number of states, by
+//! the crate `dalembert-batch`, which asks the processor what it can do.
+//!
+//! What that needs to know of the function is the type `…Batch`.
+
+use std::fmt::Write;
+
+use super::{Around, arguments, lanes, places};
+use crate::backend::{function, result};
+use crate::program::Program;
+
+/// Prints them.
+pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
+    let kind = kind(program);
+    let name = program.function.name();
+    marker(text, program, around, &kind);
+    let (n, scalar, batch) = (program.joints, around.scalar, around.batch);
+    let arguments = arguments(program);
+    let passed = arguments.join(", ");
+    let result = function::result_type(program, scalar);
+    let (count, entries) = (arguments.len(), program.outputs.len());
+    let sizes = format!("{count}, {n}, {entries}");
+    let parameters = |kind: &str| -> String {
+        let each = arguments.iter();
+        each.map(|name| format!("{name}: {kind}, ")).collect()
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "\n/// [`{name}`] at any number of states, an entry of every slice each, with the vectors that\n\
+         /// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.\n\
+         ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
+         pub fn {name}_batch({}results: &mut [{result}]) -> Result<(), {batch}::Unequal> {{\n    \
+         {batch}::states::<{kind}, {sizes}>([{passed}], results)\n}}",
+        parameters(&format!("&[[{scalar}; {n}]]")),
+    );
+    let _ = writeln!(
+        text,
+        "\n/// [`{name}_batch`] with states in columns: a slice for every entry of an argument, and of\n\
+         /// the result in the order of its text. No number has to be moved: it is the faster one.\n\
+         ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
+         pub fn {name}_columns({}results: &mut [&mut [{scalar}]; {entries}]) -> Result<(), {batch}::Unequal> {{\n    \
+         {batch}::columns::<{kind}, {sizes}>([{passed}], results)\n}}",
+        parameters(&format!("&[&[{scalar}]; {n}]")),
+    );
+}
+
+/// The type of a function: `InverseDynamicsBatch`.
+fn kind(program: &Program) -> String {
+    let words = program.function.name().split('_').map(|word| {
+        let (first, rest) = word.split_at(word.len().min(1));
+        format!("{}{rest}", first.to_ascii_uppercase())
+    });
+    format!("{}Batch", words.collect::<String>())
+}
+
+fn marker(text: &mut String, program: &Program, around: &Around<'_>, kind: &str) {
+    let (name, n, scalar, batch) = (
+        program.function.name(),
+        program.joints,
+        around.scalar,
+        around.batch,
+    );
+    let arguments = arguments(program);
+    let (count, entries) = (arguments.len(), program.outputs.len());
+    let in_lanes = lanes::result_type(program, around);
+    let result = function::result_type(program, scalar);
+    let passed = arguments.join(", ");
+    let _ = writeln!(
+        text,
+        "/// [`{name}`] as the functions of `dalembert-batch` take it.\n\
+         #[derive(Clone, Copy, Debug)]\npub struct {kind};\n\n\
+         impl {batch}::Function<{count}, {n}, {entries}> for {kind} {{\n    \
+         type Scalar = {scalar};\n    type State = {result};\n    \
+         type Lanes<const L: usize> = {in_lanes};\n\n    \
+         #[inline(always)]\n    \
+         fn lanes<const L: usize>([{passed}]: &[[[{scalar}; L]; {n}]; {count}]) -> {in_lanes} {{\n        \
+         {name}_lanes({passed})\n    }}\n\n    \
+         #[inline(always)]\n    \
+         fn state<const L: usize>(results: &{in_lanes}, l: usize) -> {result} {{",
+    );
+    let (function, rows) = (program.function, program.rows.len());
+    let places = places(program);
+    let items = places.iter().map(|place| format!("results{place}[l]"));
+    let mut state = String::new();
+    result::write(&mut state, function, function.structure(), rows, items);
+    for line in state.lines() {
+        let _ = writeln!(text, "    {line}");
+    }
+    let columns: Vec<String> = places
+        .iter()
+        .map(|place| format!("results{place}"))
+        .collect();
+    let _ = writeln!(
+        text,
+        "    }}\n\n    #[inline(always)]\n    \
+         fn columns<const L: usize>(results: &{in_lanes}) -> [[{scalar}; L]; {entries}] {{\n        \
+         [{}]\n    }}\n}}",
+        match places.as_slice() {
+            // One number: the whole result, behind its reference.
+            [place] if place.is_empty() => "*results".to_owned(),
+            _ => columns.join(", "),
+        }
+    );
+}

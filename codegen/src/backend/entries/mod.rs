@@ -1,0 +1,119 @@
+//! More ways to call a function, for those who ask for them: with sines that the
+//! caller has, in lanes, in batches.
+//!
+//! The arithmetic is printed once, in `NAME_with_sincos`; what else there is of a
+//! function computes sines and calls it.
+//!
+//! - this file: [`Entries`], which of them there are
+//! - [`angles`]: where each angle's sine is
+//! - `single`: `NAME`, `given`: `NAME_with_sincos`
+//! - `lanes`: `NAME_lanes`, several states at once
+//! - `batch`: `NAME_batch` and `NAME_columns`, any number of states
+
+pub mod angles;
+mod batch;
+mod given;
+mod lanes;
+mod single;
+
+use crate::backend::MathPath;
+use crate::program::{Program, ScalarType};
+use crate::sincos::AngleKernel;
+use angles::Angles;
+
+/// How a function can be called; each has those before it, too.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Entries {
+    /// By its name: one state.
+    #[default]
+    Single,
+    /// `NAME_with_sincos`: one state, of which the caller has sines and cosines.
+    WithSincos,
+    /// `NAME_lanes`: so many states at once as the caller says.
+    Lanes,
+    /// `NAME_batch` and `NAME_columns`: slices of states, by the crate
+    /// `dalembert-batch`.
+    Batch,
+}
+
+impl Entries {
+    /// All of them, the default first.
+    pub const ALL: [Entries; 4] = [
+        Entries::Single,
+        Entries::WithSincos,
+        Entries::Lanes,
+        Entries::Batch,
+    ];
+
+    /// Its name on the command line and in the macro.
+    pub fn name(self) -> &'static str {
+        match self {
+            Entries::Single => "single",
+            Entries::WithSincos => "with_sincos",
+            Entries::Lanes => "lanes",
+            Entries::Batch => "batch",
+        }
+    }
+}
+
+/// What the functions of a module have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct Around<'a> {
+    /// The scalar.
+    pub scalar: ScalarType,
+    /// Whose sines are called.
+    pub math: &'a MathPath,
+    /// Where `dalembert-batch` is.
+    pub batch: &'a str,
+    /// Where each angle's sine is.
+    pub angles: &'a Angles,
+}
+
+/// Prints the function by all its entries; angles that are not among `sines` are
+/// the library's.
+pub fn write(
+    program: &Program,
+    around: &Around<'_>,
+    sines: &[AngleKernel],
+    entries: Entries,
+    doc: &[String],
+) -> String {
+    let mut text = String::new();
+    single::write(&mut text, program, around, sines, doc);
+    text.push('\n');
+    given::write(&mut text, program, around);
+    if entries >= Entries::Lanes {
+        text.push('\n');
+        lanes::write(&mut text, program, around, sines);
+    }
+    if entries >= Entries::Batch {
+        text.push('\n');
+        batch::write(&mut text, program, around);
+    }
+    text
+}
+
+/// The names of the arguments that there are.
+fn arguments(program: &Program) -> Vec<&'static str> {
+    let arguments = program.arguments.iter();
+    arguments.map(|argument| argument.name()).collect()
+}
+
+/// The entries of a result in their order, as they are written after its name:
+/// `.d[0][1]`.
+fn places(program: &Program) -> Vec<String> {
+    let (function, n) = (program.function, program.rows.len());
+    let mut places = Vec::new();
+    for quantity in function.quantities() {
+        let field = match function.structure() {
+            Some(_) => format!(".{}", quantity.field()),
+            None => String::new(),
+        };
+        let shape = quantity.shape();
+        places.extend((0..shape.len(n)).map(|index| {
+            let axes = shape.places(index, n).into_iter();
+            axes.fold(field.clone(), |place, at| format!("{place}[{at}]"))
+        }));
+    }
+    places
+}

@@ -1,0 +1,97 @@
+//! The arrays and the struct that a function ends with.
+
+use std::fmt::Write;
+
+use crate::function::{Function, Quantity};
+use crate::program::ScalarType;
+
+/// The array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
+/// An entry is of a type of its own, such as `[f64; L]`.
+pub(super) fn array_of(entry: &str, quantity: Quantity, n: usize) -> String {
+    let lengths = quantity.shape().lengths(n).rev();
+    lengths.fold(entry.to_owned(), |inner, length| {
+        format!("[{inner}; {length}]")
+    })
+}
+
+/// The array type of a quantity over n joints.
+pub fn array_type(quantity: Quantity, n: usize, scalar: ScalarType) -> String {
+    array_of(scalar.name(), quantity, n)
+}
+
+/// The struct that a function returns, if it does.
+pub fn structure(function: Function, n: usize, scalar: ScalarType) -> Option<String> {
+    let name = function.structure()?;
+    let mut text = format!("/// What [`{function}`] returns.\n");
+    text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "pub struct {name} {{");
+    fields(&mut text, function, scalar.name(), n);
+    text.push_str("}\n");
+    Some(text)
+}
+
+/// The fields of the struct that a function returns, a line and its
+/// documentation each.
+pub(super) fn fields(text: &mut String, function: Function, entry: &str, n: usize) {
+    for &quantity in function.quantities() {
+        let (doc, field) = (quantity.summary(), quantity.field());
+        let array = array_of(entry, quantity, n);
+        let _ = writeln!(text, "    /// {doc}\n    pub {field}: {array},");
+    }
+}
+
+/// Prints a result of these entries, in their order, as the last expression of
+/// a function; `structure` is its struct, if there is one.
+pub(super) fn write(
+    text: &mut String,
+    function: Function,
+    structure: Option<&str>,
+    n: usize,
+    mut items: impl Iterator<Item = String>,
+) {
+    match structure {
+        None => {
+            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(n).collect();
+            text.push_str("    ");
+            write_array(text, &mut items, &lengths, 1);
+            text.push('\n');
+        }
+        Some(name) => {
+            let _ = writeln!(text, "    {name} {{");
+            for quantity in function.quantities() {
+                let _ = write!(text, "        {}: ", quantity.field());
+                let lengths: Vec<usize> = quantity.shape().lengths(n).collect();
+                write_array(text, &mut items, &lengths, 2);
+                text.push_str(",\n");
+            }
+            text.push_str("    }\n");
+        }
+    }
+}
+
+/// An array of these lengths, the outermost first; a number without any.
+fn write_array(
+    text: &mut String,
+    items: &mut impl Iterator<Item = String>,
+    lengths: &[usize],
+    depth: usize,
+) {
+    let indent = "    ".repeat(depth);
+    match *lengths {
+        [] => text.push_str(&items.next().unwrap_or_default()),
+        [length] => {
+            let row: Vec<String> = items.take(length).collect();
+            let _ = write!(text, "[{}]", row.join(", "));
+        }
+        [length, ref inner @ ..] => {
+            text.push_str("[\n");
+            for _ in 0..length {
+                let _ = write!(text, "{indent}    ");
+                write_array(text, items, inner, depth + 1);
+                text.push_str(",\n");
+            }
+            let _ = write!(text, "{indent}]");
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The other ways to call a function, without bodies.
+
+use std::fmt::Write;
+
+use dalembert_model::outputs::Axis;
+
+use crate::backend::Entries;
+use crate::clauses::module::BATCH;
+use crate::function::{Function, Quantity};
+use crate::program::ScalarType;
+
+/// What a module has of a function beside itself. Lengths that are not known are
+/// whatever the caller has.
+pub(super) fn write(
+    function: Function,
+    joints: Option<usize>,
+    scalar: ScalarType,
+    entries: Entries,
+) -> String {
+    let own = Stub {
+        function,
+        joints,
+        scalar,
+    };
+    let mut text = String::new();
+    if entries >= Entries::WithSincos {
+        own.with_sincos(&mut text);
+    }
+    if entries >= Entries::Lanes {
+        own.lanes(&mut text);
+    }
+    if entries >= Entries::Batch {
+        own.batch(&mut text);
+    }
+    text
+}
+
+/// The angles, of which nobody knows how many they are.
+pub(super) fn angles(joints: Option<usize>, scalar: ScalarType) -> String {
+    let (generic, length) = match joints {
+        Some(n) => ("<const A: usize>", n.to_string()),
+        None => ("<const J: usize, const A: usize>", "J".to_owned()),
+    };
+    format!(
+        "pub fn angles{generic}(_q: &[{scalar}; {length}]) -> [{scalar}; A] \
+         {{ ::core::unreachable!() }}\n"
+    )
+}
+
+struct Stub {
+    function: Function,
+    joints: Option<usize>,
+    scalar: ScalarType,
+}
+
+impl Stub {
+    /// The number of joints, or the name that stands for it.
+    fn length(&self) -> String {
+        self.joints.map_or("J".to_owned(), |n| n.to_string())
+    }
+
+    /// What generic parameters there are, with that of the joints if nobody
+    /// knows how many they are.
+    fn generic(&self, others: &[&str]) -> String {
+        let joints = self.joints.is_none().then_some("J");
+        let all = others.iter().copied().chain(joints);
+        let all: Vec<String> = all.map(|name| format!("const {name}: usize")).collect();
+        match all.is_empty() {
+            true => String::new(),
+            false => format!("<{}>", all.join(", ")),
+        }
+    }
+
+    /// The arguments, each of this type.
+    fn arguments(&self, kind: &str) -> String {
+        let arguments = self.function.arguments().into_iter();
+        arguments
+            .map(|argument| format!("_{}: {kind}, ", argument.name()))
+            .collect()
+    }
+
+    fn array(&self, entry: &str, quantity: Quantity) -> String {
+        let axes = quantity.shape().0.iter().rev();
+        axes.fold(entry.to_owned(), |inner, axis| match axis {
+            Axis::Joints => format!("[{inner}; {}]", self.length()),
+            Axis::Fixed(length) => format!("[{inner}; {length}]"),
+        })
+    }
+
+    /// What it returns, with such entries; a struct has `lanes` in its name and
+    /// its parameters.
+    fn result(&self, entry: &str, lanes: &str, parameters: &[&str]) -> String {
+        match self.function.structure() {
+            None => self.array(entry, self.function.quantities()[0]),
+            Some(name) => {
+                let joints = self.joints.is_none().then_some("J");
+                let all: Vec<&str> = parameters.iter().copied().chain(joints).collect();
+                match all.is_empty() {
+                    true => format!("{name}{lanes}"),
+                    false => format!("{name}{lanes}<{}>", all.join(", ")),
+                }
+            }
+        }
+    }
+
+    fn with_sincos(&self, text: &mut String) {
+        let (name, scalar, length) = (self.function.name(), self.scalar, self.length());
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "pub fn {name}_with_sincos{}({}_sin: &[{scalar}; A], _cos: &[{scalar}; A]) -> {} \
+             {{ ::core::unreachable!() }}",
+            self.generic(&["A"]),
+            self.arguments(&format!("&[{scalar}; {length}]")),
+            self.result(scalar.name(), "", &[])
+        );
+    }
+
+    fn lanes(&self, text: &mut String) {
+        let (name, length) = (self.function.name(), self.length());
+        let entry = format!("[{}; L]", self.scalar);
+        if let Some(structure) = self.function.structure() {
+            let quantities = self.function.quantities().iter();
+            let fields = quantities.map(|&quantity| {
+                format!("pub {}: {}", quantity.field(), self.array(&entry, quantity))
+            });
+            let fields: Vec<String> = fields.collect();
+            let _ = writeln!(
+                text,
+                "#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {structure}Lanes{} {{ {} }}",
+                self.generic(&["L"]),
+                fields.join(", ")
+            );
+        }
+        let _ = writeln!(
+            text,
+            "pub fn {name}_lanes{}({}) -> {} {{ ::core::unreachable!() }}",
+            self.generic(&["L"]),
+            self.arguments(&format!("&[{entry}; {length}]")),
+            self.result(&entry, "Lanes", &["L"])
+        );
+    }
+
+    fn batch(&self, text: &mut String) {
+        let (name, scalar, length) = (self.function.name(), self.scalar, self.length());
+        let _ = writeln!(
+            text,
+            "pub fn {name}_batch{}({}_results: &mut [{}]) -> Result<(), {BATCH}::Unequal> \
+             {{ ::core::unreachable!() }}\n\
+             pub fn {name}_columns{}({}_results: &mut [&mut [{scalar}]; M]) -> \
+             Result<(), {BATCH}::Unequal> {{ ::core::unreachable!() }}",
+            self.generic(&[]),
+            self.arguments(&format!("&[[{scalar}; {length}]]")),
+            self.result(scalar.name(), "", &[]),
+            self.generic(&["M"]),
+            self.arguments(&format!("&[&[{scalar}]; {length}]")),
+        );
+    }
+}

@@ -1,0 +1,251 @@
+//! Functions that can be called in several ways: one arithmetic, which every
+//! other text must bring the right values. What does not is refused.
+
+mod support;
+
+use dalembert_codegen::Entries;
+use dalembert_codegen::backend::MathPath;
+use dalembert_codegen::backend::entries::angles::Angles;
+use dalembert_codegen::emit::Layout;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::{Library, Lowered, ScalarType};
+use dalembert_codegen::sincos::SinCos;
+use dalembert_model::robot::Robot;
+
+fn request(entries: Entries, sincos: SinCos, start: Start) -> Request {
+    Request {
+        functions: vec![
+            Function::InverseDynamics,
+            Function::ManipulatorEquation,
+            Function::KineticEnergy,
+            Function::ForwardKinematics,
+            Function::ForwardDynamics,
+        ],
+        scalars: vec![ScalarType::F64],
+        start,
+        sincos,
+        math: MathPath::of(sincos.library(Library::Libm)),
+        entries,
+        layout: Layout::Contents,
+        ..Request::default()
+    }
+}
+
+fn angles(robot: &Robot, generated: &Generated) -> Angles {
+    let functions = generated.functions.iter();
+    Angles::of(robot.joints.len(), functions.map(|f| &f.program))
+}
+
+/// Arms that turn and slide, sums of angles, every kind of sines: whatever the
+/// entries are, the same program is read, and nothing else of it is printed.
+#[test]
+fn the_same_program_by_every_entry() {
+    let sums = Start::from_name("angle_sums").unwrap();
+    let torques = [Function::InverseDynamics];
+    for (name, start, functions) in [
+        ("planar2r", Start::Auto, None),
+        ("planar3r", sums, Some(&torques)),
+        ("stanford", Start::Auto, Some(&torques)),
+    ] {
+        let robot = support::robot(name);
+        let all = [
+            SinCos::Together,
+            SinCos::Libm,
+            SinCos::Polynomial { error: None },
+        ];
+        // Every program is searched for anew: a lighter dose without optimisation.
+        let light = cfg!(debug_assertions) && name == "stanford";
+        for sincos in all.into_iter().take(if light { 1 } else { 3 }) {
+            let of = |entries| {
+                let mut request = request(entries, sincos, start);
+                if let Some(functions) = functions {
+                    request.functions = functions.to_vec();
+                }
+                generate(&robot, &request).unwrap()
+            };
+            let single = of(Entries::Single);
+            assert!(!single.text.contains("with_sincos") && !single.text.contains("angles"));
+            for entries in [Entries::WithSincos, Entries::Lanes, Entries::Batch] {
+                let more = of(entries);
+                for (a, b) in single.emitted.iter().zip(&more.emitted) {
+                    assert_eq!(a.text.difference(&b.text), None, "{name} {sincos:?}");
+                }
+                // The arithmetic is there once.
+                let lines = |text: &str| text.matches("    let t").count();
+                assert_eq!(lines(&more.text), lines(&single.text));
+                for (entry, least) in [
+                    ("_with_sincos", Entries::WithSincos),
+                    ("_lanes", Entries::Lanes),
+                    ("_columns", Entries::Batch),
+                ] {
+                    let head = format!("pub fn inverse_dynamics{entry}");
+                    assert_eq!(more.text.contains(&head), entries >= least, "{entry}");
+                }
+            }
+        }
+    }
+}
+
+/// A sum of angles has its sine after those of the joints, in every function.
+#[test]
+fn sums_of_angles_have_places() {
+    let robot = support::robot("planar3r");
+    let start = Start::from_name("angle_sums").unwrap();
+    let request = request(Entries::Lanes, SinCos::Together, start);
+    let generated = generate(&robot, &request).unwrap();
+    let angles = angles(&robot, &generated);
+    assert!(angles.count() > 3, "{}", generated.text);
+    let head = format!(
+        "pub fn angles(q: &[f64; 3]) -> [f64; {}] {{",
+        angles.count()
+    );
+    assert!(generated.text.contains(&head));
+    assert!(generated.text.contains("    [q[0], q[1], q[2], a"));
+    assert!(generated.text.contains("[l] = q[0][l] + q[1][l];"));
+}
+
+/// Nearly all of these compile, and give wrong numbers.
+#[test]
+fn what_brings_the_wrong_value_is_refused() {
+    let robot = support::robot("planar2r");
+    for sincos in [SinCos::Together, SinCos::Libm] {
+        let generated = generate(&robot, &request(Entries::Batch, sincos, Start::Auto)).unwrap();
+        let angles = angles(&robot, &generated);
+        let read = |text: &str| {
+            let function = Function::InverseDynamics;
+            Lowered::parse_entries(text, function, ScalarType::F64, Entries::Batch, &angles)
+        };
+        let own = generated.text.find("pub fn inverse_dynamics(").unwrap();
+        let (before, own) = generated.text.split_at(own);
+        read(&generated.text).unwrap();
+        let sines = match sincos {
+            SinCos::Libm => [
+                ("(s1[l], c1[l]) =", "(s2[l], c2[l]) ="),
+                ("(s1[l], c1[l]) =", "(c1[l], s1[l]) ="),
+                ("sincos(q[1][l])", "sincos(q[0][l])"),
+                ("libm::sincos(q[0][l])", "crate::tancot(q[0][l])"),
+            ],
+            _ => [
+                ("_lanes(&[q[0], q[1]])", "_lanes(&[q[1], q[0]])"),
+                (
+                    "let ([s1, s2], [c1, c2]) = dalembert_sines::sincos_lanes",
+                    "let ([c1, c2], [s1, s2]) = dalembert_sines::sincos_lanes",
+                ),
+                ("dalembert_sines::sincos(", "dalembert_sines::sincos_lanes("),
+                (
+                    "dalembert_sines::sincos_lanes(",
+                    "dalembert_sines::cossin_lanes(",
+                ),
+            ],
+        };
+        let others = [
+            // One state: arguments and sines that trade places.
+            ("(q, qd, qdd, &[s1", "(q, qdd, qd, &[s1"),
+            ("&[s1, s2], &[c1, c2])", "&[s2, s1], &[c2, c1])"),
+            ("&[s1, s2], &[c1, c2])", "&[c1, c2], &[s1, s2])"),
+            ("&[s1, s2], &[c1, c2])", "&[s1, 0.0], &[c1, c2])"),
+            ("inverse_dynamics_with_sincos(q,", "gravity_with_sincos(q,"),
+            // With sines that are given.
+            ("(sin[0], cos[0])", "(sin[1], cos[1])"),
+            ("(sin[0], cos[0])", "(cos[0], sin[0])"),
+            (
+                "let (s2, c2) = (sin[1], cos[1])",
+                "let (s2, c2) = (sin[1], sin[1])",
+            ),
+            (
+                "    let (s2, c2) = (sin[1], cos[1]);\n",
+                "    let (s2, c2) = libm::sincos(qd[1]);\n",
+            ),
+            (
+                "_sincos(_q: &[f64; 2], qd: &[f64; 2], qdd:",
+                "_sincos(_q: &[f64; 2], qdd: &[f64; 2], qd:",
+            ),
+            (
+                "sin: &[f64; 2], cos: &[f64; 2])",
+                "cos: &[f64; 2], sin: &[f64; 2])",
+            ),
+            // Lanes.
+            (
+                "_lanes<const L: usize>(q: &[[f64; L]; 2], qd:",
+                "_lanes<const L: usize>(qd: &[[f64; L]; 2], q:",
+            ),
+            ("&[qd[0][l], qd[1][l]]", "&[qd[1][l], qd[0][l]]"),
+            ("&[qd[0][l], qd[1][l]]", "&[qdd[0][l], qd[1][l]]"),
+            ("&[s1[l], s2[l]]", "&[s1[l], s1[l]]"),
+            ("results[0][l] = result[0];", "results[0][l] = result[1];"),
+            ("        results[1][l] = result[1];\n", ""),
+            ("results[1][l] = result[1];", "results[0][l] = result[0];"),
+            (
+                "    for l in 0..L {\n        let result",
+                "    for l in 1..L {\n        let result",
+            ),
+            // Batches.
+            ("([q, qd, qdd], results)", "([q, qdd, qd], results)"),
+            (
+                "_columns(q: &[&[f64]; 2], qd: &[&[f64]; 2], qdd:",
+                "_columns(q: &[&[f64]; 2], qdd: &[&[f64]; 2], qd:",
+            ),
+            (
+                "lanes<const L: usize>([q, qd, qdd]:",
+                "lanes<const L: usize>([q, qdd, qd]:",
+            ),
+            (
+                "inverse_dynamics_lanes(q, qd, qdd)\n",
+                "inverse_dynamics_lanes(q, qdd, qd)\n",
+            ),
+            (
+                "[results[0][l], results[1][l]]",
+                "[results[1][l], results[0][l]]",
+            ),
+            ("[results[0], results[1]]", "[results[1], results[0]]"),
+            (
+                "columns::<InverseDynamicsBatch",
+                "columns::<ForwardDynamicsBatch",
+            ),
+            (
+                "states::<InverseDynamicsBatch",
+                "columns::<InverseDynamicsBatch",
+            ),
+        ];
+        for (from, to) in sines.into_iter().chain(others) {
+            let changed = own.replacen(from, to, 1);
+            assert_ne!(changed, own, "{from}");
+            let error = read(&format!("{before}{changed}"));
+            assert!(error.is_err(), "{sincos:?}: {from} -> {to}");
+        }
+        let exchanged = generated
+            .text
+            .replacen("    [q[0], q[1]]\n", "    [q[1], q[0]]\n", 1);
+        assert!(read(&exchanged).is_err());
+    }
+}
+
+/// No line of the arithmetic or of a call can go.
+#[test]
+fn every_line_counts() {
+    let robot = support::robot("planar2r");
+    let mut request = request(Entries::Lanes, SinCos::Together, Start::Auto);
+    request.functions = vec![Function::InverseDynamics];
+    let generated = generate(&robot, &request).unwrap();
+    let angles = angles(&robot, &generated);
+    let lines: Vec<&str> = generated.text.lines().collect();
+    let mut tried = 0;
+    for (index, line) in lines.iter().enumerate() {
+        if !line.starts_with("    ") && *line != "}" {
+            continue;
+        }
+        let rest: Vec<&str> = [&lines[..index], &lines[index + 1..]].concat();
+        let function = Function::InverseDynamics;
+        let (text, scalar) = (rest.join("\n"), ScalarType::F64);
+        let read = Lowered::parse_entries(&text, function, scalar, Entries::Lanes, &angles);
+        let same = read.is_ok_and(|read| {
+            let (program, library) = (&generated.functions[0].program, Library::Together);
+            read.matches(program, library, &[]).is_ok()
+        });
+        assert!(!same, "{line}");
+        tried += 1;
+    }
+    assert!(tried > 35, "{tried}");
+}

@@ -1,0 +1,378 @@
+//! Functions by all their entries, compiled: one state, with given sines, in any
+//! number of lanes, in batches of any length, on all cores. The bits are the same.
+
+use std::array::from_fn;
+
+use dalembert::batch::{self, Function, Slice};
+
+#[rustfmt::skip] // As the generator writes it.
+#[path = "../benches/generated/puma560_batch.rs"]
+mod generated;
+use generated::{puma560, puma560_f32};
+
+/// A joint slides, another turns for ever; a struct, a number and a quotient.
+/// Sums of angles beside the joints' own.
+macro_rules! arm {
+    ($name:ident, $($clause:tt)*) => {
+        dalembert::dynamics! {
+            mod $name {
+                convention: standard;
+                gravity: [0, -9.81, 0];
+                joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
+                joint { kind: revolute, a: 1, alpha: pi/2, mass: 2, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
+                joint { kind: prismatic, mass: 1, com: [0, 0, 0.1], inertia: [0.1, 0.1, 0.1, 0, 0, 0] }
+            }
+            outputs: inverse_dynamics, gravity, manipulator_equation, kinetic_energy, forward_dynamics;
+            entries: batch;
+            scalar: f64, f32;
+            $($clause)*
+        }
+    };
+}
+arm!(together, sincos: together;);
+arm!(alone, sincos: libm;);
+arm!(polynomial, sincos: polynomial; sincos_error: 1e-5;);
+arm!(sums, formulation: angle_sums;);
+
+/// Equal bits, or no number in both: which NaN it is, is the processor's choice.
+trait Same {
+    fn same(&self, other: &Self) -> bool;
+}
+
+macro_rules! same {
+    ($($scalar:ty),*) => {$(
+        impl Same for $scalar {
+            fn same(&self, other: &Self) -> bool {
+                self.to_bits() == other.to_bits() || (self.is_nan() && other.is_nan())
+            }
+        }
+    )*};
+}
+same!(f64, f32);
+
+impl<T: Same, const N: usize> Same for [T; N] {
+    fn same(&self, other: &Self) -> bool {
+        self.iter().zip(other).all(|(a, b)| a.same(b))
+    }
+}
+
+macro_rules! same_equation {
+    ($($module:ident),*) => {$(
+        impl Same for $module::ManipulatorEquation {
+            fn same(&self, other: &Self) -> bool {
+                self.d.same(&other.d) && self.h.same(&other.h) && self.c.same(&other.c)
+            }
+        }
+    )*};
+}
+same_equation!(
+    together,
+    together_f32,
+    alone,
+    alone_f32,
+    polynomial,
+    polynomial_f32,
+    sums,
+    sums_f32
+);
+
+/// So many seeded numbers; every ninth is one of those that are not usual:
+/// angles beyond what polynomials are for, zeros, infinities, NaN.
+fn numbers(count: usize, seed: u64) -> Vec<f64> {
+    let odd = [
+        1e5,
+        -0.0,
+        f64::INFINITY,
+        f64::NAN,
+        1e300,
+        f64::NEG_INFINITY,
+        5e-324,
+        1e-40,
+    ];
+    let mut bits = seed;
+    let mut next = |index: usize| {
+        bits = bits
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        let unit = (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        match index % 9 {
+            8 => odd[(bits >> 32) as usize % odd.len()],
+            _ => 3.0 * unit,
+        }
+    };
+    (0..count).map(&mut next).collect()
+}
+
+/// Columns of equal states, as slices.
+fn columns<T: Copy, const N: usize>(states: &[[T; N]]) -> [Vec<T>; N] {
+    from_fn(|i| states.iter().map(|state| state[i]).collect())
+}
+
+/// Everything about a function of these arguments: `$flat` are the numbers of
+/// one state's result in the order of its text.
+macro_rules! check {
+    ($module:ident, $scalar:ty, $function:ident, $lanes:ident, $batch:ident,
+     $columns:ident, $kind:ident, [$($argument:ident),*], $flat:expr) => {{
+        type Kind = $module::$kind;
+        const N: usize = $module::N;
+        const MOST: usize = 2 * 16 + 1;
+        let mut seed = 1;
+        $(
+            seed += 1;
+            let values = numbers(MOST * N, seed);
+            let $argument: Vec<[$scalar; N]> =
+                (0..MOST).map(|k| from_fn(|i| values[k * N + i] as $scalar)).collect();
+        )*
+        let single: Vec<_> =
+            (0..MOST).map(|k| $module::$function($(&$argument[k]),*)).collect();
+        // Some of it are numbers, or nothing would be compared.
+        let flat = $flat;
+        assert!(single.iter().any(|result| flat(result).iter().all(|x| x.is_finite())));
+
+        // Lanes, of every width that the drivers take and others.
+        macro_rules! width {
+            ($width:literal) => {
+                for start in 0..MOST - $width {
+                    let states = start..start + $width;
+                    $(let $argument: [[$scalar; $width]; N] =
+                        columns(&$argument[states.clone()]).map(|c| from_fn(|l| c[l]));)*
+                    let found = $module::$lanes::<$width>($(&$argument),*);
+                    for l in 0..$width {
+                        let state = <Kind as Function<_, _, _>>::state(&found, l);
+                        assert!(state.same(&single[start + l]), "{} lanes", $width);
+                    }
+                }
+            };
+        }
+        width!(1); width!(3); width!(4); width!(8); width!(16);
+
+        for count in 0..=MOST {
+            $(let $argument = &$argument[..count];)*
+            let mut found = single.clone();
+            found.reverse();
+            found.truncate(count);
+            $module::$batch($($argument,)* &mut found).unwrap();
+            assert!(found.iter().zip(&single).all(|(a, b)| a.same(b)), "{count}");
+
+            $(let $argument = columns($argument);
+              let $argument = $argument.each_ref().map(|column| column.as_slice());)*
+            let mut found = flat(&single[0]).map(|_| vec![0.0; count]);
+            let mut slices = found.each_mut().map(|column| column.as_mut_slice());
+            $module::$columns($(&$argument,)* &mut slices).unwrap();
+            for (k, single) in single[..count].iter().enumerate() {
+                for (column, expected) in found.iter().zip(flat(single)) {
+                    assert!(column[k].same(&expected), "{count}");
+                }
+            }
+        }
+    }};
+}
+
+macro_rules! check_arm {
+    ($module:ident, $scalar:ty) => {{
+        let vector = |x: &[$scalar; 3]| *x;
+        check!(
+            $module,
+            $scalar,
+            gravity,
+            gravity_lanes,
+            gravity_batch,
+            gravity_columns,
+            GravityBatch,
+            [q],
+            vector
+        );
+        check!(
+            $module,
+            $scalar,
+            inverse_dynamics,
+            inverse_dynamics_lanes,
+            inverse_dynamics_batch,
+            inverse_dynamics_columns,
+            InverseDynamicsBatch,
+            [q, qd, qdd],
+            vector
+        );
+        check!(
+            $module,
+            $scalar,
+            forward_dynamics,
+            forward_dynamics_lanes,
+            forward_dynamics_batch,
+            forward_dynamics_columns,
+            ForwardDynamicsBatch,
+            [q, qd, tau],
+            vector
+        );
+        check!(
+            $module,
+            $scalar,
+            kinetic_energy,
+            kinetic_energy_lanes,
+            kinetic_energy_batch,
+            kinetic_energy_columns,
+            KineticEnergyBatch,
+            [q, qd],
+            |x: &$scalar| [*x]
+        );
+        check!(
+            $module,
+            $scalar,
+            manipulator_equation,
+            manipulator_equation_lanes,
+            manipulator_equation_batch,
+            manipulator_equation_columns,
+            ManipulatorEquationBatch,
+            [q, qd],
+            |x: &$module::ManipulatorEquation| -> [$scalar; 15] {
+                let all = [x.d.as_flattened(), &x.h, &x.c].concat();
+                from_fn(|i| all[i])
+            }
+        );
+    }};
+}
+
+#[test]
+fn sines_of_all_angles_together() {
+    check_arm!(together, f64);
+    check_arm!(together_f32, f32);
+}
+
+#[test]
+fn sines_of_libm() {
+    check_arm!(alone, f64);
+    check_arm!(alone_f32, f32);
+}
+
+#[test]
+fn sines_by_polynomials() {
+    check_arm!(polynomial, f64);
+    check_arm!(polynomial_f32, f32);
+}
+
+#[test]
+fn sines_of_sums() {
+    check_arm!(sums, f64);
+    check_arm!(sums_f32, f32);
+}
+
+/// The arm that is measured: hundreds of operations.
+#[test]
+fn a_whole_arm() {
+    macro_rules! whole {
+        ($module:ident, $scalar:ty) => {{
+            let vector = |x: &[$scalar; 6]| *x;
+            check!(
+                $module,
+                $scalar,
+                inverse_dynamics,
+                inverse_dynamics_lanes,
+                inverse_dynamics_batch,
+                inverse_dynamics_columns,
+                InverseDynamicsBatch,
+                [q, qd, qdd],
+                vector
+            );
+            check!(
+                $module,
+                $scalar,
+                forward_dynamics,
+                forward_dynamics_lanes,
+                forward_dynamics_batch,
+                forward_dynamics_columns,
+                ForwardDynamicsBatch,
+                [q, qd, tau],
+                vector
+            );
+        }};
+    }
+    whole!(puma560, f64);
+    whole!(puma560_f32, f32);
+    // What calls the arithmetic is the function that is checked in but for the
+    // sines.
+    let (q, qd, qdd) = ([0.3, -0.5, 1.1, 0.7, -2.0, 0.1], [0.4; 6], [-0.9; 6]);
+    let (sin, cos) = (q.map(libm::sin), q.map(libm::cos));
+    assert_eq!(
+        puma560::inverse_dynamics_with_sincos(&q, &qd, &qdd, &sin, &cos),
+        dalembert_generated::puma560::inverse_dynamics(&q, &qd, &qdd)
+    );
+}
+
+/// A caller's sines, in the places that `angles` says.
+#[test]
+fn sines_that_a_caller_has() {
+    for k in 0..50 {
+        let q: [f64; 3] = from_fn(|i| numbers(9, k)[i]);
+        let (qd, qdd) = ([0.3, -1.0, 0.7], [1.0, 0.2, -0.4]);
+        let angles = sums::angles(&q);
+        assert!(angles.len() > 3 && angles[..3] == q && angles[3..].contains(&(q[0] + q[1])));
+        let (sin, cos) = dalembert_sines::sincos(&angles);
+        let found = sums::gravity_with_sincos(&q, &sin, &cos);
+        assert!(found.same(&sums::gravity(&q)));
+        let found = sums::inverse_dynamics_with_sincos(&q, &qd, &qdd, &sin, &cos);
+        assert!(found.same(&sums::inverse_dynamics(&q, &qd, &qdd)));
+        // Nobody reads the sine of a length.
+        let (mut sin, cos) = dalembert_sines::sincos(&together::angles(&q));
+        sin[2] = f64::NAN;
+        let found = together::inverse_dynamics_with_sincos(&q, &qd, &qdd, &sin, &cos);
+        assert!(found.same(&together::inverse_dynamics(&q, &qd, &qdd)));
+    }
+}
+
+#[test]
+fn slices_of_different_lengths_are_refused() {
+    let (q, mut tau) = ([[0.5; 3]; 5], [[7.0; 3]; 5]);
+    let error = together::inverse_dynamics_batch(&q, &q[..4], &q, &mut tau).unwrap_err();
+    assert_eq!(
+        (error.slice, error.found, error.expected),
+        (Slice::Argument(2), 4, 5)
+    );
+    assert_eq!(
+        error.to_string(),
+        "argument 2 has 4 states, the results have 5"
+    );
+    let (column, short) = ([0.5; 5], [0.5; 2]);
+    let q = [&column[..]; 3];
+    let mut results = [[7.0; 5]; 3];
+    let mut slices = results.each_mut().map(|x| x.as_mut_slice());
+    let qd = [&column[..], &column, &short];
+    let error = together::inverse_dynamics_columns(&q, &qd, &q, &mut slices).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "entry 3 of argument 2 has 2 states, the results have 5"
+    );
+    slices[1] = &mut [];
+    let error = together::inverse_dynamics_columns(&q, &q, &q, &mut slices).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "column 2 of the results has 0 states, the first has 5"
+    );
+    // Nothing was computed.
+    assert_eq!((tau, results), ([[7.0; 3]; 5], [[7.0; 5]; 3]));
+}
+
+/// Halves of halves: who computes a state does not matter.
+#[test]
+fn all_cores_have_the_same_bits() {
+    for count in [0, 1, 1024, 1025, 5000] {
+        let values = numbers(3 * count, 11);
+        let q: Vec<[f64; 3]> = (0..count).map(|k| from_fn(|i| values[3 * k + i])).collect();
+        let (mut one, mut all) = (vec![[0.0; 3]; count], vec![[1.0; 3]; count]);
+        together::inverse_dynamics_batch(&q, &q, &q, &mut one).unwrap();
+        let arguments = [&q[..]; 3];
+        batch::parallel::states::<together::InverseDynamicsBatch, 3, 3, 3>(arguments, &mut all)
+            .unwrap();
+        assert!(one.iter().zip(&all).all(|(a, b)| a.same(b)), "{count}");
+
+        let q = columns(&q);
+        let q = q.each_ref().map(|column| column.as_slice());
+        let mut all = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let mut slices = all.each_mut().map(|column| column.as_mut_slice());
+        let arguments = [&q, &q, &q];
+        batch::parallel::columns::<together::InverseDynamicsBatch, 3, 3, 3>(arguments, &mut slices)
+            .unwrap();
+        for (k, one) in one.iter().enumerate() {
+            assert!([all[0][k], all[1][k], all[2][k]].same(one), "{count}");
+        }
+    }
+}
