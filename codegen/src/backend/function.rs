@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use crate::backend::statement::{last_uses, operand, statement};
 use crate::backend::{MathPath, parts, trig};
-use crate::function::{Argument, Function, Quantity};
+use crate::function::{Argument, Function, Quantity, Sizes};
 use crate::program::{Operand, Output, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
@@ -97,7 +97,7 @@ fn signature(program: &Program, scalar: ScalarType) -> String {
         .collect();
     let result = match (function.structure(), function.quantities()) {
         (Some(name), _) => name.to_owned(),
-        (None, quantities) => array_type(quantities[0], program.rows.len(), scalar),
+        (None, quantities) => array_type(quantities[0], program.sizes(), scalar),
     };
     format!(
         "pub fn {}({}) -> {result}",
@@ -107,15 +107,15 @@ fn signature(program: &Program, scalar: ScalarType) -> String {
 }
 
 /// The array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
-pub fn array_type(quantity: Quantity, n: usize, scalar: ScalarType) -> String {
-    let lengths = quantity.shape().lengths(n).rev();
+pub fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
+    let lengths = quantity.shape().lengths(sizes).rev();
     lengths.fold(scalar.to_string(), |inner, length| {
         format!("[{inner}; {length}]")
     })
 }
 
 /// The struct that a function returns, if it does.
-pub fn structure(function: Function, n: usize, scalar: ScalarType) -> Option<String> {
+pub fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
     let name = function.structure()?;
     let mut text = format!("/// What [`{function}`] returns.\n");
     text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
@@ -123,7 +123,7 @@ pub fn structure(function: Function, n: usize, scalar: ScalarType) -> Option<Str
     for &quantity in function.quantities() {
         let doc = quantity.summary();
         push(&mut text, format_args!("    /// {doc}"));
-        let (field, array) = (quantity.field(), array_type(quantity, n, scalar));
+        let (field, array) = (quantity.field(), array_type(quantity, sizes, scalar));
         push(&mut text, format_args!("    pub {field}: {array},"));
     }
     text.push_str("}\n");
@@ -146,12 +146,12 @@ fn result_item(output: &Output, scalar: ScalarType) -> String {
 }
 
 fn write_result(text: &mut String, program: &Program, scalar: ScalarType) {
-    let n = program.rows.len();
+    let sizes = program.sizes();
     let mut items = program.outputs.iter().map(|o| result_item(o, scalar));
     let function = program.function;
     match function.structure() {
         None => {
-            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(n).collect();
+            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(sizes).collect();
             text.push_str("    ");
             write_array(text, &mut items, &lengths, 1);
             text.push('\n');
@@ -160,7 +160,7 @@ fn write_result(text: &mut String, program: &Program, scalar: ScalarType) {
             push(text, format_args!("    {name} {{"));
             for quantity in function.quantities() {
                 let _ = write!(text, "        {}: ", quantity.field());
-                let lengths: Vec<usize> = quantity.shape().lengths(n).collect();
+                let lengths: Vec<usize> = quantity.shape().lengths(sizes).collect();
                 write_array(text, &mut items, &lengths, 2);
                 text.push_str(",\n");
             }

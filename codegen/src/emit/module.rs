@@ -8,7 +8,7 @@ use super::escape::escaped;
 use super::figures::decimal;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{sines, variant};
+use super::{parameters, sines, variant};
 use crate::backend::{MathPath, function};
 use crate::emit::GeneratedFunction;
 use crate::program::ScalarType;
@@ -127,10 +127,13 @@ fn module(
     }
     for generated in functions {
         text.push('\n');
-        if let Some(structure) = function::structure(generated.function, rows.len(), scalar) {
+        if let Some(structure) =
+            function::structure(generated.function, generated.program.sizes(), scalar)
+        {
             text.push_str(&structure);
             text.push('\n');
         }
+        text.push_str(&parameters::constant(generated.function, setting, scalar));
         let doc = function_doc(generated, setting, scalar);
         text.push_str(&function::with_sines(
             &generated.program,
@@ -308,6 +311,7 @@ fn function_doc(
         );
         lines.push("where a joint moves no inertia, with infinities and NaN.".into());
     }
+    lines.extend(parameters::doc(generated.function, setting));
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
         lines.extend(variant::describe(admitted, setting, scalar));
