@@ -30,7 +30,7 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
                     .into(),
             );
             lines.push(
-                "torques; that these do was proved. Each is of a combination of parameters:".into(),
+                "torques; that these do was proved. Each is a combination of parameters:".into(),
             );
             lines.push(String::new());
             lines.push("| column | base parameter |".into());
@@ -84,6 +84,23 @@ fn has_drives(base: &BaseParameters) -> bool {
     terms.any(|(parameter, _)| !matches!(parameter, Parameter::Link(..)))
 }
 
+/// A constant without factors of one and signs after signs.
+fn plain(constant: &Exact) -> String {
+    let mut text = String::new();
+    for c in constant.to_string().chars() {
+        if c == '*' {
+            let rest = text.strip_suffix('1');
+            let ends = |c: char| c.is_ascii_digit() || c == '.' || c == '/';
+            if let Some(rest) = rest.filter(|rest| !rest.ends_with(ends)) {
+                text.truncate(rest.len());
+                continue;
+            }
+        }
+        text.push(c);
+    }
+    text.replace("+-", " - ").replace('+', " + ")
+}
+
 /// `Izz2 + 0.25 m3 - mx4`; exact.
 fn combination(terms: &[(Parameter, Exact)]) -> String {
     let mut text = String::new();
@@ -98,7 +115,7 @@ fn combination(terms: &[(Parameter, Exact)]) -> String {
         let factor = match factor.as_rational() {
             Some(value) if value.abs().is_one() => String::new(),
             Some(value) => format!("{} ", decimal(&value.abs())),
-            None => format!("({factor}) "),
+            None => format!("({}) ", plain(factor)),
         };
         let _ = write!(text, "{sign}{factor}{parameter}");
     }

@@ -17,7 +17,6 @@
 //! invertible), h_ikm rows × rows × rows.
 
 pub mod base;
-mod elimination;
 mod key;
 mod motion;
 

@@ -13,29 +13,28 @@
 //! 2⁶¹ − 1 at random states: columns that are independent there are
 //! independent. That the others depend on them as they seem to is only a finding;
 //! [`crate::verify::parameters`] proves it.
+//!
+//! - `moments`: the moments that links keep; `origins`: about which points
+//! - `columns`: columns at random states, modulo the prime; `elimination`
 
-use std::cell::RefCell;
+mod columns;
+mod elimination;
+mod moments;
+mod origins;
+
 use std::fmt;
 
-use dalembert_model::equations::chain::body::entry;
-use dalembert_model::equations::chain::{Body, Chain, Probed, Regrouping, Skeleton};
+use dalembert_model::equations::Arm;
+use dalembert_model::equations::chain::{Chain, Probed, Skeleton};
 use dalembert_model::equations::matrix::opposite;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
-use dalembert_model::equations::{Arm, Formulation, SinCosPair};
-use dalembert_model::number::{Angle, Exact, Rational};
-use dalembert_model::robot::JointKind;
+use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::field::{Field, Points};
 
 use super::Setting;
-use super::elimination::{fraction, reduced};
-
-/// Combinations with more monomials than this in a coefficient are not formed:
-/// every odd angle between two joints multiplies them.
-const MAX_TERMS: usize = 400;
-
-/// A seed of its own.
-const SEED: u64 = 0x6261_7365;
+use columns::values;
+use elimination::{fraction, reduced};
+use moments::{MAX_TERMS, Moment, kept, parts};
 
 /// A parameter of the robot file, about the origin of the link's DH frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -113,12 +112,13 @@ impl BaseParameters {
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
         let skeleton = Skeleton::with_columns(&arm, &setting.merged(), &of_links(n));
-        let regrouping = Regrouping::base(&skeleton);
+        let regrouping = origins::chosen(&skeleton);
         // Without bodies of their own: only the frames matter here.
-        let chain = Chain::new(&without_bodies(&skeleton), &regrouping);
+        let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
 
         let mut candidates: Vec<Column<Exact>> = Vec::new();
-        let mut places: Vec<Place> = Vec::new();
+        // A link of the chain, and a moment that it keeps.
+        let mut places: Vec<(usize, Moment)> = Vec::new();
         for (link, segment) in skeleton.links.iter().enumerate() {
             let (turned, moved) = &segment.dh;
             let back = transposed(turned);
@@ -217,149 +217,6 @@ impl BaseParameters {
     }
 }
 
-/// A link of the chain, and a moment that it keeps.
-type Place = (usize, Moment);
-
-/// A moment of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Moment {
-    Mass,
-    First(usize),
-    Second(usize, usize),
-}
-
-impl Moment {
-    fn unit(self) -> Body<Exact> {
-        let mut body = Body::zero();
-        match self {
-            Moment::Mass => body.mass = Exact::one(),
-            Moment::First(axis) => body.first[axis] = Exact::one(),
-            Moment::Second(row, column) => {
-                let is_own = |i, j| (i, j) == (row, column);
-                body.second = dalembert_model::robot::Inertia::symmetric(|i, j| {
-                    if is_own(i, j) {
-                        Exact::one()
-                    } else {
-                        Exact::zero()
-                    }
-                });
-            }
-        }
-        body
-    }
-
-    fn of(self, body: &Body<Exact>) -> &Exact {
-        match self {
-            Moment::Mass => &body.mass,
-            Moment::First(axis) => &body.first[axis],
-            Moment::Second(row, column) => entry(&body.second, row, column),
-        }
-    }
-}
-
-/// What a link keeps where everything moves that can.
-fn kept(kind: JointKind) -> &'static [Moment] {
-    match kind {
-        JointKind::Revolute => &[
-            Moment::Second(0, 0),
-            Moment::Second(1, 1),
-            Moment::Second(0, 1),
-            Moment::Second(0, 2),
-            Moment::Second(1, 2),
-            Moment::First(0),
-            Moment::First(1),
-        ],
-        JointKind::Prismatic => &[
-            Moment::Mass,
-            Moment::First(0),
-            Moment::First(1),
-            Moment::First(2),
-        ],
-    }
-}
-
-/// The frames alone.
-fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
-    let mut empty = skeleton.clone();
-    empty
-        .links
-        .iter_mut()
-        .for_each(|link| link.body = Body::zero());
-    empty
-}
-
-/// What each link keeps of a body of one; `None` where a constant grows too large.
-fn parts(chain: &Chain<Exact>, link: usize, body: &Body<Exact>) -> Option<Vec<Body<Exact>>> {
-    let mut parts = vec![Body::zero(); chain.links.len()];
-    let mut arriving = body.clone();
-    for i in (0..=link).rev() {
-        if terms(&arriving) > MAX_TERMS {
-            return None;
-        }
-        let (stays, moves) = chain.links[i].split_base(&arriving);
-        parts[i] = stays;
-        arriving = moves;
-    }
-    Some(parts)
-}
-
-/// The most monomials of a number of a body.
-fn terms(body: &Body<Exact>) -> usize {
-    let mut most = 0;
-    body.map(|x| most = most.max(x.terms()));
-    most
-}
-
 fn transposed(rotation: &[[Exact; 3]; 3]) -> [[Exact; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|j| rotation[j][i].clone()))
-}
-
-/// Columns modulo the prime, each over the rows of so many random states that
-/// every dependence that is none shows; `None` if a constant has no value.
-fn values(setting: &Setting, columns: &[Column<Exact>]) -> Option<Vec<Vec<Field>>> {
-    let points = RefCell::new(Points::new(SEED));
-    let circle = || {
-        let (sin, cos) = points.borrow_mut().circle();
-        SinCosPair { sin, cos }
-    };
-    // Constant angles are the same in every state.
-    let angles: RefCell<Vec<(Angle, SinCosPair<Field>)>> = RefCell::default();
-    let fits = std::cell::Cell::new(true);
-    let constant = |value: &Exact| {
-        let pair = &mut |angle: &Angle| {
-            let mut angles = angles.borrow_mut();
-            if let Some((_, pair)) = angles.iter().find(|(known, _)| known == angle) {
-                return pair.clone();
-            }
-            let pair = circle();
-            angles.push((angle.clone(), pair.clone()));
-            pair
-        };
-        let found = value.map(&mut |x: &Rational| Field::from_rational(x), pair);
-        found.unwrap_or_else(|| {
-            fits.set(false);
-            Field::ZERO
-        })
-    };
-    let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let columns: Vec<Column<Field>> = columns.iter().map(|c| c.map(constant)).collect();
-    let mut found: Vec<Vec<Field>> = vec![Vec::new(); columns.len()];
-    let states = columns.len() / setting.rows().len().max(1) + 4;
-    for _ in 0..states {
-        let pairs: Vec<SinCosPair<Field>> = setting.joints().iter().map(|_| circle()).collect();
-        let input = |input| match input {
-            crate::program::Input::Sin(angle) => angle.pair(|joint| pairs[joint].clone()).sin,
-            crate::program::Input::Cos(angle) => angle.pair(|joint| pairs[joint].clone()).cos,
-            crate::program::Input::Entry(..) => points.borrow_mut().field(),
-        };
-        let motion = setting.motion(input, constant);
-        let (at, recursion) = (arm.at(&motion.q), Formulation::NewtonEulerLink);
-        let rows = recursion.regressor(&arm, &at, &motion.qd, &motion.qdd, &columns);
-        for &row in setting.rows() {
-            for (column, entry) in found.iter_mut().zip(&rows[row]) {
-                column.push(*entry);
-            }
-        }
-    }
-    fits.get().then_some(found)
 }
