@@ -9,41 +9,12 @@
 
 use alloc::vec::Vec;
 
-use super::chain::Body;
+pub use super::chain::Column;
+use super::chain::body::{Body, entry};
 use super::matrix::{minus, times, zero_vector, zeros};
 use super::{Arm, DhVariables, Formulation, Link};
 use crate::robot::{Inertia, Robot};
 use crate::scalar::Scalar;
-
-/// What a column of a regressor is the torque of.
-#[derive(Clone, Debug)]
-pub enum Column<S> {
-    /// A body that is fixed to a link.
-    Body {
-        /// The joint that moves the link.
-        joint: usize,
-        /// About the origin and in the axes of the link's DH frame.
-        body: Body<S>,
-    },
-    /// A unit of the rotor's inertia that a joint feels.
-    Armature(usize),
-    /// A unit of a joint's viscous friction.
-    Viscous(usize),
-}
-
-impl<S> Column<S> {
-    /// Every number through `f`.
-    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Column<T> {
-        match self {
-            Column::Body { joint, body } => Column::Body {
-                joint: *joint,
-                body: body.map(&mut f),
-            },
-            Column::Armature(joint) => Column::Armature(*joint),
-            Column::Viscous(joint) => Column::Viscous(*joint),
-        }
-    }
-}
 
 /// An inertial parameter of a link, about the origin and in the axes of the
 /// link's DH frame; the tensor's entries as they stand in the matrix.
@@ -119,7 +90,7 @@ impl LinkParameter {
             LinkParameter::First(axis) => body.first[axis].clone(),
             LinkParameter::Tensor(row, column) => {
                 let tensor = body.tensor();
-                super::chain::body::entry(&tensor, row, column).clone()
+                entry(&tensor, row, column).clone()
             }
         }
     }
@@ -246,7 +217,7 @@ fn of_body<S: Scalar>(
     let about_centre = Body {
         second: Inertia::symmetric(|i, j| {
             let own = times(&body.first[i], &body.first[j]);
-            minus(super::chain::body::entry(&body.second, i, j), &own)
+            minus(entry(&body.second, i, j), &own)
         }),
         ..body.clone()
     };

@@ -10,7 +10,8 @@
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
-//! - [`probe`]: the columns of a regressor, what unit bodies take of torque
+//! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
+//!   of torque it takes
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
@@ -25,6 +26,7 @@ mod passivity;
 pub mod pose;
 pub mod probe;
 pub mod recursion;
+mod regressor;
 pub mod regrouping;
 pub mod skeleton;
 mod twist;
@@ -34,7 +36,7 @@ use alloc::vec::Vec;
 pub use body::Body;
 pub use form::Form;
 pub use pose::Displacement;
-pub use probe::{Probe, Probed};
+pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 

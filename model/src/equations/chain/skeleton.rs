@@ -6,10 +6,9 @@
 
 use alloc::vec::Vec;
 
-use super::probe::{Probe, probes};
+use super::probe::{Column, Probe, probes};
 use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
 use crate::equations::matrix::{Vector, plus, sum, zero_vector};
-use crate::equations::regressor::Column;
 use crate::equations::{Arm, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
