@@ -61,7 +61,7 @@ pub(super) const MOTION: [Argument; 3] = [
 /// The chain formulas give both.
 pub(super) const CHOICES: Option<Choices> = Some(Choices {
     recursion: false,
-    travel: false,
+    travel: true,
 });
 
 /// The columns by a textbook formulation.
@@ -73,7 +73,8 @@ pub(super) fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
 
 /// The columns by the chain formulas.
 pub(super) fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
-    let rows = at.chain.regressor(at.at, &at.motion.qd, &at.motion.qdd);
+    let (motion, travel) = (at.motion, at.form.travel);
+    let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd, travel);
     rows.into_iter().flatten().collect()
 }
 
