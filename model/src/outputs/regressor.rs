@@ -30,6 +30,8 @@ impl Formula for BaseRegressor {
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         unit: |_| "",
         choices: CHOICES,
+        // What it shares with what the chain formulas give saves a few.
+        starts_from_recursion: true,
         ..Facts::PLAIN
     };
 
