@@ -1,3 +1,3 @@
 //! The functions that can be generated: the model's registry of outputs.
 
-pub use dalembert_model::outputs::{Argument, ErrorScale, Function, Quantity};
+pub use dalembert_model::outputs::{Argument, Columns, ErrorScale, Function, Quantity, Sizes};

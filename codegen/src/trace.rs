@@ -46,13 +46,14 @@ pub fn trace(setting: &Setting, function: Function, formulation: Formulation) ->
     let constant = |constant: &Exact| Symbol::from(constant.clone());
     let arm = Arm::from_robot(setting.robot(), &mut { constant });
     let motion = symbols(setting, &function.arguments(), &builder);
-    let outputs = function.evaluate(formulation, &arm, &motion);
+    let columns = setting.columns(function, constant);
+    let outputs = function.evaluate(formulation, &arm, &motion, &columns);
     let outputs: Vec<_> = setting
         .select(function, setting.joints(), outputs)
         .iter()
         .map(|output| output.value(&mut builder.borrow_mut()))
         .collect();
-    drop(motion);
+    drop((motion, columns));
     let traced = builder.borrow().asked();
     let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic))
         .finish(&outputs);

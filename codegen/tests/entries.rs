@@ -113,9 +113,17 @@ fn what_brings_the_wrong_value_is_refused() {
     for sincos in [SinCos::Together, SinCos::Libm] {
         let generated = generate(&robot, &request(Entries::Batch, sincos, Start::Auto)).unwrap();
         let angles = angles(&robot, &generated);
+        let sizes = generated.functions[0].program.sizes();
         let read = |text: &str| {
             let function = Function::InverseDynamics;
-            Lowered::parse_entries(text, function, ScalarType::F64, Entries::Batch, &angles)
+            Lowered::parse_entries(
+                text,
+                function,
+                ScalarType::F64,
+                Entries::Batch,
+                &angles,
+                sizes,
+            )
         };
         let own = generated.text.find("pub fn inverse_dynamics(").unwrap();
         let (before, own) = generated.text.split_at(own);
@@ -239,7 +247,14 @@ fn every_line_counts() {
         let rest: Vec<&str> = [&lines[..index], &lines[index + 1..]].concat();
         let function = Function::InverseDynamics;
         let (text, scalar) = (rest.join("\n"), ScalarType::F64);
-        let read = Lowered::parse_entries(&text, function, scalar, Entries::Lanes, &angles);
+        let read = Lowered::parse_entries(
+            &text,
+            function,
+            scalar,
+            Entries::Lanes,
+            &angles,
+            generated.functions[0].program.sizes(),
+        );
         let same = read.is_ok_and(|read| {
             let (program, library) = (&generated.functions[0].program, Library::Together);
             read.matches(program, library, &[]).is_ok()

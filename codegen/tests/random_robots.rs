@@ -89,7 +89,7 @@ fn formulations_agree() {
         let motion = scene::motion(&robot, |input| points.input(input).0[0]);
         let few = if robot.joints.len() > 5 { 5 } else { 6 };
         for function in &Function::ALL[..few] {
-            let of = |formulation| function.evaluate(formulation, &arm, &motion);
+            let of = |formulation| function.evaluate(formulation, &arm, &motion, &[]);
             let [first, rest @ ..] = Formulation::ALL;
             let expected = of(first);
             for formulation in rest {

@@ -85,7 +85,10 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
                 for axis in quantity.shape().0 {
                     let (length, places) = match *axis {
                         Axis::Joints => (n, rows.clone()),
-                        Axis::Fixed(length) => (length, (0..length).collect()),
+                        Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters => {
+                            let length = axis.length(emitted.sizes);
+                            (length, (0..length).collect())
+                        }
                     };
                     let along = |from: &usize| {
                         let from = from * length;
@@ -94,7 +97,7 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
                     wanted = wanted.iter().flat_map(along).collect();
                 }
                 expected.extend(wanted.into_iter().map(|index| full[start + index]));
-                start += quantity.len(n);
+                start += quantity.len(emitted.sizes.over(n));
             }
             assert_eq!(found.len(), expected.len());
             for (found, expected) in found.iter().zip(&expected) {

@@ -3,10 +3,12 @@
 //! It evaluates the recursion of Table 2 in its most accurate form
 //! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface.
 //! Generated code is checked against it. `derivatives` has its slopes,
-//! `forward` what motions torques bring about.
+//! `forward` what motions torques bring about, `regressor` what each parameter
+//! takes of them.
 
 mod derivatives;
 mod forward;
+mod regressor;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -19,6 +21,7 @@ use crate::equations::kinematics::poses;
 use crate::equations::matrix::{Columns, total};
 use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
+use crate::equations::regressor::Column;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, from_torques};
 use crate::number::{Exact, Rounded};
 use crate::robot::{JointKind, Robot};
@@ -90,6 +93,8 @@ pub struct JointVectors<T> {
     pub v: DVector<T>,
     /// Accelerations wished for.
     pub a: DVector<T>,
+    /// What the columns of a regressor are; none where it is not asked for.
+    pub columns: Vec<Column<T>>,
 }
 
 impl<T> JointVectors<T> {
@@ -103,6 +108,7 @@ impl<T> JointVectors<T> {
             tau,
             v,
             a,
+            columns: Vec::new(),
         }
     }
 }

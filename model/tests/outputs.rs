@@ -3,16 +3,19 @@
 
 mod equations_support;
 
+use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::regressor::{Column, LinkParameter, of_links};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
-use dalembert_model::outputs::{Argument, Function, Motion, Quantity, Written};
-use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::outputs::{Argument, Function, Motion, Quantity, Sizes, Written};
+use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
 use equations_support::random::{Case, case, kinds, pair, pose};
 
-/// Every function with its arguments, and its results' axes for six joints.
-const GOLDEN: [&str; 21] = [
+/// Every function with its arguments, and its results' axes for six joints and
+/// 36 base parameters.
+const GOLDEN: [&str; 23] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -34,14 +37,20 @@ const GOLDEN: [&str; 21] = [
     "forward_dynamics(q, qd, tau) -> qdd[6]",
     "inertia_inverse(q) -> d_inv[6][6]",
     "forward_dynamics_derivatives(q, qd, tau) -> dqdd_dq[6][6] dqdd_dqd[6][6] dqdd_dtau[6][6]",
+    "regressor(q, qd, qdd) -> y[6][36]",
+    "full_regressor(q, qd, qdd) -> y[6][60]",
 ];
 
 #[test]
 fn golden_list() {
+    let sizes = Sizes {
+        base: 36,
+        ..Sizes::whole(6)
+    };
     let said = |function: &Function| {
         let arguments: Vec<&str> = function.arguments().iter().map(|a| a.name()).collect();
         let result = |q: &Quantity| {
-            let lengths = q.shape().lengths(6).map(|length| format!("[{length}]"));
+            let lengths = q.shape().lengths(sizes).map(|length| format!("[{length}]"));
             format!(" {}{}", q.field(), lengths.collect::<String>())
         };
         let results: String = function.quantities().iter().map(result).collect();
@@ -101,6 +110,8 @@ fn formulations_agree_on_every_quantity() {
             _ => case.qd.iter().map(|_| points.field()).collect(),
         });
         motion.moves = vec![true; case.qd.len()];
+        // Columns of bodies that no parameter has by itself, and of drives.
+        let columns = columns(&case, &mut points);
         for &quantity in Quantity::ALL {
             let by = |formulation| {
                 quantity.written(&Written {
@@ -108,15 +119,68 @@ fn formulations_agree_on_every_quantity() {
                     arm: &case.arm,
                     at: &case.at,
                     motion: &motion,
+                    columns: &columns,
                 })
             };
             let n = case.arm.links.len();
             let expected = by(Formulation::LagrangeEuler);
-            assert_eq!(expected.len(), quantity.len(n), "{quantity:?}");
+            let sizes = Sizes {
+                base: columns.len(),
+                ..Sizes::whole(n)
+            };
+            assert_eq!(expected.len(), quantity.len(sizes), "{quantity:?}");
             assert!(expected.iter().any(|x| *x != Field::zero()) || n < 6);
             for formulation in Formulation::ALL {
                 assert_eq!(by(formulation), expected, "{quantity:?} {formulation:?}");
             }
+        }
+    }
+}
+
+/// As many columns as a full regressor has.
+fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
+    let n = case.arm.links.len();
+    let mut columns = of_links(n);
+    for (joint, place) in [(0, 3), (n - 1, 7)] {
+        let mut any = || points.field();
+        columns[10 * joint + place] = Column::Body {
+            joint,
+            body: Body {
+                mass: any(),
+                first: [any(), any(), any()],
+                second: Inertia {
+                    xx: any(),
+                    yy: any(),
+                    zz: any(),
+                    xy: any(),
+                    yz: any(),
+                    xz: any(),
+                },
+            },
+        };
+    }
+    (columns[4], columns[5]) = (Column::Armature(n - 1), Column::Viscous(0));
+    columns
+}
+
+/// τ = Y π with π of the links, and what the drives add.
+#[test]
+fn regressors_give_the_torques() {
+    for case in cases() {
+        let Case { arm, at, qd, qdd } = &case;
+        let n = arm.links.len();
+        let tau = Formulation::LagrangeEuler.inverse_dynamics(arm, at, qd, qdd);
+        let y = Formulation::NewtonEulerLink.regressor(arm, at, qd, qdd, &of_links(n));
+        let links = arm.links.iter();
+        let pi: Vec<Field> = links
+            .flat_map(|link| LinkParameter::ALL.map(|parameter| parameter.of(link)))
+            .collect();
+        for i in 0..n {
+            let products = y[i].iter().zip(&pi).map(|(y, pi)| y.mul(pi));
+            let links = products.fold(Field::ZERO, |sum, x| sum.add(&x));
+            let link = &arm.links[i];
+            let drive = link.viscous.mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
+            assert_eq!(links.add(&drive), tau[i]);
         }
     }
 }
@@ -241,6 +305,7 @@ fn forward_dynamics_solves_the_equations_of_motion() {
                     arm: &case.arm,
                     at: &case.at,
                     motion: &motion,
+                    columns: &[],
                 };
                 let expected = quantity.written(&written(Formulation::LagrangeEuler));
                 let recursion = written(Formulation::NewtonEulerLink);

@@ -10,7 +10,7 @@ use std::fmt;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
 
-use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::function::{Function, Quantity, Sizes};
 use dalembert_codegen::generate::MAX_OUTPUTS;
 use dalembert_codegen::graph::{Folding, Graph, Node, NodeId};
 use dalembert_codegen::scene::Setting;
@@ -112,7 +112,7 @@ impl Couplings {
     pub fn of(robot: &Robot) -> Option<Couplings> {
         let function = Function::DynamicCoefficients;
         let n = robot.joints.len();
-        if function.outputs(n) > MAX_OUTPUTS {
+        if function.outputs(Sizes::whole(n)) > MAX_OUTPUTS {
             return None;
         }
         // Which formulation is traced does not matter to the findings: equal
@@ -175,7 +175,7 @@ impl Couplings {
             .joints
             .iter()
             .fold(0, |index, &joint| index * self.joints + joint);
-        entry.quantity.entry(index, self.joints)
+        entry.quantity.entry(index, Sizes::whole(self.joints))
     }
 
     /// The member of a class that a coefficient repeats: one that a rule for
@@ -222,7 +222,7 @@ fn place(quantity: Quantity, joints: &[usize], n: usize) -> usize {
         .quantities()
         .iter()
         .take_while(|&&q| q != quantity)
-        .map(|q| q.len(n))
+        .map(|q| q.len(Sizes::whole(n)))
         .sum();
     before + joints.iter().fold(0, |index, &joint| index * n + joint)
 }

@@ -7,7 +7,7 @@ mod extremes_support;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::function::{Function, Quantity, Sizes};
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
@@ -146,7 +146,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
                 let found = code.run(function, &state).unwrap();
                 let mut start = 0;
                 for &quantity in function.quantities() {
-                    let range = start..start + quantity.len(state.q.len());
+                    let range = start..start + quantity.len(Sizes::whole(state.q.len()));
                     start = range.end;
                     let (found, truth) = (&found[range.clone()], &expected[range]);
                     if overflows(case, scalar) {

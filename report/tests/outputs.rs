@@ -163,16 +163,18 @@ fn scenes_select_along_axes_over_joints() {
         let found = emitted.run(state);
         let (mut start, mut at) = (0, 0);
         for quantity in emitted.function.quantities() {
-            for index in 0..quantity.len(2) {
-                let name = quantity.entry_over(index, &[2, 0], 3);
-                let same = |i: &usize| quantity.entry(*i, 3) == name;
-                let i = (0..quantity.len(3)).find(same).unwrap();
+            let sizes = emitted.sizes;
+            let all = sizes.over(3);
+            for index in 0..quantity.len(sizes) {
+                let name = quantity.entry_over(index, &[2, 0], sizes);
+                let same = |i: &usize| quantity.entry(*i, all) == name;
+                let i = (0..quantity.len(all)).find(same).unwrap();
                 let (a, b) = (found[at + index], full[start + i]);
                 let u = emitted.scalar.unit_roundoff();
                 let error = (a - b).abs() / full.iter().fold(1.0f64, |m, x| m.max(x.abs()));
                 assert!(error < 100.0 * u, "{} {name}: {a} {b}", emitted.function);
             }
-            (start, at) = (start + quantity.len(3), at + quantity.len(2));
+            (start, at) = (start + quantity.len(all), at + quantity.len(sizes));
         }
     }
 }
@@ -189,7 +191,7 @@ fn runtime_gives_what_is_known() {
             let condition = conditions.granted(Function::ForwardDynamics, &state);
             let vector = |values: &[f64]| DVector::from_row_slice(values);
             let at = JointVectors::new(Argument::ALL.map(|argument| vector(state.of(argument))));
-            assert_eq!(known.len(), 12);
+            assert_eq!(known.len(), 13);
             for (quantity, expected) in known {
                 let found = quantity.runtime(&runtime, &at).unwrap();
                 assert_eq!(found.len(), expected.len());

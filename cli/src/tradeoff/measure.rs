@@ -191,7 +191,7 @@ fn source(points: &[Point]) -> String {
         let scalar = certificate.scalar;
         // Writing to a string cannot fail.
         let _ = writeln!(text, "mod v{index} {{");
-        if let Some(structure) = structure(program.function, program.rows.len(), scalar) {
+        if let Some(structure) = structure(program.function, program.sizes(), scalar) {
             text += &structure;
         }
         text += "#[inline(never)]\n";

@@ -24,7 +24,7 @@ use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
 use crate::certificate::{Certificate, Refuted};
 use crate::edits::{Stage, has_edits};
-use crate::function::{Argument, Function};
+use crate::function::{Argument, Columns, Function};
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::scene::Setting;
 use crate::sincos::TooAccurate;
@@ -115,6 +115,8 @@ pub enum Unbounded {
     Reads(Argument),
     /// Its program divides.
     Divides,
+    /// It is a regressor: what multiplies its entries is not known.
+    Parameters,
 }
 
 impl Unbounded {
@@ -122,6 +124,9 @@ impl Unbounded {
     pub fn of(function: Function) -> Option<Unbounded> {
         let mut arguments = function.arguments().into_iter();
         let other = arguments.find(|argument| !Argument::STATE.contains(argument));
+        if function.columns() != Columns::None {
+            return Some(Unbounded::Parameters);
+        }
         match function.inverts_inertia() {
             true => Some(Unbounded::Divides),
             false => other.map(Unbounded::Reads),
@@ -138,6 +143,7 @@ impl fmt::Display for Unbounded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unbounded::Divides => f.write_str("it divides by what depends on the state")?,
+            Unbounded::Parameters => f.write_str("its entries multiply parameters of any size")?,
             Unbounded::Reads(argument) => {
                 write!(f, "no box bounds its argument `{}`", argument.name())?;
             }

@@ -51,9 +51,9 @@ pub fn with_sines(
 /// What follows the sines: the arithmetic and the result.
 pub(super) fn write_body(text: &mut String, program: &Program, scalar: ScalarType) {
     write_steps(text, program, scalar);
-    let (function, n) = (program.function, program.rows.len());
+    let (function, sizes) = (program.function, program.sizes());
     let items = program.outputs.iter().map(|o| result_item(o, scalar));
-    result::write(text, function, function.structure(), n, items);
+    result::write(text, function, function.structure(), sizes, items);
 }
 
 /// Documentation, one line an item.
@@ -121,7 +121,7 @@ pub(super) fn result_type(program: &Program, scalar: ScalarType) -> String {
     let function = program.function;
     match function.structure() {
         Some(name) => name.to_owned(),
-        None => array_type(function.quantities()[0], program.rows.len(), scalar),
+        None => array_type(function.quantities()[0], program.sizes(), scalar),
     }
 }
 

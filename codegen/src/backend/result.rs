@@ -2,41 +2,41 @@
 
 use std::fmt::Write;
 
-use crate::function::{Function, Quantity};
+use crate::function::{Function, Quantity, Sizes};
 use crate::program::ScalarType;
 
 /// The array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
 /// An entry is of a type of its own, such as `[f64; L]`.
-pub(super) fn array_of(entry: &str, quantity: Quantity, n: usize) -> String {
-    let lengths = quantity.shape().lengths(n).rev();
+pub(super) fn array_of(entry: &str, quantity: Quantity, sizes: Sizes) -> String {
+    let lengths = quantity.shape().lengths(sizes).rev();
     lengths.fold(entry.to_owned(), |inner, length| {
         format!("[{inner}; {length}]")
     })
 }
 
-/// The array type of a quantity over n joints.
-pub fn array_type(quantity: Quantity, n: usize, scalar: ScalarType) -> String {
-    array_of(scalar.name(), quantity, n)
+/// The array type of a quantity.
+pub fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
+    array_of(scalar.name(), quantity, sizes)
 }
 
 /// The struct that a function returns, if it does.
-pub fn structure(function: Function, n: usize, scalar: ScalarType) -> Option<String> {
+pub fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
     let name = function.structure()?;
     let mut text = format!("/// What [`{function}`] returns.\n");
     text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
     // Writing to a string cannot fail.
     let _ = writeln!(text, "pub struct {name} {{");
-    fields(&mut text, function, scalar.name(), n);
+    fields(&mut text, function, scalar.name(), sizes);
     text.push_str("}\n");
     Some(text)
 }
 
 /// The fields of the struct that a function returns, a line and its
 /// documentation each.
-pub(super) fn fields(text: &mut String, function: Function, entry: &str, n: usize) {
+pub(super) fn fields(text: &mut String, function: Function, entry: &str, sizes: Sizes) {
     for &quantity in function.quantities() {
         let (doc, field) = (quantity.summary(), quantity.field());
-        let array = array_of(entry, quantity, n);
+        let array = array_of(entry, quantity, sizes);
         let _ = writeln!(text, "    /// {doc}\n    pub {field}: {array},");
     }
 }
@@ -47,12 +47,12 @@ pub(super) fn write(
     text: &mut String,
     function: Function,
     structure: Option<&str>,
-    n: usize,
+    sizes: Sizes,
     mut items: impl Iterator<Item = String>,
 ) {
     match structure {
         None => {
-            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(n).collect();
+            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(sizes).collect();
             text.push_str("    ");
             write_array(text, &mut items, &lengths, 1);
             text.push('\n');
@@ -61,7 +61,7 @@ pub(super) fn write(
             let _ = writeln!(text, "    {name} {{");
             for quantity in function.quantities() {
                 let _ = write!(text, "        {}: ", quantity.field());
-                let lengths: Vec<usize> = quantity.shape().lengths(n).collect();
+                let lengths: Vec<usize> = quantity.shape().lengths(sizes).collect();
                 write_array(text, &mut items, &lengths, 2);
                 text.push_str(",\n");
             }

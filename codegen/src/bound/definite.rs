@@ -116,13 +116,13 @@ pub fn least_eigenvalue(
 
 /// Where D starts among the outputs.
 fn start(program: &Program) -> Option<usize> {
-    let n = program.rows.len();
+    let sizes = program.sizes();
     let mut start = 0;
     for quantity in program.function.quantities() {
         if quantity.is_definite() {
             return Some(start);
         }
-        start += quantity.len(n);
+        start += quantity.len(sizes);
     }
     None
 }

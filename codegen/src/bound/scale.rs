@@ -66,11 +66,11 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
     let acceleration = |joint| read(joint, "acceleration", |limits| &limits.acceleration);
     let inertia =
         |i, k| -> Result<f64, MissingLimit> { Ok((torque(i)? / acceleration(k)?).next_down()) };
-    let rows = &program.rows;
+    let (rows, sizes) = (&program.rows, program.sizes());
     let mut scales = Vec::new();
     for quantity in program.function.quantities() {
-        for index in 0..quantity.len(rows.len()) {
-            let joints: Vec<usize> = quantity.joints(index, rows).collect();
+        for index in 0..quantity.len(sizes) {
+            let joints: Vec<usize> = quantity.joints(index, rows, sizes).collect();
             scales.push(match (quantity.scale(), joints.as_slice()) {
                 (ErrorScale::Load, &[i]) => torque(i)?,
                 (ErrorScale::Inertia, &[i, k]) => inertia(i, k)?.min(inertia(k, i)?),
@@ -88,7 +88,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
 /// The tolerance of each output: that of its joint, for an entry of D the
 /// smaller of its two joints'.
 pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
-    let rows = &program.rows;
+    let (rows, sizes) = (&program.rows, program.sizes());
     // Down: nothing is allowed that the decimal does not allow.
     let of = |joint: usize| {
         let value = tolerance.of(joint).map(f64::nearest_rational);
@@ -100,10 +100,10 @@ pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     };
     let mut all = Vec::new();
     for quantity in program.function.quantities() {
-        for index in 0..quantity.len(rows.len()) {
+        for index in 0..quantity.len(sizes) {
             all.push(
                 quantity
-                    .joints(index, rows)
+                    .joints(index, rows, sizes)
                     .map(of)
                     .fold(f64::INFINITY, f64::min),
             );

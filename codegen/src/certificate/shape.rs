@@ -73,7 +73,7 @@ impl Checker<'_> {
             ),
             (
                 "number of results",
-                program.outputs.len() == function.outputs(rows.len()),
+                program.outputs.len() == function.outputs(self.setting.sizes(function)),
             ),
         ];
         if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {

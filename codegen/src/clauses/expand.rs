@@ -198,6 +198,7 @@ fn functions(
                 | GenerateError::Contradicted { function, .. }
                 | GenerateError::Singular { function, .. }
                 | GenerateError::TooLarge { function, .. }
+                | GenerateError::Base(function, _)
                 | GenerateError::SinCos(function, _)
                 | GenerateError::Disproved(function, _)
                 | GenerateError::Tolerance(function, _)

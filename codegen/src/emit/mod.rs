@@ -7,11 +7,13 @@
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
 //!   are relative to; `sines`: polynomials for sines; [`figures`]: numbers
 //!   rounded to the side that stays true
+//! - `parameters`: what the columns of a regressor are
 
 mod escape;
 pub mod figures;
 mod generated;
 pub mod module;
+mod parameters;
 mod scale;
 mod scene;
 mod sines;

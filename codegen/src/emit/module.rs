@@ -8,7 +8,7 @@ use super::escape::escaped;
 use super::figures::decimal;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{sines, variant};
+use super::{parameters, sines, variant};
 use crate::backend::entries::angles::Angles;
 use crate::backend::entries::{self, Around};
 use crate::backend::{Entries, MathPath, function, result};
@@ -137,10 +137,12 @@ fn module(
     }
     for generated in functions {
         text.push('\n');
-        if let Some(structure) = result::structure(generated.function, rows.len(), scalar) {
+        let sizes = generated.program.sizes();
+        if let Some(structure) = result::structure(generated.function, sizes, scalar) {
             text.push_str(&structure);
             text.push('\n');
         }
+        text.push_str(&parameters::constant(generated.function, setting, scalar));
         let doc = function_doc(generated, setting, scalar);
         let (program, sines) = (&generated.program, generated.sines(scalar));
         text.push_str(&match options.entries {
@@ -329,6 +331,7 @@ fn function_doc(
         );
         lines.push("where a joint moves no inertia, with infinities and NaN.".into());
     }
+    lines.extend(parameters::doc(generated.function, setting));
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
         lines.extend(variant::describe(admitted, setting, scalar));

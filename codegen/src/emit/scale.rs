@@ -50,11 +50,11 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
 
 /// The unit of each output.
 pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
-    let rows = &program.rows;
+    let (rows, sizes) = (&program.rows, program.sizes());
     let mut units = Vec::new();
     for quantity in program.function.quantities() {
-        let entries = 0..quantity.len(rows.len());
-        units.extend(entries.map(|index| quantity.unit(index, rows, robot)));
+        let entries = 0..quantity.len(sizes);
+        units.extend(entries.map(|index| quantity.unit(index, rows, sizes, robot)));
     }
     units
 }

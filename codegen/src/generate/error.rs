@@ -7,6 +7,7 @@ use crate::certificate::Refuted;
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::scene::SettingError;
+use crate::scene::base::NoBase;
 use crate::verify::exact::Disproof;
 
 /// Why nothing was generated.
@@ -76,6 +77,8 @@ pub enum GenerateError {
         /// What was seen.
         why: String,
     },
+    /// The base parameters cannot be written down.
+    Base(Function, NoBase),
     /// No variant meets the scene's tolerance.
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
@@ -149,6 +152,7 @@ impl fmt::Display for GenerateError {
                 f,
                 "`{function}` in {scalar} was proved, but not when it was run: {why}"
             ),
+            GenerateError::Base(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
                 write!(f, "the plan's variant of `{function}`: {why}")

@@ -29,13 +29,14 @@ use crate::backend::read::TextError;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
-use crate::function::Function;
+use crate::function::{Columns, Function};
 use crate::program::{Lowered, ScalarType};
 use crate::scene::{Setting, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
 use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
+use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
@@ -180,7 +181,12 @@ fn one(
     function: Function,
     request: &Request,
 ) -> Result<GeneratedFunction, GenerateError> {
-    let outputs = function.outputs(setting.rows().len());
+    if function.columns() == Columns::Base {
+        let base = setting.base();
+        let base = base.map_err(|why| GenerateError::Base(function, why))?;
+        prove_base(setting, base).map_err(|why| GenerateError::Disproved(function, why))?;
+    }
+    let outputs = function.outputs(setting.sizes(function));
     if outputs > MAX_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
@@ -250,8 +256,15 @@ fn read_back(
     let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
     let section = section.ok_or_else(|| fail("its module is not in the text".into()))?;
     let (function, entries) = (generated.function, request.entries);
-    let read = Lowered::parse_entries(section, function, scalar, entries, angles)
-        .map_err(|error: TextError| fail(error.to_string()))?;
+    let read = Lowered::parse_entries(
+        section,
+        function,
+        scalar,
+        entries,
+        angles,
+        generated.program.sizes(),
+    )
+    .map_err(|error: TextError| fail(error.to_string()))?;
     let library = request.math.library;
     read.matches(&generated.program, library, generated.sines(scalar))
         .map_err(fail)?;
@@ -261,6 +274,7 @@ fn read_back(
     Ok(Emitted {
         function: generated.function,
         scalar,
+        sizes: generated.program.sizes(),
         text: read,
     })
 }

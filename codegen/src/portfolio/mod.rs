@@ -12,6 +12,7 @@ use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Displacement, Regrouping, Skeleton};
+use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, Written};
@@ -39,6 +40,8 @@ fn written(setting: &Setting, quantity: Quantity, motion: &Motion<Symbol>) -> Ve
         arm: &arm,
         at: &arm.at(&motion.q),
         motion,
+        // Regressors the chain formulas give.
+        columns: &[],
     })
 }
 
@@ -83,8 +86,17 @@ pub fn trace_chain(
 
 /// What moves, with exact parameters, the base folded.
 pub fn skeleton(setting: &Setting) -> Skeleton<Exact> {
+    with_columns(setting, &[])
+}
+
+/// The same for a function: if it is a regressor, with its columns.
+pub fn skeleton_for(setting: &Setting, function: Function) -> Skeleton<Exact> {
+    with_columns(setting, &setting.columns(function, Exact::clone))
+}
+
+fn with_columns(setting: &Setting, columns: &[Column<Exact>]) -> Skeleton<Exact> {
     let arm = Arm::from_robot(setting.robot(), &mut Exact::clone).fold_base();
-    Skeleton::new(&arm, &setting.merged())
+    Skeleton::with_columns(&arm, &setting.merged(), columns)
 }
 
 /// Where a graph comes from.
@@ -180,7 +192,7 @@ pub fn tuned(
     from: &[Regrouping<Exact>],
     watch: Option<FunctionWatch<'_>>,
 ) -> Tuned {
-    let arm = skeleton(setting);
+    let arm = skeleton_for(setting, function);
     let forms = function.forms();
     let tried = Cell::new(0);
     let is_over = || {
@@ -285,7 +297,7 @@ pub fn regrouped(
     function: Function,
     regrouping: &Regrouping<Exact>,
 ) -> Vec<Variant> {
-    let mut chain = Chain::new(&skeleton(setting), regrouping);
+    let mut chain = Chain::new(&skeleton_for(setting, function), regrouping);
     let mut variants = Vec::new();
     for axes in axes(&chain) {
         for (link, axes) in chain.links.iter_mut().zip(axes) {
@@ -331,7 +343,7 @@ pub fn in_gauge(
     merged(
         setting,
         function,
-        &Chain::new(&skeleton(setting), regrouping),
+        &Chain::new(&skeleton_for(setting, function), regrouping),
         form,
     )
 }

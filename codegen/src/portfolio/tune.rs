@@ -44,6 +44,7 @@ pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
         // must not be reached by constants that may be too large.
         let part = Skeleton {
             gravity: arm.gravity.clone(),
+            columns: arm.columns,
             links: arm.links[i - 1..].to_vec(),
         };
         let mut choice = regrouping.clone();

@@ -31,7 +31,7 @@ use std::collections::BTreeMap;
 
 use dalembert_model::number::Exact;
 
-use crate::function::{Argument, Function};
+use crate::function::{Argument, Columns, Function, Sizes};
 pub use counts::Counts;
 pub use evaluate::evaluate;
 pub use input::{AngleSum, Input};
@@ -181,6 +181,21 @@ impl Program {
 }
 
 impl Program {
+    /// What the lengths of its results follow from: how many base parameters
+    /// there are, from how many results.
+    pub fn sizes(&self) -> Sizes {
+        let rows = self.rows.len();
+        let base = match self.function.columns() {
+            Columns::Base => self.outputs.len() / rows.max(1),
+            Columns::None | Columns::Links => 0,
+        };
+        Sizes {
+            rows,
+            joints: self.joints,
+            base,
+        }
+    }
+
     /// Whether it divides.
     pub fn divides(&self) -> bool {
         let mut steps = self.steps.iter();

@@ -51,7 +51,7 @@ pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), 
         let value = read_operand(word, program)?;
         program.outputs.push(Output { negative, value });
     }
-    let expected = program.function.outputs(program.rows.len());
+    let expected = program.function.outputs(program.sizes());
     if program.outputs.len() != expected {
         let found = program.outputs.len();
         return Err(format!("expected {expected} results, found {found}"));

@@ -16,18 +16,22 @@
 //! entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
+pub mod base;
 mod key;
 mod motion;
 
 use std::fmt;
+use std::sync::OnceLock;
 
 use dalembert_model::equations::JointPosition;
+use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Axis, Motion};
+use dalembert_model::outputs::{Axis, Columns, Motion, Sizes};
 use dalembert_model::robot::{Position, Robot, Severity};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
+use base::{BaseParameters, NoBase};
 pub use key::{SceneKey, input_hash};
 pub use motion::motion;
 
@@ -45,6 +49,8 @@ pub struct Setting {
     chained: Vec<usize>,
     /// An entry a joint.
     locks: Vec<Option<JointPosition<Exact>>>,
+    /// Found where a function is over them.
+    base: OnceLock<Result<BaseParameters, NoBase>>,
 }
 
 /// Why there is no such setting.
@@ -81,6 +87,7 @@ impl Setting {
             chained: joints.clone(),
             joints,
             locks: vec![None; n],
+            base: OnceLock::new(),
         }
     }
 
@@ -107,6 +114,7 @@ impl Setting {
                 .collect(),
             rows,
             locks,
+            base: OnceLock::new(),
         })
     }
 
@@ -219,6 +227,46 @@ impl Setting {
         motion
     }
 
+    /// The base parameters.
+    ///
+    /// # Errors
+    /// Why there are none that could be written down.
+    pub fn base(&self) -> Result<&BaseParameters, NoBase> {
+        let found = self.base.get_or_init(|| BaseParameters::of(self));
+        found.as_ref().map_err(|why| *why)
+    }
+
+    /// What the columns of a function's regressor are; none of other functions,
+    /// and where there are no base parameters.
+    pub fn columns<S: Scalar>(
+        &self,
+        function: Function,
+        mut constant: impl FnMut(&Exact) -> S,
+    ) -> Vec<Column<S>> {
+        match function.columns() {
+            Columns::None => Vec::new(),
+            Columns::Links => of_links(self.joints.len()),
+            Columns::Base => {
+                let columns = self.base().map_or(&[][..], |base| &base.columns);
+                columns.iter().map(|c| c.map(&mut constant)).collect()
+            }
+        }
+    }
+
+    /// What the lengths of a function's results follow from.
+    pub fn sizes(&self, function: Function) -> Sizes {
+        self.sizes_of(function.columns() == Columns::Base)
+    }
+
+    fn sizes_of(&self, is_over_base: bool) -> Sizes {
+        let base = is_over_base.then(|| self.base().ok()).flatten();
+        Sizes {
+            rows: self.rows.len(),
+            joints: self.joints.len(),
+            base: base.map_or(0, |base| base.columns.len()),
+        }
+    }
+
     /// The results over the rows, from results over these joints; both flat,
     /// in the order of the function's quantities.
     pub fn select<S: Clone>(
@@ -230,9 +278,10 @@ impl Setting {
         if joints == self.rows {
             return outputs;
         }
-        let mut selected = Vec::with_capacity(function.outputs(self.rows.len()));
+        let sizes = self.sizes(function);
+        let mut selected = Vec::with_capacity(function.outputs(sizes));
         for &quantity in function.quantities() {
-            let rest = outputs.split_off(quantity.len(joints.len()));
+            let rest = outputs.split_off(quantity.len(sizes.over(joints.len())));
             selected.extend(self.select_of(quantity, joints, outputs));
             outputs = rest;
         }
@@ -251,18 +300,18 @@ impl Setting {
         }
         let place = |row: &usize| joints.iter().position(|joint| joint == row);
         let places: Vec<usize> = self.rows.iter().filter_map(place).collect();
-        let (n, k) = (joints.len(), places.len());
         let shape = quantity.shape();
+        let sizes = self.sizes_of(shape.is_over_base());
         let entry = |index: usize| {
-            let axes = shape.0.iter().zip(shape.places(index, k));
+            let axes = shape.0.iter().zip(shape.places(index, sizes));
             // The place of the entry among those over all joints.
             let from = axes.fold(0, |from, (axis, place)| match axis {
-                Axis::Joints => from * n + places[place],
-                Axis::Fixed(length) => from * length + place,
+                Axis::Joints => from * joints.len() + places[place],
+                other => from * other.length(sizes) + place,
             });
             values[from].clone()
         };
-        (0..shape.len(k)).map(entry).collect()
+        (0..shape.len(sizes)).map(entry).collect()
     }
 }
 

@@ -23,6 +23,7 @@
 use std::cell::{Cell, RefCell};
 use std::fmt;
 
+use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::Motion;
@@ -34,6 +35,7 @@ use super::degree::Degree;
 use super::miss;
 use super::ratio::Ratio;
 use super::size::Denominators;
+use crate::function::Function;
 use crate::program::Program;
 use crate::scene::Setting;
 
@@ -75,6 +77,12 @@ pub enum Disproof {
     /// What should solve an equation of the arm does not: a defect of this
     /// library.
     Equation,
+    /// The base parameters do not give what a parameter takes of torque: a
+    /// defect of this library.
+    Dependence {
+        /// The parameter's name.
+        parameter: String,
+    },
     /// The program has another number of outputs.
     Shape,
     /// Constants or divisors vanish, or have no value, modulo prime after prime.
@@ -110,6 +118,10 @@ impl fmt::Display for Disproof {
                 write!(f, "{entry} differs from the formula as written")
             }
             Disproof::Equation => f.write_str("the formula does not solve its own equation"),
+            Disproof::Dependence { parameter } => write!(
+                f,
+                "the base parameters do not give what {parameter} takes of torque"
+            ),
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
             Disproof::Unfit => write!(
                 f,
@@ -144,8 +156,8 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
     let expected = |point: &Point| {
         let input = |input| point.input(input);
         let constant = |constant: &Exact| point.constant(constant);
-        let formula = Formula::new(setting, yardstick, input, constant);
-        formula.map_or(Ok(None), |formula| formula.checked(program, point))
+        let formula = Formula::new(setting, program.function, yardstick, input, constant);
+        formula.map_or(Ok(None), |formula| formula.checked(point))
     };
     compare(transcript, program, expected)?;
     let denominators = RefCell::default();
@@ -153,8 +165,8 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
         let degree = Ratio::constant(constant, &mut denominators.borrow_mut());
         Some(degree)
     };
-    let formula = Formula::new(setting, yardstick, Ratio::input, constant);
-    let formula = formula.map_or_else(Vec::new, |formula| formula.results(program));
+    let formula = Formula::new(setting, program.function, yardstick, Ratio::input, constant);
+    let formula = formula.map_or_else(Vec::new, |formula| formula.results());
     let mut denominators = denominators.borrow().clone();
     let (degree, height) = bounded(program, &formula, &mut denominators)?;
     Ok(Proof {
@@ -182,17 +194,20 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
 
 /// A formula over the whole arm at a motion: a locked joint is one whose pair
 /// or position is constant and whose rates are zero.
-struct Formula<'a, S> {
+pub(super) struct Formula<'a, S> {
     setting: &'a Setting,
+    function: Function,
     yardstick: Formulation,
     arm: Arm<S>,
     motion: Motion<S>,
+    columns: Vec<Column<S>>,
 }
 
 impl<'a, S: Divide> Formula<'a, S> {
     /// From the values of inputs and constants; `None` if a constant has none.
-    fn new(
+    pub(super) fn new(
         setting: &'a Setting,
+        function: Function,
         yardstick: Formulation,
         input: impl FnMut(crate::program::Input) -> S,
         constant: impl Fn(&Exact) -> Option<S>,
@@ -206,27 +221,30 @@ impl<'a, S: Divide> Formula<'a, S> {
         };
         let arm = Arm::from_robot(setting.robot(), &mut { constant });
         let motion = setting.motion(input, constant);
+        let columns = setting.columns(function, constant);
         (!failed.get()).then_some(Formula {
             setting,
+            function,
             yardstick,
             arm,
             motion,
+            columns,
         })
     }
 
-    fn evaluate(&self, program: &Program) -> Vec<S> {
-        let function = program.function;
-        function.evaluate(self.yardstick, &self.arm, &self.motion)
+    fn evaluate(&self) -> Vec<S> {
+        let function = self.function;
+        function.evaluate(self.yardstick, &self.arm, &self.motion, &self.columns)
     }
 
-    fn select(&self, program: &Program, outputs: Vec<S>) -> Vec<S> {
+    fn select(&self, outputs: Vec<S>) -> Vec<S> {
         let joints = self.setting.joints();
-        self.setting.select(program.function, joints, outputs)
+        self.setting.select(self.function, joints, outputs)
     }
 
     /// The results over the setting's rows.
-    fn results(&self, program: &Program) -> Vec<S> {
-        self.select(program, self.evaluate(program))
+    pub(super) fn results(&self) -> Vec<S> {
+        self.select(self.evaluate())
     }
 }
 
@@ -234,10 +252,11 @@ impl Formula<'_, Residue> {
     /// The results over the setting's rows, which solve the equations that
     /// they are to solve: D q̈ + h + c + b∘q̇ = τ, D D⁻¹ = 1, or their slopes,
     /// with D and the loads as written. None where they have no values.
-    fn checked(&self, program: &Program, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
-        let outputs = self.evaluate(program);
-        let function = program.function;
-        let residual = function.residual(self.yardstick, &self.arm, &self.motion, &outputs);
+    fn checked(&self, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
+        let outputs = self.evaluate();
+        let residual = self
+            .function
+            .residual(self.yardstick, &self.arm, &self.motion, &outputs);
         for value in residual {
             match value.value(point.prime()) {
                 None => return Ok(None),
@@ -245,7 +264,7 @@ impl Formula<'_, Residue> {
                 Some(_) => return Err(Disproof::Equation),
             }
         }
-        Ok(Some(self.select(program, outputs)))
+        Ok(Some(self.select(outputs)))
     }
 }
 
@@ -318,9 +337,9 @@ impl Program {
     /// The name of an output: `D_12`, `h_346`.
     pub fn entry(&self, mut index: usize) -> String {
         for quantity in self.function.quantities() {
-            let len = quantity.len(self.rows.len());
+            let len = quantity.len(self.sizes());
             if index < len {
-                return quantity.entry_over(index, &self.rows, self.joints);
+                return quantity.entry_over(index, &self.rows, self.sizes());
             }
             index -= len;
         }

@@ -14,7 +14,7 @@ use dalembert_model::outputs::Motion;
 use dalembert_model::robot::Robot;
 
 use super::condition::Condition;
-use crate::function::{Function, Quantity};
+use crate::function::{Function, Quantity, Sizes};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
@@ -37,6 +37,8 @@ pub struct Emitted {
     pub function: Function,
     /// Its scalar.
     pub scalar: ScalarType,
+    /// What the lengths of its results follow from.
+    pub sizes: Sizes,
     /// Its text.
     pub text: Lowered,
 }
@@ -126,7 +128,8 @@ impl Runtime {
             true => &self.whole,
             false => &self.arm,
         };
-        let results = function.evaluate(Formulation::NewtonEulerLink, arm, &motion);
+        let columns = self.setting.columns(function, f64::nearest);
+        let results = function.evaluate(Formulation::NewtonEulerLink, arm, &motion, &columns);
         let joints = self.setting.joints();
         self.setting.select(function, joints, results)
     }
@@ -172,7 +175,7 @@ impl Emitted {
         let mut measures = Vec::new();
         let mut start = 0;
         for &quantity in self.function.quantities() {
-            let range = start..start + quantity.len(self.rows());
+            let range = start..start + quantity.len(self.sizes);
             start = range.end;
             let part = |values: &'_ [f64]| values[range.clone()].to_vec();
             let cases = cases.iter();
@@ -198,14 +201,6 @@ impl Emitted {
             (trig.angle, worst)
         })
         .collect()
-    }
-
-    /// How many joints the results are over: all, or those of a scene.
-    fn rows(&self) -> usize {
-        let found = self.text.outputs.len();
-        let rows = 1..=Robot::MAX_JOINTS;
-        let mut rows = rows.filter(|&rows| self.function.outputs(rows) == found);
-        rows.next().unwrap_or(0)
     }
 
     fn measure(&self, quantity: Quantity, error: f64) -> Measure {

@@ -4,6 +4,7 @@
 //! - [`rounding`]: what rounding costs a program, estimated
 //! - [`exact`]: the program equals Lagrange–Euler as written, modulo primes
 //! - [`challenge`]: which primes and points, drawn from what is to be proved
+//! - [`parameters`]: base parameters give every torque, modulo primes
 //! - [`singular`]: whether D has an inverse, and which joint it lacks one for
 //! - [`condition`]: how close D is to singular at a state
 //! - [`miss`], [`degree`], [`ratio`], `size`: how likely that check is to miss a difference
@@ -18,6 +19,7 @@ pub mod degree;
 pub mod exact;
 pub mod floating;
 pub mod miss;
+pub mod parameters;
 pub mod ratio;
 pub mod reference;
 pub mod rounding;

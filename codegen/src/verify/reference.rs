@@ -6,13 +6,14 @@
 //! it: `Known` carries the size of all that a value was made of, every sum
 //! and difference replaced by the sum of magnitudes.
 
+use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Angle, Exact, Rational, Rounded, Wide};
 use dalembert_model::outputs::Axis;
 use dalembert_model::scalar::{Divide, Scalar, SinCosPair};
 use num_traits::Zero;
 
-use crate::function::{Function, Quantity};
+use crate::function::{Columns, Function, Quantity};
 use crate::program::{AngleSum, Input};
 use crate::scene::Setting;
 use crate::states::JointState;
@@ -78,7 +79,9 @@ impl<'s> Reference<'s> {
             }
         };
         let motion = self.setting.motion(input, Known::of);
-        let results = function.evaluate(Formulation::NewtonEulerLink, &self.arm, &motion);
+        let columns = self.setting.columns(function, Known::of);
+        let recursion = Formulation::NewtonEulerLink;
+        let results = function.evaluate(recursion, &self.arm, &motion, &columns);
         let results = self
             .setting
             .select(function, self.setting.joints(), results);
@@ -94,6 +97,10 @@ impl<'s> Reference<'s> {
 pub fn recursions(function: Function, joints: usize) -> usize {
     let of = |quantity: &Quantity| {
         let axes = quantity.shape().0.iter();
+        if function.columns() != Columns::None {
+            // Two for each column, of which there are ten a link at most.
+            return 2 * LinkParameter::COUNT * joints;
+        }
         match axes.filter(|axis| **axis == Axis::Joints).count() {
             0 | 1 => 1,
             2 => joints,

@@ -48,7 +48,7 @@ impl Rounding {
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let mut start = 0;
         for quantity in program.function.quantities() {
-            let range = start..start + quantity.len(program.rows.len());
+            let range = start..start + quantity.len(program.sizes());
             start = range.end;
             let normwise = largest(&mut runs.iter().map(|run| {
                 let size = largest(&mut run[range.clone()].iter().map(|(value, _)| value.abs()));

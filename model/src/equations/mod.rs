@@ -15,6 +15,7 @@
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
 //! | [`Arm::from_robot`], [`pose_of`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
+//! | [`regressor`] | Y in τ = Y π of every formulation, the parameters that its columns are of |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i in every form: armature is part of
@@ -42,6 +43,7 @@ pub mod kinematics;
 pub mod lagrange_euler;
 pub mod matrix;
 pub mod newton_euler;
+pub mod regressor;
 
 pub use crate::scalar::SinCosPair;
 pub use arm::{Arm, DhVariables, JointPosition, Link};

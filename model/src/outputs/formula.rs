@@ -6,6 +6,7 @@ use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
+use crate::equations::regressor::Column;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -115,6 +116,8 @@ pub struct Written<'a, S> {
     pub at: &'a [DhVariables<S>],
     /// How it moves.
     pub motion: &'a Motion<S>,
+    /// What the columns of a regressor are; none where nothing asked is one.
+    pub columns: &'a [Column<S>],
 }
 
 /// A chain in motion, and how its formulas are associated.

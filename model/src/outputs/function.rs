@@ -3,8 +3,9 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Argument, Function, Motion, Quantity, Written};
+use super::{Argument, Axis, Function, Motion, Quantity, Sizes, Written};
 use crate::equations::chain::Form;
+use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
@@ -20,6 +21,17 @@ pub(super) struct Definition {
     pub structure: Option<&'static str>,
     /// Whether it is generated where nobody says which functions are wanted.
     pub by_default: bool,
+}
+
+/// Which columns of a regressor a function's results are over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Columns {
+    /// None: it is no regressor.
+    None,
+    /// Every inertial parameter of every link.
+    Links,
+    /// The base parameters.
+    Base,
 }
 
 impl Function {
@@ -63,24 +75,39 @@ impl Function {
         self.definition().structure
     }
 
-    /// How many numbers it returns for n joints.
-    pub fn outputs(self, n: usize) -> usize {
-        self.quantities().iter().map(|q| q.len(n)).sum()
+    /// How many numbers it returns.
+    pub fn outputs(self, sizes: Sizes) -> usize {
+        self.quantities().iter().map(|q| q.len(sizes)).sum()
+    }
+
+    /// The columns of a regressor that a result is over.
+    pub fn columns(self) -> Columns {
+        let has = |axis| {
+            let mut results = self.quantities().iter();
+            results.any(|quantity| quantity.shape().0.contains(&axis))
+        };
+        match (has(Axis::LinkParameters), has(Axis::BaseParameters)) {
+            (_, true) => Columns::Base,
+            (true, false) => Columns::Links,
+            (false, false) => Columns::None,
+        }
     }
 
     /// Its results by one formulation, flat, in the order of its quantities;
-    /// each array row by row.
+    /// each array row by row. `columns` are those of [`Function::columns`].
     pub fn evaluate<S: Divide>(
         self,
         formulation: Formulation,
         arm: &Arm<S>,
         motion: &Motion<S>,
+        columns: &[Column<S>],
     ) -> Vec<S> {
         let written = Written {
             formulation,
             arm,
             at: &arm.at(&motion.q),
             motion,
+            columns,
         };
         let results = self.quantities().iter();
         results
@@ -102,11 +129,13 @@ impl Function {
             arm,
             at: &arm.at(&motion.q),
             motion,
+            columns: &[],
         };
+        let sizes = Sizes::whole(arm.links.len());
         let mut rest = results;
         let mut residual = Vec::new();
         for quantity in self.quantities() {
-            let (own, others) = rest.split_at(quantity.len(arm.links.len()).min(rest.len()));
+            let (own, others) = rest.split_at(quantity.len(sizes).min(rest.len()));
             residual.extend(quantity.residual(&written, own));
             rest = others;
         }

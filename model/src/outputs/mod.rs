@@ -3,6 +3,7 @@
 //! - `registry`: the macro that makes [`Function`] and [`Quantity`] of the list below
 //! - `function`: what a generated function is: its name, arguments and results
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
+//! - `shape`: the axes of a result, and what their lengths follow from
 //! - `argument`: the joint vectors that functions read
 //! - `formula`: what a quantity's file says, and what its formulas are given
 //! - the others: an output each
@@ -27,6 +28,7 @@ mod dynamic_coefficients;
 mod forward_dynamics;
 mod forward_dynamics_derivatives;
 mod forward_kinematics;
+mod full_regressor;
 mod gravity;
 mod inertia;
 mod inertia_inverse;
@@ -41,11 +43,13 @@ mod momentum;
 mod passivity;
 mod potential_energy;
 mod reaction_wrenches;
+mod regressor;
 
 pub use argument::Argument;
 pub use formula::{Motion, Regrouped, Written};
+pub use function::Columns;
 pub use quantity::{ErrorScale, Index};
-pub use shape::{Axis, Shape};
+pub use shape::{Axis, Shape, Sizes};
 
 registry! {
     /// τ(q, q̇, q̈): torques and forces, viscous damping included.
@@ -96,4 +100,8 @@ registry! {
     forward_dynamics_derivatives: ForwardDynamicsDerivatives {
         AccelerationByPosition, AccelerationByVelocity, AccelerationByTorque
     }
+    /// Y over the base parameters: τ = Y π.
+    regressor: Regressor { BaseRegressor }
+    /// Y over all inertial parameters of all links.
+    full_regressor: FullRegressor { LinkRegressor }
 }

@@ -4,7 +4,8 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Argument, Axis, Quantity, Shape};
+use super::{Argument, Axis, Quantity, Shape, Sizes};
+use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
 /// What given states have, from a result's entries and q̇.
@@ -86,6 +87,10 @@ pub enum Index {
     Sliding,
     /// Of an axis that is the same for every arm.
     Fixed(usize),
+    /// Of an inertial parameter of a link.
+    Parameter(LinkParameter),
+    /// Of a base parameter: a combination, whose unit its terms share.
+    Base,
 }
 
 /// What an error of an entry is held against where the actuators' torque
@@ -108,9 +113,9 @@ impl Quantity {
         self.facts().shape
     }
 
-    /// How many numbers it has over so many joints.
-    pub fn len(self, joints: usize) -> usize {
-        self.shape().len(joints)
+    /// How many numbers it has.
+    pub fn len(self, sizes: Sizes) -> usize {
+        self.shape().len(sizes)
     }
 
     /// What it depends on.
@@ -178,19 +183,19 @@ impl Quantity {
     }
 
     /// The joints of an entry over these rows, one for each axis over joints.
-    pub fn joints(self, index: usize, rows: &[usize]) -> impl Iterator<Item = usize> {
-        let places = self.shape().places(index, rows.len());
+    pub fn joints(self, index: usize, rows: &[usize], sizes: Sizes) -> impl Iterator<Item = usize> {
+        let places = self.shape().places(index, sizes.over(rows.len()));
         let axes = self.shape().0.iter().zip(places);
         let of = |(axis, place): (&Axis, usize)| match axis {
             Axis::Joints => rows.get(place).copied(),
-            Axis::Fixed(_) => None,
+            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters => None,
         };
         axes.filter_map(of).collect::<Vec<_>>().into_iter()
     }
 
     /// The unit of an entry over these rows of a robot.
-    pub fn unit(self, index: usize, rows: &[usize], robot: &Robot) -> &'static str {
-        let places = self.shape().places(index, rows.len());
+    pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
+        let places = self.shape().places(index, sizes.over(rows.len()));
         let turns = |place: usize| {
             let joint = rows.get(place).and_then(|&joint| robot.joints.get(joint));
             joint.is_some_and(|joint| joint.kind == JointKind::Revolute)
@@ -200,29 +205,35 @@ impl Quantity {
             Axis::Fixed(_) => Index::Fixed(place),
             Axis::Joints if turns(place) => Index::Turning,
             Axis::Joints => Index::Sliding,
+            Axis::LinkParameters => {
+                Index::Parameter(LinkParameter::ALL[place % LinkParameter::COUNT])
+            }
+            Axis::BaseParameters => Index::Base,
         });
         (self.facts().unit)(&indices.collect::<Vec<_>>())
     }
 
     /// The name of one entry, one-based: `D_12`, `h_123`, with separators
-    /// where a robot has more than nine joints.
-    pub fn entry(self, index: usize, n: usize) -> String {
-        let rows: Vec<usize> = (0..n).collect();
-        self.entry_over(index, &rows, n)
+    /// where a robot has more than nine joints, or an axis more entries.
+    pub fn entry(self, index: usize, sizes: Sizes) -> String {
+        let rows: Vec<usize> = (0..sizes.rows).collect();
+        self.entry_over(index, &rows, sizes)
     }
 
-    /// The name of one entry of a quantity that is over these joints of n.
-    pub fn entry_over(self, index: usize, rows: &[usize], n: usize) -> String {
+    /// The name of one entry of a quantity that is over these joints.
+    pub fn entry_over(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
-        let places = self.shape().places(index, rows.len());
+        let sizes = sizes.over(rows.len());
+        let places = self.shape().places(index, sizes);
         let digit = |(axis, place): (&Axis, usize)| match axis {
             Axis::Joints => rows.get(place).map_or(0, |joint| joint + 1).to_string(),
-            Axis::Fixed(_) => (place + 1).to_string(),
+            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters => (place + 1).to_string(),
         };
+        let is_long = sizes.joints > 9 || self.shape().lengths(sizes).any(|length| length > 9);
         let digits: Vec<String> = self.shape().0.iter().zip(places).map(digit).collect();
         match digits.as_slice() {
             [] => letter.to_string(),
-            digits => format!("{letter}_{}", digits.join(if n > 9 { "," } else { "" })),
+            digits => format!("{letter}_{}", digits.join(if is_long { "," } else { "" })),
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use alloc::vec::Vec;
 
+use crate::equations::regressor::LinkParameter;
+
 /// An axis of a result's array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
@@ -9,6 +11,39 @@ pub enum Axis {
     Joints,
     /// So many entries, whatever the arm.
     Fixed(usize),
+    /// An entry an inertial parameter, link by link, in a scene too.
+    LinkParameters,
+    /// An entry a base parameter: how many there are, the arm says, and the
+    /// scene.
+    BaseParameters,
+}
+
+/// What the lengths of axes follow from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// The joints that results are over.
+    pub rows: usize,
+    /// All joints.
+    pub joints: usize,
+    /// The base parameters; zero where nothing is over these.
+    pub base: usize,
+}
+
+impl Sizes {
+    /// Of results over all joints, of which none is over base parameters.
+    pub fn whole(joints: usize) -> Sizes {
+        Sizes {
+            rows: joints,
+            joints,
+            base: 0,
+        }
+    }
+
+    /// The same over so many joints.
+    #[must_use]
+    pub fn over(self, rows: usize) -> Sizes {
+        Sizes { rows, ..self }
+    }
 }
 
 /// The axes of a result, the outermost first; none for a scalar.
@@ -25,34 +60,41 @@ impl Shape {
     /// n×n×n
     pub const CUBE: Shape = Shape(&[Axis::Joints, Axis::Joints, Axis::Joints]);
 
-    /// The lengths of its axes over so many joints.
-    pub fn lengths(self, joints: usize) -> impl DoubleEndedIterator<Item = usize> {
-        self.0.iter().map(move |axis| axis.length(joints))
+    /// The lengths of its axes.
+    pub fn lengths(self, sizes: Sizes) -> impl DoubleEndedIterator<Item = usize> {
+        self.0.iter().map(move |axis| axis.length(sizes))
     }
 
-    /// How many numbers it has over so many joints.
-    pub fn len(self, joints: usize) -> usize {
-        self.lengths(joints).product()
+    /// How many numbers it has.
+    pub fn len(self, sizes: Sizes) -> usize {
+        self.lengths(sizes).product()
     }
 
     /// The place of a number along each axis, the outermost first.
-    pub fn places(self, mut index: usize, joints: usize) -> Vec<usize> {
+    pub fn places(self, mut index: usize, sizes: Sizes) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::with_capacity(self.0.len());
-        for length in self.lengths(joints).rev() {
+        for length in self.lengths(sizes).rev() {
             places.push(index % length.max(1));
             index /= length.max(1);
         }
         places.reverse();
         places
     }
+
+    /// Whether it has an axis over base parameters.
+    pub fn is_over_base(self) -> bool {
+        self.0.contains(&Axis::BaseParameters)
+    }
 }
 
 impl Axis {
-    /// Its length over so many joints.
-    pub fn length(self, joints: usize) -> usize {
+    /// Its length.
+    pub fn length(self, sizes: Sizes) -> usize {
         match self {
-            Axis::Joints => joints,
+            Axis::Joints => sizes.rows,
             Axis::Fixed(length) => length,
+            Axis::LinkParameters => LinkParameter::COUNT * sizes.joints,
+            Axis::BaseParameters => sizes.base,
         }
     }
 }
@@ -64,12 +106,28 @@ mod tests {
     #[test]
     fn places_count_in_the_order_of_the_text() {
         let shape = Shape(&[Axis::Fixed(2), Axis::Joints]);
-        assert_eq!(shape.len(3), 6);
-        let places: Vec<Vec<usize>> = (0..6).map(|index| shape.places(index, 3)).collect();
+        let three = Sizes::whole(3);
+        assert_eq!(shape.len(three), 6);
+        let places: Vec<Vec<usize>> = (0..6).map(|index| shape.places(index, three)).collect();
         assert_eq!(places[0], [0, 0]);
         assert_eq!(places[2], [0, 2]);
         assert_eq!(places[5], [1, 2]);
-        assert_eq!(Shape::SCALAR.len(3), 1);
-        assert!(Shape::SCALAR.places(0, 3).is_empty());
+        assert_eq!(Shape::SCALAR.len(three), 1);
+        assert!(Shape::SCALAR.places(0, three).is_empty());
+    }
+
+    /// A scene's rows cut the axes over joints and leave those over parameters.
+    #[test]
+    fn parameters_are_not_cut_by_rows() {
+        let shape = Shape(&[Axis::Joints, Axis::LinkParameters]);
+        assert_eq!(shape.len(Sizes::whole(6)), 360);
+        assert_eq!(shape.len(Sizes::whole(6).over(2)), 120);
+        let base = Shape(&[Axis::Joints, Axis::BaseParameters]);
+        let sizes = Sizes {
+            rows: 2,
+            joints: 6,
+            base: 36,
+        };
+        assert_eq!(base.places(37, sizes), [1, 1]);
     }
 }

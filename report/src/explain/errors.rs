@@ -9,7 +9,7 @@ use super::Explanation;
 use super::run::Runner;
 use super::steps::Code;
 use crate::stress::truth::Truth;
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Function, Sizes};
 use dalembert_codegen::program::{Input, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::{JointState, seeded};
@@ -40,14 +40,14 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
     let runs = at(&truth, function, drawn.iter().cloned());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
-    let joints = setting.rows().len();
+    let sizes = setting.sizes(function);
     let errors = |code: &Code| match code {
-        Code::Formula(formulation) => worst(function, joints, &runs, ScalarType::F64, |state| {
+        Code::Formula(formulation) => worst(function, sizes, &runs, ScalarType::F64, |state| {
             formula(setting, &arm, *formulation, function, state)
         }),
         Code::Program(program) => {
             let runner = Runner::<f64>::new(program, ScalarType::F64);
-            worst(function, joints, &runs, ScalarType::F64, |state| {
+            worst(function, sizes, &runs, ScalarType::F64, |state| {
                 runner.run(state)
             })
         }
@@ -58,7 +58,7 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
                 ScalarType::F32 => Some(at(&truth, function, single)),
             };
             let runs = own.as_ref().unwrap_or(&runs);
-            worst(function, joints, runs, *scalar, |state| text.run_at(state))
+            worst(function, sizes, runs, *scalar, |state| text.run_at(state))
         }
     };
     explanation
@@ -80,17 +80,17 @@ pub fn of_program(
     let function = program.function;
     let setting = truth.setting();
     let drawn = seeded(setting.robot(), states.min(MAX_STATES), SEED);
-    let joints = setting.rows().len();
+    let sizes = setting.sizes(function);
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {
             let runner = Runner::<f64>::new(program, scalar);
             let runs = at(truth, function, drawn.iter().cloned());
-            worst(function, joints, &runs, scalar, |state| runner.run(state))
+            worst(function, sizes, &runs, scalar, |state| runner.run(state))
         }
         ScalarType::F32 => {
             let runner = Runner::<f32>::new(program, scalar);
             let runs = at(truth, function, drawn.iter().map(JointState::in_single));
-            worst(function, joints, &runs, scalar, |state| runner.run(state))
+            worst(function, sizes, &runs, scalar, |state| runner.run(state))
         }
     };
     scalars.iter().map(errors).collect()
@@ -136,18 +136,19 @@ fn formula(
         Input::Entry(argument, joint) => state.entry(argument, joint),
     };
     let motion = setting.motion(input, f64::nearest);
-    let results = function.evaluate(formulation, arm, &motion);
+    let columns = setting.columns(function, f64::nearest);
+    let results = function.evaluate(formulation, arm, &motion, &columns);
     setting.select(function, setting.joints(), results)
 }
 
 fn worst(
     function: Function,
-    joints: usize,
+    sizes: Sizes,
     runs: &[(JointState, Vec<Big>)],
     scalar: ScalarType,
     run: impl Fn(&JointState) -> Vec<f64>,
 ) -> Errors {
-    let outputs = function.outputs(joints);
+    let outputs = function.outputs(sizes);
     let mut largest = vec![0.0f64; outputs];
     let mut errors = vec![0.0f64; outputs];
     let mut normwise = 0.0f64;
@@ -155,7 +156,7 @@ fn worst(
         let found = run(state);
         let mut start = 0;
         for quantity in function.quantities() {
-            let range = start..start + quantity.len(joints);
+            let range = start..start + quantity.len(sizes);
             start = range.end;
             let (mut error, mut size) = (0.0f64, 0.0f64);
             for i in range {

@@ -16,7 +16,7 @@ use dalembert_model::equations::chain::Chain;
 use dalembert_model::robot::Robot;
 
 use crate::couplings::Couplings;
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Columns, Function};
 use dalembert_codegen::generate::{GenerateError, Request, tolerate};
 use dalembert_codegen::graph::Graph;
 use dalembert_codegen::portfolio;
@@ -104,6 +104,10 @@ fn exact(
     function: Function,
     request: &Request,
 ) -> Result<(Explanation, Program), GenerateError> {
+    // Of a regressor no column comes from regrouped parameters.
+    if function.columns() != Columns::None {
+        return Err(GenerateError::Unexplained(function));
+    }
     let found = steps::search(setting, function, request)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
@@ -125,7 +129,10 @@ fn exact(
     rows.extend(steps::chain(setting, function, tuned));
     let (searched, program) = steps::searched(setting, function, request, &found)?;
     rows.extend(searched);
-    let chain = Chain::new(&portfolio::skeleton(setting), &tuned.regrouping);
+    let chain = Chain::new(
+        &portfolio::skeleton_for(setting, function),
+        &tuned.regrouping,
+    );
     let couplings = match setting.scene() {
         None => Couplings::of(robot),
         Some(_) => None,

@@ -46,6 +46,7 @@ impl Case {
                 Quantity::Torque => run(Function::InverseDynamics),
                 Quantity::Inertia => run(Function::Inertia),
                 Quantity::Gravity => run(Function::Gravity),
+                Quantity::LinkRegressor => run(Function::FullRegressor),
                 Quantity::Coriolis => {
                     let mut load = run(Function::Coriolis);
                     if self.load.gravity {

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use dalembert_codegen::function::Quantity;
+use dalembert_codegen::function::{Quantity, Sizes};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 use num_traits::{Signed, Zero};
@@ -353,8 +353,9 @@ fn reverse(case: &mut Case, joint: usize) {
             values[joint] = -values[joint];
         }
         for (quantity, values) in &mut given.known {
+            let sizes = Sizes::whole(joints.len());
             for (index, value) in values.iter_mut().enumerate() {
-                let over = quantity.joints(index, &joints);
+                let over = quantity.joints(index, &joints, sizes);
                 let times = over.filter(|at| *at == joint).count();
                 if times % 2 == 1 {
                     *value = -*value;

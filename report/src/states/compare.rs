@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::function::{Function, Quantity, Sizes};
 use dalembert_codegen::verify::floating::{Emitted, Runtime};
+use dalembert_model::outputs::Shape;
 use dalembert_model::robot::Robot;
 
 use super::{BOUND, GivenState, worst};
@@ -55,14 +56,15 @@ impl Compared {
             ..
         } = self.worst;
         let n = robot.joints.len().max(1);
-        let place = match self.quantity.shape().0.len() {
-            0 => "its value".to_owned(),
-            1 => robot.joint_label(entry),
-            _ => format!(
+        let place = match self.quantity.shape() {
+            Shape::SCALAR => "its value".to_owned(),
+            Shape::VECTOR => robot.joint_label(entry),
+            Shape::MATRIX => format!(
                 "row of {}, column of {}",
                 robot.joint_label(entry / n),
                 robot.joint_label(entry % n)
             ),
+            _ => self.quantity.entry(entry, Sizes::whole(n)),
         };
         format!(
             "{} at state {}, {place}: the file has {given:e}, the robot gives {found:e}",
@@ -95,8 +97,8 @@ pub fn compare(emitted: &Emitted, runtime: &Runtime, states: &[GivenState]) -> V
         let granted = runtime.granted(function, &given.state);
         let mut start = 0;
         for &returned in function.quantities() {
-            let values = &results[start..start + returned.len(n)];
-            start += returned.len(n);
+            let values = &results[start..start + returned.len(emitted.sizes)];
+            start += returned.len(emitted.sizes);
             let (quantity, values) = returned.as_given(values, &given.state.qd);
             let Some(known) = given.known.get(&quantity) else {
                 continue;

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use dalembert_codegen::function::{Argument, Quantity};
+use dalembert_codegen::function::{Argument, Quantity, Sizes};
 use dalembert_codegen::states::JointState;
 use dalembert_model::read::closest;
 use serde_json::{Map, Value};
@@ -152,7 +152,7 @@ fn state(value: &Value, n: usize) -> Result<GivenState, String> {
         known: Default::default(),
     };
     for (key, quantity) in self::given() {
-        let Some(values) = vector(keys, key, quantity.len(n))? else {
+        let Some(values) = vector(keys, key, quantity.len(Sizes::whole(n)))? else {
             continue;
         };
         let arguments = quantity.arguments().iter();

@@ -6,7 +6,7 @@ use dalembert_model::reference::{Float, JointVectors, Reference, WrongLength};
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
-use dalembert_codegen::function::{Argument, Function};
+use dalembert_codegen::function::{Argument, Columns, Function};
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::JointState;
@@ -71,6 +71,8 @@ impl Code {
     /// another robot.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<f64>> {
         match self {
+            // Which parameters are base parameters, the runtime does not know.
+            Code::Double(_) | Code::Single(_) if function.columns() == Columns::Base => None,
             Code::Double(runtime) => run(runtime, function, state, |x| x, |x| x).ok(),
             Code::Single(runtime) => run(runtime, function, state, |x| x as f32, f64::from).ok(),
             Code::Emitted(functions) => {

@@ -80,7 +80,8 @@ impl Truth {
         let setting = &self.setting;
         let motion = setting.motion(input, number);
         let recursion = Formulation::NewtonEulerLink;
-        let results = function.evaluate(recursion, &self.arm, &motion);
+        let columns = setting.columns(function, number);
+        let results = function.evaluate(recursion, &self.arm, &motion, &columns);
         Some(setting.select(function, setting.joints(), results))
     }
 }

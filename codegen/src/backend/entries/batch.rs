@@ -79,11 +79,11 @@ fn marker(text: &mut String, program: &Program, around: &Around<'_>, kind: &str)
          #[inline(always)]\n    \
          fn state<const L: usize>(results: &{in_lanes}, l: usize) -> {result} {{",
     );
-    let (function, rows) = (program.function, program.rows.len());
+    let (function, sizes) = (program.function, program.sizes());
     let places = places(program);
     let items = places.iter().map(|place| format!("results{place}[l]"));
     let mut state = String::new();
-    result::write(&mut state, function, function.structure(), rows, items);
+    result::write(&mut state, function, function.structure(), sizes, items);
     for line in state.lines() {
         let _ = writeln!(text, "    {line}");
     }

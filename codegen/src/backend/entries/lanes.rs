@@ -81,12 +81,12 @@ pub(super) fn result_type(program: &Program, around: &Around<'_>) -> String {
     let lanes = format!("[{}; L]", around.scalar);
     match function.structure() {
         Some(name) => format!("{name}Lanes<L>"),
-        None => result::array_of(&lanes, function.quantities()[0], program.rows.len()),
+        None => result::array_of(&lanes, function.quantities()[0], program.sizes()),
     }
 }
 
 fn structure(text: &mut String, program: &Program, around: &Around<'_>) {
-    let (function, n) = (program.function, program.rows.len());
+    let (function, sizes) = (program.function, program.sizes());
     let Some(name) = function.structure() else {
         return;
     };
@@ -95,7 +95,7 @@ fn structure(text: &mut String, program: &Program, around: &Around<'_>) {
         "/// What [`{function}_lanes`] returns: [`{name}`] with the lanes of every number.\n\
          #[derive(Clone, Copy, Debug, PartialEq)]\npub struct {name}Lanes<const L: usize> {{"
     );
-    result::fields(text, function, &format!("[{}; L]", around.scalar), n);
+    result::fields(text, function, &format!("[{}; L]", around.scalar), sizes);
     text.push_str("}\n\n");
 }
 
@@ -139,8 +139,8 @@ fn write_sines(text: &mut String, program: &Program, around: &Around<'_>, sines:
 
 /// Where the results go.
 fn zeros(text: &mut String, program: &Program) {
-    let (function, n) = (program.function, program.rows.len());
-    let zeros = |quantity| result::array_of("[0.0; L]", quantity, n);
+    let (function, sizes) = (program.function, program.sizes());
+    let zeros = |quantity| result::array_of("[0.0; L]", quantity, sizes);
     let value = match function.structure() {
         None => zeros(function.quantities()[0]),
         Some(name) => {

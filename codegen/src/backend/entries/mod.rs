@@ -102,7 +102,7 @@ fn arguments(program: &Program) -> Vec<&'static str> {
 /// The entries of a result in their order, as they are written after its name:
 /// `.d[0][1]`.
 fn places(program: &Program) -> Vec<String> {
-    let (function, n) = (program.function, program.rows.len());
+    let (function, sizes) = (program.function, program.sizes());
     let mut places = Vec::new();
     for quantity in function.quantities() {
         let field = match function.structure() {
@@ -110,8 +110,8 @@ fn places(program: &Program) -> Vec<String> {
             None => String::new(),
         };
         let shape = quantity.shape();
-        places.extend((0..shape.len(n)).map(|index| {
-            let axes = shape.places(index, n).into_iter();
+        places.extend((0..shape.len(sizes)).map(|index| {
+            let axes = shape.places(index, sizes).into_iter();
             axes.fold(field.clone(), |place, at| format!("{place}[{at}]"))
         }));
     }

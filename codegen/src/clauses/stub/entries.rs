@@ -84,6 +84,8 @@ impl Stub {
         axes.fold(entry.to_owned(), |inner, axis| match axis {
             Axis::Joints => format!("[{inner}; {}]", self.length()),
             Axis::Fixed(length) => format!("[{inner}; {length}]"),
+            // As many as the robot would have said.
+            Axis::LinkParameters | Axis::BaseParameters => format!("&'static [{inner}]"),
         })
     }
 

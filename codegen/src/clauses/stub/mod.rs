@@ -12,7 +12,7 @@ mod entries;
 use crate::backend::Entries;
 use crate::clauses::invocation::Invocation;
 use crate::emit::module;
-use crate::function::{Argument, Function, Quantity};
+use crate::function::{Argument, Columns, Function, Quantity};
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
 
@@ -46,6 +46,9 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
         for &function in functions {
             text += &self::function(function, joints, scalar);
             text += &entries::write(function, joints, scalar, invocation.entries);
+        }
+        if functions.iter().any(|f| f.columns() == Columns::Base) {
+            let _ = writeln!(text, "pub const BASE_PARAMETERS: &[{scalar}] = &[];");
         }
         text += &state_box(&bounded(invocation, functions), joints, scalar);
         text += "}\n";
@@ -106,6 +109,8 @@ fn function(function: Function, joints: Option<usize>, scalar: ScalarType) -> St
         axes.fold(scalar.to_string(), |inner, axis| match axis {
             Axis::Joints => format!("[{inner}; {length}]"),
             Axis::Fixed(length) => format!("[{inner}; {length}]"),
+            // As many as the robot would have said.
+            Axis::LinkParameters | Axis::BaseParameters => format!("&'static [{inner}]"),
         })
     };
     let arguments: Vec<String> = function

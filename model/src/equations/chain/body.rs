@@ -21,6 +21,17 @@ pub struct Body<S> {
     pub second: Inertia<S>,
 }
 
+impl<S> Body<S> {
+    /// Every number through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Body<T> {
+        Body {
+            mass: f(&self.mass),
+            first: self.first.each_ref().map(&mut f),
+            second: self.second.map(&mut f),
+        }
+    }
+}
+
 impl<S: Scalar> Body<S> {
     /// Nothing.
     pub fn zero() -> Self {
@@ -49,6 +60,19 @@ impl<S: Scalar> Body<S> {
             mass: link.mass.clone(),
             first,
             second,
+        }
+    }
+
+    /// The tensor about the same origin: I = tr(Σ)·1 − Σ.
+    pub fn tensor(&self) -> Inertia<S> {
+        let sigma = &self.second;
+        Inertia {
+            xx: plus(&sigma.yy, &sigma.zz),
+            yy: plus(&sigma.xx, &sigma.zz),
+            zz: plus(&sigma.xx, &sigma.yy),
+            xy: negative(&sigma.xy),
+            yz: negative(&sigma.yz),
+            xz: negative(&sigma.xz),
         }
     }
 

@@ -9,7 +9,7 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
-use super::momentum::{Velocity, tensor};
+use super::momentum::Velocity;
 use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Body, ChainLink, Displacement, Rotation};
@@ -228,7 +228,7 @@ fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
     Wrench {
         force: sum(&scaled(&body.mass, shift), &cross(turn, &body.first)),
         moment: sum(
-            &tensor_times(&tensor(body), turn),
+            &tensor_times(&body.tensor(), turn),
             &cross(&body.first, shift),
         ),
     }

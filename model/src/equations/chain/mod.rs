@@ -10,6 +10,8 @@
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
+//! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
+//!   of torque it takes
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
@@ -22,7 +24,9 @@ mod form;
 mod momentum;
 mod passivity;
 pub mod pose;
+pub mod probe;
 pub mod recursion;
+mod regressor;
 pub mod regrouping;
 pub mod skeleton;
 mod twist;
@@ -32,6 +36,7 @@ use alloc::vec::Vec;
 pub use body::Body;
 pub use form::Form;
 pub use pose::Displacement;
+pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 
@@ -53,6 +58,8 @@ pub struct Chain<S> {
     pub links: Vec<ChainLink<S>>,
     /// 1 / the unit of length.
     pub per_unit: S,
+    /// How many columns of a regressor the links' probes are.
+    pub columns: usize,
 }
 
 /// One joint with what it moves.
@@ -71,6 +78,8 @@ pub struct ChainLink<S> {
     pub theta: SinCosPair<S>,
     /// The link, about the origin and in the axes of its frame.
     pub body: Body<S>,
+    /// What else is fixed to it, a column of a regressor each; not regrouped.
+    pub probes: Vec<Probe<S>>,
     /// Mass, first and second moment along the axis that the link could keep
     /// (revolute): its own and what arrived from the links after it.
     pub free: [S; 3],
@@ -103,6 +112,9 @@ impl<S: Scalar> Chain<S> {
                 axis: segment.axis.clone(),
                 theta: segment.theta.clone(),
                 body: segment.body.moved(&opposite(&regrouping.origin)),
+                probes: Probe::each(&segment.probes, |body| {
+                    body.moved(&opposite(&regrouping.origin))
+                }),
                 free: zero_vector(),
                 armature: segment.armature.clone(),
                 viscous: segment.viscous.clone(),
@@ -115,6 +127,7 @@ impl<S: Scalar> Chain<S> {
             gravity: skeleton.gravity.clone(),
             links,
             per_unit: S::one(),
+            columns: skeleton.columns,
         };
         chain.free_spin();
         chain.regroup(regrouping);
@@ -123,10 +136,12 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// Marks the last link if it looks the same however far it has turned:
-    /// then its frame need not turn, only its rate counts.
+    /// then its frame need not turn, only its rate counts. A probe does not.
     fn free_spin(&mut self) {
         if let Some(last) = self.links.last_mut() {
-            last.spins_freely = last.kind == JointKind::Revolute && last.body.is_axisymmetric();
+            last.spins_freely = last.kind == JointKind::Revolute
+                && last.probes.is_empty()
+                && last.body.is_axisymmetric();
         }
     }
 
@@ -156,11 +171,8 @@ impl<S> Chain<S> {
             offset: link.offset.each_ref().map(&mut f),
             axis: link.axis.each_ref().map(&mut f),
             theta: link.theta.map(&mut f),
-            body: Body {
-                mass: f(&link.body.mass),
-                first: link.body.first.each_ref().map(&mut f),
-                second: link.body.second.map(&mut f),
-            },
+            body: link.body.map(&mut f),
+            probes: Probe::each(&link.probes, |body| body.map(&mut f)),
             free: link.free.each_ref().map(&mut f),
             armature: f(&link.armature),
             viscous: f(&link.viscous),
@@ -172,6 +184,7 @@ impl<S> Chain<S> {
             gravity,
             links,
             per_unit: f(&self.per_unit),
+            columns: self.columns,
         }
     }
 }

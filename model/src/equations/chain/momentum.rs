@@ -3,12 +3,11 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Chain, ChainLink, Displacement};
+use super::{Chain, ChainLink, Displacement};
 use crate::equations::matrix::{
-    Vector, cross, dot, halved, minus, negative, plus, scaled, sum, tensor_times, times,
-    zero_vector,
+    Vector, cross, dot, halved, minus, plus, scaled, sum, tensor_times, times, zero_vector,
 };
-use crate::robot::{Inertia, JointKind};
+use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
 /// The velocity of one link, in its own axes.
@@ -46,19 +45,6 @@ impl<S: Scalar> Velocity<S> {
     }
 }
 
-/// I = tr(Σ)·1 − Σ
-pub(super) fn tensor<S: Scalar>(body: &Body<S>) -> Inertia<S> {
-    let sigma = &body.second;
-    Inertia {
-        xx: plus(&sigma.yy, &sigma.zz),
-        yy: plus(&sigma.xx, &sigma.zz),
-        zz: plus(&sigma.xx, &sigma.yy),
-        xy: negative(&sigma.xy),
-        yz: negative(&sigma.yz),
-        xz: negative(&sigma.xz),
-    }
-}
-
 impl<S: Scalar> Chain<S> {
     pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Velocity<S>> {
         let rates = self.rates(qd);
@@ -80,7 +66,7 @@ impl<S: Scalar> Chain<S> {
             let Velocity { omega, origin } = velocity;
             let body = &link.body;
             // Halves go into the constants.
-            let half = tensor(body).map(halved);
+            let half = body.tensor().map(halved);
             let spin = tensor_times(&half, omega);
             let slide = sum(
                 &scaled(&halved(&body.mass), origin),
@@ -110,7 +96,7 @@ impl<S: Scalar> Chain<S> {
                 &push,
                 &sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
             );
-            let own = tensor_times(&tensor(body), omega);
+            let own = tensor_times(&body.tensor(), omega);
             spin = sum(&spin, &sum(&own, &cross(&body.first, origin)));
             let load = self.load(i, &push, &spin);
             momenta.push(plus(&load, &times(&link.armature, &qd[i])));

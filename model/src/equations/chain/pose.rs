@@ -10,7 +10,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{Chain, Rotation};
+use super::{Chain, ChainLink, Probe, Rotation};
 use crate::equations::matrix::{Vector, times};
 use crate::equations::{JointPosition, SinCosPair};
 use crate::robot::JointKind;
@@ -166,7 +166,7 @@ impl<S: Scalar> Chain<S> {
                 turned(&mut link.offset, &turn);
                 if link.kind == JointKind::Prismatic {
                     turned(&mut link.axis, &turn);
-                    link.body = link.body.turned_z(&turn);
+                    link.turn_bodies(&turn);
                 }
             }
             let place = match (q, place) {
@@ -180,7 +180,7 @@ impl<S: Scalar> Chain<S> {
             let [less, more] = self.bounds(i, place);
             let seen = (place.index as i32 + link.axes.clamp(less, more)) as usize;
             if let Some(turn) = between(seen, place.index, place) {
-                link.body = link.body.turned_z(&turn);
+                link.turn_bodies(&turn);
             }
             let from = match &before {
                 Some((seen, own)) if own.group == place.group => *seen,
@@ -192,6 +192,14 @@ impl<S: Scalar> Chain<S> {
             before = Some((seen, place.clone()));
         }
         (chain, at)
+    }
+}
+
+impl<S: Scalar> ChainLink<S> {
+    /// All that is fixed to the link, turned about z.
+    fn turn_bodies(&mut self, turn: &SinCosPair<S>) {
+        self.body = self.body.turned_z(turn);
+        self.probes = Probe::each(&self.probes, |body| body.turned_z(turn));
     }
 }
 

@@ -152,16 +152,7 @@ impl<S: Scalar> Motion<S> {
                 ]
             }
             MomentForm::Euler => {
-                let sigma = &body.second;
-                // I = tr(Σ)·1 − Σ
-                let tensor = crate::robot::Inertia {
-                    xx: plus(&sigma.yy, &sigma.zz),
-                    yy: plus(&sigma.xx, &sigma.zz),
-                    zz: plus(&sigma.xx, &sigma.yy),
-                    xy: negative(&sigma.xy),
-                    yz: negative(&sigma.yz),
-                    xz: negative(&sigma.xz),
-                };
+                let tensor = body.tensor();
                 let times = crate::equations::matrix::tensor_times;
                 sum(
                     &times(&tensor, &self.omega_dot),

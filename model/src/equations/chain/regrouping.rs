@@ -9,7 +9,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Chain, Skeleton};
+use super::{Body, Chain, ChainLink, Probe, Skeleton};
 use crate::equations::matrix::{Vector, scaled, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -74,19 +74,8 @@ impl<S: Scalar> Chain<S> {
     pub(super) fn regroup(&mut self, regrouping: &Regrouping<S>) {
         for i in (0..self.links.len()).rev() {
             let link = &self.links[i];
-            let (moving, arriving) = match link.kind {
-                JointKind::Revolute => {
-                    let moving = on_axis(&link.body, &regrouping.links[i]);
-                    let arriving = moving.carried(&link.rotation, &link.offset);
-                    (moving, arriving)
-                }
-                JointKind::Prismatic => {
-                    // Second moments without mass have no place, only axes,
-                    // and these are shared.
-                    let moving = second_moments(&link.body, &regrouping.links[i]);
-                    (moving.clone(), moving)
-                }
-            };
+            let moving = link.moving(&link.body, &regrouping.links[i]);
+            let arriving = link.arriving(&moving);
             let link = &mut self.links[i];
             let body = &link.body;
             link.free = [
@@ -110,8 +99,44 @@ impl<S: Scalar> Chain<S> {
         for link in &mut self.links {
             link.offset = scaled(per_unit, &link.offset);
             link.body = link.body.in_unit(unit);
+            link.probes = Probe::each(&link.probes, |body| body.in_unit(unit));
         }
         self.per_unit = per_unit.clone();
+    }
+}
+
+impl<S: Scalar> ChainLink<S> {
+    /// What of a body of the link moves to the link before.
+    fn moving(&self, body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
+        match self.kind {
+            JointKind::Revolute => on_axis(body, keep),
+            JointKind::Prismatic => second_moments(body, keep),
+        }
+    }
+
+    /// What has moved, in the frame of the link before.
+    fn arriving(&self, moving: &Body<S>) -> Body<S> {
+        match self.kind {
+            JointKind::Revolute => moving.carried(&self.rotation, &self.offset),
+            // Second moments without mass have no place, only axes, and these
+            // are shared.
+            JointKind::Prismatic => moving.clone(),
+        }
+    }
+
+    /// What the link keeps of a body where all moves that can, and what arrives
+    /// at the link before, in its frame.
+    pub fn split_base(&self, body: &Body<S>) -> (Body<S>, Body<S>) {
+        let nothing = LinkRegrouping {
+            origin: zero_vector(),
+            mass: S::zero(),
+            first: S::zero(),
+            second: S::zero(),
+            keep_seconds: false,
+            axes: 0,
+        };
+        let moving = self.moving(body, &nothing);
+        (body.with(&moving.negated()), self.arriving(&moving))
     }
 }
 

@@ -6,6 +6,7 @@
 
 use alloc::vec::Vec;
 
+use super::probe::{Column, Probe, probes};
 use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
 use crate::equations::matrix::{Vector, plus, sum, zero_vector};
 use crate::equations::{Arm, JointPosition, SinCosPair};
@@ -19,6 +20,8 @@ pub struct Skeleton<S> {
     pub gravity: Vector<S>,
     /// The joints that move, from the base to the hand.
     pub links: Vec<Segment<S>>,
+    /// How many columns of a regressor the links' probes are.
+    pub columns: usize,
 }
 
 /// One joint that moves, with everything that is fixed to it.
@@ -41,6 +44,10 @@ pub struct Segment<S> {
     pub d: S,
     /// What moves with it, about the origin and in the axes of the frame.
     pub body: Body<S>,
+    /// What else does, a column of a regressor each.
+    pub probes: Vec<Probe<S>>,
+    /// The axes and the origin of the joint's own DH frame, in the frame.
+    pub dh: (Rotation<S>, Vector<S>),
     /// SinCosPair inertia felt at the joint.
     pub armature: S,
     /// Viscous damping b_i.
@@ -51,6 +58,15 @@ impl<S: Scalar> Skeleton<S> {
     /// Of an arm; a joint with a lock stays where the lock says. Missing
     /// locks are none.
     pub fn new(arm: &Arm<S>, locks: &[Option<JointPosition<S>>]) -> Skeleton<S> {
+        Skeleton::with_columns(arm, locks, &[])
+    }
+
+    /// Of an arm, with the columns of a regressor fixed to its links.
+    pub fn with_columns(
+        arm: &Arm<S>,
+        locks: &[Option<JointPosition<S>>],
+        columns: &[Column<S>],
+    ) -> Skeleton<S> {
         let mut links: Vec<Segment<S>> = Vec::with_capacity(arm.links.len());
         // What is constant between the last frame and the next joint, and
         // whether a locked joint is part of it.
@@ -84,6 +100,9 @@ impl<S: Scalar> Skeleton<S> {
                 turned = product(&turned, &rest);
                 if let Some(carrier) = links.last_mut() {
                     carrier.body = carrier.body.with(&body.carried(&turned, &moved));
+                    // A drive that is locked feels nothing.
+                    let own = probes(columns, joint, &turned, &moved);
+                    carrier.probes.extend(own.filter(Probe::is_body));
                 }
                 merged = true;
                 continue;
@@ -98,6 +117,8 @@ impl<S: Scalar> Skeleton<S> {
                 theta: link.theta.clone(),
                 d: link.d.clone(),
                 body: Body::zero(),
+                probes: Vec::new(),
+                dh: (identity(), zero_vector()),
                 armature: link.armature.clone(),
                 viscous: link.viscous.clone(),
             };
@@ -123,12 +144,17 @@ impl<S: Scalar> Skeleton<S> {
                 }
             }
             segment.body = body.carried(&turned, &moved);
+            segment
+                .probes
+                .extend(probes(columns, joint, &turned, &moved));
+            segment.dh = (turned.clone(), moved.clone());
             links.push(segment);
             merged = false;
         }
         Skeleton {
             gravity: arm.gravity.clone(),
             links,
+            columns: columns.len(),
         }
     }
 }

@@ -4,7 +4,7 @@
 use super::call::{expect, parameters};
 use super::{Text, TextError, result, statements};
 use crate::backend::read::Reader;
-use crate::function::Function;
+use crate::function::{Function, Sizes};
 
 /// Checks them.
 pub(super) fn check(text: &Text<'_>, arguments: &[String]) -> Result<(), TextError> {
@@ -68,8 +68,10 @@ fn implementation(text: &Text<'_>, kind: &str, passed: &str) -> Result<(), TextE
         message,
     };
     let items = result::items(&tail, text.function).map_err(at)?;
-    let n = rows(text, items.len()).ok_or_else(|| at("a result of no arm".into()))?;
-    let places = places(text.function, n);
+    let places = places(text.function, text.sizes);
+    if items.len() != places.len() {
+        return Err(at("a result of another arm".into()));
+    }
     let expected: Vec<String> = places
         .iter()
         .map(|place| format!("results{place}[l]"))
@@ -88,20 +90,15 @@ fn implementation(text: &Text<'_>, kind: &str, passed: &str) -> Result<(), TextE
     expect(found, &format!("[{}]", all.join(", ")), columns + 2)
 }
 
-/// How many joints a result is over that has so many numbers.
-fn rows(text: &Text<'_>, numbers: usize) -> Option<usize> {
-    (0..=64).find(|&n| text.function.outputs(n) == numbers && (n > 0 || numbers == 0))
-}
-
 /// Where the numbers of a result stand, in their order.
-fn places(function: Function, n: usize) -> Vec<String> {
+fn places(function: Function, sizes: Sizes) -> Vec<String> {
     let mut all = Vec::new();
     for quantity in function.quantities() {
         let mut places = vec![match function.structure() {
             Some(_) => format!(".{}", quantity.field()),
             None => String::new(),
         }];
-        for length in quantity.shape().lengths(n) {
+        for length in quantity.shape().lengths(sizes) {
             let longer = |place: &String| {
                 let place = place.clone();
                 (0..length).map(move |at| format!("{place}[{at}]"))

@@ -13,7 +13,7 @@ mod lanes;
 use super::{Reader, TextError, head, result, statements};
 use crate::backend::Entries;
 use crate::backend::entries::angles::Angles;
-use crate::function::Function;
+use crate::function::{Function, Sizes};
 use crate::program::{Lowered, LoweredTrig, ScalarType};
 use call::{Call, parameters};
 
@@ -23,17 +23,19 @@ struct Text<'a> {
     function: Function,
     scalar: ScalarType,
     angles: &'a Angles,
+    sizes: Sizes,
 }
 
 impl Lowered {
     /// Reads the function of this name out of the text of a module in which it
-    /// can be called in several ways.
+    /// can be called in several ways; `sizes` are those of its results.
     pub fn parse_entries(
         module: &str,
         function: Function,
         scalar: ScalarType,
         entries: Entries,
         angles: &Angles,
+        sizes: Sizes,
     ) -> Result<Lowered, TextError> {
         if entries == Entries::Single {
             return Lowered::parse(module, function, scalar);
@@ -43,6 +45,7 @@ impl Lowered {
             function,
             scalar,
             angles,
+            sizes,
         };
         text.angles()?;
         let given = text.given()?;

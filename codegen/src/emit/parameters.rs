@@ -1,0 +1,123 @@
+//! The base parameters of a regressor: each as a combination of the robot
+//! file's, and the values that they have.
+
+use std::fmt::Write;
+
+use dalembert_model::equations::Arm;
+use dalembert_model::number::Exact;
+use num_traits::{One, Signed};
+
+use super::figures::decimal;
+use crate::function::{Columns, Function};
+use crate::program::ScalarType;
+use crate::scene::Setting;
+use crate::scene::base::{BaseParameters, Parameter};
+
+/// What the columns of a function's regressor are; nothing of other functions.
+pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
+    let mut lines = match function.columns() {
+        Columns::None => return Vec::new(),
+        Columns::Links | Columns::Base => vec![String::new()],
+    };
+    let named = [
+        "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to",
+        "Ixz2 the entries of its tensor, all about the origin and in the axes of its DH frame.",
+    ];
+    match (function.columns(), setting.base()) {
+        (Columns::Base, Ok(base)) => {
+            lines.push(
+                "τ = Y π, and `BASE_PARAMETERS` is this robot's π. No fewer columns give all"
+                    .into(),
+            );
+            lines.push(
+                "torques; that these do was proved. Each is a combination of parameters:".into(),
+            );
+            lines.push(String::new());
+            lines.push("| column | base parameter |".into());
+            lines.push("|---|---|".into());
+            for (index, terms) in base.combinations.iter().enumerate() {
+                lines.push(format!("| {} | {} |", index + 1, combination(terms)));
+            }
+            lines.push(String::new());
+            lines.extend(named.map(String::from));
+            if has_drives(base) {
+                lines.push("armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have".into());
+                lines.push("columns where the robot file has them.".into());
+            }
+        }
+        _ => {
+            lines.push(
+                "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of"
+                    .into(),
+            );
+            lines.push("link 2. Armature and viscous friction have none.".into());
+            lines.extend(named.map(String::from));
+        }
+    }
+    lines
+}
+
+/// The constant π; nothing of functions that are over no base parameters.
+pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType) -> String {
+    let mut text = String::new();
+    let (Columns::Base, Ok(base)) = (function.columns(), setting.base()) else {
+        return text;
+    };
+    let arm = Arm::from_robot(setting.robot(), &mut Exact::clone);
+    let values = base.values(&arm);
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "/// π of this robot: the values of the base parameters, a column of [`{function}`] each.\n\
+         pub const BASE_PARAMETERS: [{scalar}; {}] = [",
+        values.len()
+    );
+    for value in &values {
+        let _ = writeln!(text, "    {},", scalar.literal(value));
+    }
+    text.push_str("];\n\n");
+    text
+}
+
+fn has_drives(base: &BaseParameters) -> bool {
+    let mut terms = base.combinations.iter().flatten();
+    terms.any(|(parameter, _)| !matches!(parameter, Parameter::Link(..)))
+}
+
+/// A constant without factors of one and signs after signs.
+fn plain(constant: &Exact) -> String {
+    let mut text = String::new();
+    for c in constant.to_string().chars() {
+        if c == '*' {
+            let rest = text.strip_suffix('1');
+            let ends = |c: char| c.is_ascii_digit() || c == '.' || c == '/';
+            if let Some(rest) = rest.filter(|rest| !rest.ends_with(ends)) {
+                text.truncate(rest.len());
+                continue;
+            }
+        }
+        text.push(c);
+    }
+    text.replace("+-", " - ").replace('+', " + ")
+}
+
+/// `Izz2 + 0.25 m3 - mx4`; exact.
+fn combination(terms: &[(Parameter, Exact)]) -> String {
+    let mut text = String::new();
+    for (parameter, factor) in terms {
+        let is_negative = factor.as_rational().is_some_and(Signed::is_negative);
+        let sign = match (text.is_empty(), is_negative) {
+            (true, true) => "-",
+            (true, false) => "",
+            (false, true) => " - ",
+            (false, false) => " + ",
+        };
+        let factor = match factor.as_rational() {
+            Some(value) if value.abs().is_one() => String::new(),
+            Some(value) => format!("{} ", decimal(&value.abs())),
+            None => format!("({}) ", plain(factor)),
+        };
+        let _ = write!(text, "{sign}{factor}{parameter}");
+    }
+    text
+}

@@ -1,0 +1,64 @@
+//! Columns of a regressor modulo 2⁶¹ − 1, at random states.
+
+use std::cell::{Cell, RefCell};
+
+use dalembert_model::equations::regressor::Column;
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
+use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::scalar::field::{Field, Points};
+
+use crate::program::Input;
+use crate::scene::Setting;
+
+/// A seed of its own.
+const SEED: u64 = 0x6261_7365;
+
+/// Columns modulo the prime, each over the rows of so many random states that
+/// every dependence that is none shows; `None` if a constant has no value.
+pub(super) fn values(setting: &Setting, columns: &[Column<Exact>]) -> Option<Vec<Vec<Field>>> {
+    let points = RefCell::new(Points::new(SEED));
+    let circle = || {
+        let (sin, cos) = points.borrow_mut().circle();
+        SinCosPair { sin, cos }
+    };
+    // Constant angles are the same in every state.
+    let angles: RefCell<Vec<(Angle, SinCosPair<Field>)>> = RefCell::default();
+    let fits = Cell::new(true);
+    let constant = |value: &Exact| {
+        let pair = &mut |angle: &Angle| {
+            let mut angles = angles.borrow_mut();
+            if let Some((_, pair)) = angles.iter().find(|(known, _)| known == angle) {
+                return pair.clone();
+            }
+            let pair = circle();
+            angles.push((angle.clone(), pair.clone()));
+            pair
+        };
+        let found = value.map(&mut |x: &Rational| Field::from_rational(x), pair);
+        found.unwrap_or_else(|| {
+            fits.set(false);
+            Field::ZERO
+        })
+    };
+    let arm = Arm::from_robot(setting.robot(), &mut { constant });
+    let columns: Vec<Column<Field>> = columns.iter().map(|c| c.map(constant)).collect();
+    let mut found: Vec<Vec<Field>> = vec![Vec::new(); columns.len()];
+    let states = columns.len() / setting.rows().len().max(1) + 4;
+    for _ in 0..states {
+        let pairs: Vec<SinCosPair<Field>> = setting.joints().iter().map(|_| circle()).collect();
+        let input = |input| match input {
+            Input::Sin(angle) => angle.pair(|joint| pairs[joint].clone()).sin,
+            Input::Cos(angle) => angle.pair(|joint| pairs[joint].clone()).cos,
+            Input::Entry(..) => points.borrow_mut().field(),
+        };
+        let motion = setting.motion(input, constant);
+        let (at, recursion) = (arm.at(&motion.q), Formulation::NewtonEulerLink);
+        let rows = recursion.regressor(&arm, &at, &motion.qd, &motion.qdd, &columns);
+        for &row in setting.rows() {
+            for (column, entry) in found.iter_mut().zip(&rows[row]) {
+                column.push(*entry);
+            }
+        }
+    }
+    fits.get().then_some(found)
+}

@@ -1,0 +1,222 @@
+//! The base parameters of a setting: the fewest combinations of inertial
+//! parameters, and of what the drives have, that give every torque asked for.
+//!
+//! What can move from a link to the one before without any torque noticing is
+//! known in closed form ([`dalembert_model::equations::chain::regrouping`]). From
+//! the hand inward, all of it moved, every unit of a link's parameter becomes an
+//! exact combination of what links keep: of a link that turns two first moments
+//! and five second moments, of one that slides its mass and first moments.
+//!
+//! What an arm and a scene leave unfelt beyond that (axes that are parallel or
+//! vertical, rates that are zero, joints that nobody asks for) shows as columns
+//! that vanish or depend on others. They are found by elimination modulo
+//! 2⁶¹ − 1 at random states: columns that are independent there are
+//! independent. That the others depend on them as they seem to is only a finding;
+//! [`crate::verify::parameters`] proves it.
+//!
+//! - `moments`: the moments that links keep; `origins`: about which points
+//! - `columns`: columns at random states, modulo the prime; `elimination`
+
+mod columns;
+mod elimination;
+mod moments;
+mod origins;
+
+use std::fmt;
+
+use dalembert_model::equations::Arm;
+use dalembert_model::equations::chain::{Chain, Probed, Skeleton};
+use dalembert_model::equations::matrix::opposite;
+use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+
+use super::Setting;
+use columns::values;
+use elimination::{fraction, reduced};
+use moments::{MAX_TERMS, Moment, kept, parts};
+
+/// A parameter of the robot file, about the origin of the link's DH frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Parameter {
+    /// Of a link.
+    Link(usize, LinkParameter),
+    /// The rotor's inertia of a joint.
+    Armature(usize),
+    /// The viscous friction of a joint.
+    Viscous(usize),
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Parameter::Link(joint, parameter) => write!(f, "{}{}", parameter.name(), joint + 1),
+            Parameter::Armature(joint) => write!(f, "armature{}", joint + 1),
+            Parameter::Viscous(joint) => write!(f, "viscous{}", joint + 1),
+        }
+    }
+}
+
+/// The base parameters of a setting.
+#[derive(Clone, Debug)]
+pub struct BaseParameters {
+    /// What each is a unit of: the columns of the regressor.
+    pub columns: Vec<Column<Exact>>,
+    /// Each as a combination of the robot file's parameters.
+    pub combinations: Vec<Vec<(Parameter, Exact)>>,
+}
+
+/// Why there are none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoBase {
+    /// A coefficient has too many sines and cosines of constant angles.
+    Large {
+        /// The joint whose link it is of.
+        joint: usize,
+    },
+    /// A column depends on others by a coefficient that is no short fraction.
+    Irrational,
+    /// A constant has no value modulo the prime.
+    Unfit,
+}
+
+impl fmt::Display for NoBase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let full = "ask for `full_regressor`, over all parameters of all links";
+        match self {
+            NoBase::Large { joint } => write!(
+                f,
+                "the base parameters that the link of joint {} is part of have more than \
+                 {MAX_TERMS} products of sines and cosines of the table's angles: give angles \
+                 that are multiples of pi/2 as such, or {full}",
+                joint + 1
+            ),
+            NoBase::Irrational => write!(
+                f,
+                "one base parameter depends on the others by a number that is no short fraction, \
+                 as odd angles between slides and the first axis give: {full}"
+            ),
+            NoBase::Unfit => write!(
+                f,
+                "a parameter is divisible by 2^61 - 1, modulo which columns are compared: \
+                 change its last digit, or {full}"
+            ),
+        }
+    }
+}
+
+impl BaseParameters {
+    /// Of a setting.
+    pub(super) fn of(setting: &Setting) -> Result<BaseParameters, NoBase> {
+        let robot = setting.robot();
+        let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
+        let n = arm.links.len();
+        let skeleton = Skeleton::with_columns(&arm, &setting.merged(), &of_links(n));
+        let regrouping = origins::chosen(&skeleton);
+        // Without bodies of their own: only the frames matter here.
+        let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
+
+        let mut candidates: Vec<Column<Exact>> = Vec::new();
+        // A link of the chain, and a moment that it keeps.
+        let mut places: Vec<(usize, Moment)> = Vec::new();
+        for (link, segment) in skeleton.links.iter().enumerate() {
+            let (turned, moved) = &segment.dh;
+            let back = transposed(turned);
+            for &moment in kept(segment.kind) {
+                let body = moment.unit().moved(&regrouping.links[link].origin);
+                candidates.push(Column::Body {
+                    joint: segment.joint,
+                    body: body.moved(&opposite(moved)).turned(&back),
+                });
+                places.push((link, moment));
+            }
+        }
+        let drives: Vec<Column<Exact>> = of_drives(robot);
+        candidates.extend(drives.iter().cloned());
+
+        let columns = values(setting, &candidates).ok_or(NoBase::Unfit)?;
+        let reduced = reduced(columns);
+        let mut base = BaseParameters {
+            columns: reduced
+                .pivots
+                .iter()
+                .map(|&c| candidates[c].clone())
+                .collect(),
+            combinations: vec![Vec::new(); reduced.pivots.len()],
+        };
+        // What each candidate is over the base columns.
+        let mut over: Vec<Vec<(usize, Exact)>> = Vec::with_capacity(candidates.len());
+        for coefficients in &reduced.coefficients {
+            let exact = coefficients.iter().map(|(pivot, x)| {
+                let fraction = fraction(*x).ok_or(NoBase::Irrational)?;
+                Ok((*pivot, Exact::from(fraction)))
+            });
+            over.push(exact.collect::<Result<_, NoBase>>()?);
+        }
+        for (link, segment) in chain.links.iter().enumerate() {
+            for probe in &segment.probes {
+                let Probed::Body(body) = &probe.of else {
+                    continue;
+                };
+                let joint = probe.column / LinkParameter::COUNT;
+                let own = LinkParameter::ALL[probe.column % LinkParameter::COUNT];
+                let parts = parts(&chain, link, body).ok_or(NoBase::Large { joint })?;
+                let mut sums = vec![Exact::zero(); base.columns.len()];
+                for ((place, moment), over) in places.iter().zip(&over) {
+                    let part = moment.of(&parts[*place]);
+                    for (pivot, factor) in over.iter().filter(|_| !part.is_zero()) {
+                        sums[*pivot] = sums[*pivot].add(&part.mul(factor));
+                    }
+                }
+                base.add(Parameter::Link(joint, own), sums);
+            }
+        }
+        for (drive, over) in drives.iter().zip(&over[places.len()..]) {
+            let mut sums = vec![Exact::zero(); base.columns.len()];
+            for (pivot, factor) in over {
+                sums[*pivot] = factor.clone();
+            }
+            base.add(
+                match drive {
+                    Column::Viscous(joint) => Parameter::Viscous(*joint),
+                    Column::Armature(joint) | Column::Body { joint, .. } => {
+                        Parameter::Armature(*joint)
+                    }
+                },
+                sums,
+            );
+        }
+        base.combinations
+            .iter_mut()
+            .for_each(|terms| terms.sort_by_key(|(of, _)| *of));
+        Ok(base)
+    }
+
+    fn add(&mut self, parameter: Parameter, coefficients: Vec<Exact>) {
+        for (terms, coefficient) in self.combinations.iter_mut().zip(coefficients) {
+            if !coefficient.is_zero() {
+                terms.push((parameter, coefficient));
+            }
+        }
+    }
+
+    /// Every base parameter's value for a robot of exact numbers.
+    pub fn values(&self, arm: &Arm<Exact>) -> Vec<Exact> {
+        let value = |terms: &Vec<(Parameter, Exact)>| {
+            let terms = terms.iter().map(|(parameter, factor)| {
+                let own = match *parameter {
+                    Parameter::Link(joint, own) => own.of(&arm.links[joint]),
+                    Parameter::Armature(joint) => arm.links[joint].armature.clone(),
+                    Parameter::Viscous(joint) => arm.links[joint].viscous.clone(),
+                };
+                own.mul(factor)
+            });
+            terms.fold(Exact::zero(), |sum, term| sum.add(&term))
+        };
+        self.combinations.iter().map(value).collect()
+    }
+}
+
+fn transposed(rotation: &[[Exact; 3]; 3]) -> [[Exact; 3]; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|j| rotation[j][i].clone()))
+}

@@ -1,0 +1,97 @@
+//! The moments of a body that base parameters are of, and what each link keeps
+//! of a body where all moves inward that can.
+
+use dalembert_model::equations::chain::body::entry;
+use dalembert_model::equations::chain::{Body, Chain};
+use dalembert_model::number::Exact;
+use dalembert_model::robot::{Inertia, JointKind};
+use dalembert_model::scalar::Scalar;
+
+/// Combinations with more monomials than this in a coefficient are not formed:
+/// every odd angle between two joints multiplies them.
+pub(super) const MAX_TERMS: usize = 400;
+
+/// A moment of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Moment {
+    Mass,
+    First(usize),
+    Second(usize, usize),
+}
+
+impl Moment {
+    /// A body that has a unit of it and nothing else.
+    pub(super) fn unit(self) -> Body<Exact> {
+        let mut body = Body::zero();
+        match self {
+            Moment::Mass => body.mass = Exact::one(),
+            Moment::First(axis) => body.first[axis] = Exact::one(),
+            Moment::Second(row, column) => {
+                let is_own = |i, j| (i, j) == (row, column);
+                body.second = Inertia::symmetric(|i, j| {
+                    if is_own(i, j) {
+                        Exact::one()
+                    } else {
+                        Exact::zero()
+                    }
+                });
+            }
+        }
+        body
+    }
+
+    pub(super) fn of(self, body: &Body<Exact>) -> &Exact {
+        match self {
+            Moment::Mass => &body.mass,
+            Moment::First(axis) => &body.first[axis],
+            Moment::Second(row, column) => entry(&body.second, row, column),
+        }
+    }
+}
+
+/// What a link keeps where everything moves that can.
+pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
+    match kind {
+        JointKind::Revolute => &[
+            Moment::Second(0, 0),
+            Moment::Second(1, 1),
+            Moment::Second(0, 1),
+            Moment::Second(0, 2),
+            Moment::Second(1, 2),
+            Moment::First(0),
+            Moment::First(1),
+        ],
+        JointKind::Prismatic => &[
+            Moment::Mass,
+            Moment::First(0),
+            Moment::First(1),
+            Moment::First(2),
+        ],
+    }
+}
+
+/// What each link keeps of a body of one; `None` where a constant grows too large.
+pub(super) fn parts(
+    chain: &Chain<Exact>,
+    link: usize,
+    body: &Body<Exact>,
+) -> Option<Vec<Body<Exact>>> {
+    let mut parts = vec![Body::zero(); chain.links.len()];
+    let mut arriving = body.clone();
+    for i in (0..=link).rev() {
+        if terms(&arriving) > MAX_TERMS {
+            return None;
+        }
+        let (stays, moves) = chain.links[i].split_base(&arriving);
+        parts[i] = stays;
+        arriving = moves;
+    }
+    Some(parts)
+}
+
+/// The most monomials of a number of a body.
+fn terms(body: &Body<Exact>) -> usize {
+    let mut most = 0;
+    body.map(|x| most = most.max(x.terms()));
+    most
+}

@@ -1,0 +1,100 @@
+//! About which points base parameters are taken.
+//!
+//! A link that turns may have its origin anywhere on its axis, one that slides
+//! anywhere at all: another origin adds columns to others, and the columns stay
+//! as many. Where axes of earlier joints pass through it, though, these have no
+//! lever, and a column costs less. So the operations of all columns are counted
+//! as they are written, for the points where frames are anyway.
+
+use dalembert_model::equations::chain::composite::CompositeOrder;
+use dalembert_model::equations::chain::{Body, Chain, Probe, Probed, Regrouping, Skeleton};
+use dalembert_model::equations::matrix::{Vector, opposite, zero_vector};
+use dalembert_model::equations::{JointPosition, SinCosPair};
+use dalembert_model::number::Exact;
+use dalembert_model::robot::JointKind;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::count::{Count, Counter};
+
+use super::moments::kept;
+
+/// The base regrouping with the origins that cost least, link after link from
+/// the hand.
+pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
+    let frames = without_bodies(skeleton);
+    let mut best = Regrouping::base(&frames);
+    let mut least = cost(&frames, &best);
+    for link in (0..frames.links.len()).rev() {
+        for origin in candidates(&frames, link) {
+            let mut other = best.clone();
+            other.links[link].origin = origin;
+            let cost = cost(&frames, &other);
+            if cost < least {
+                (best, least) = (other, cost);
+            }
+        }
+    }
+    best
+}
+
+/// The frames alone.
+pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
+    let mut empty = skeleton.clone();
+    empty
+        .links
+        .iter_mut()
+        .for_each(|link| link.body = Body::zero());
+    empty
+}
+
+/// Where the joint's step begins and where the next one does.
+fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
+    let segment = &skeleton.links[link];
+    let next = skeleton.links.get(link + 1).map(|next| next.offset.clone());
+    let mut candidates = vec![zero_vector()];
+    match segment.kind {
+        JointKind::Revolute => candidates.extend(next.map(|[_, _, z]| {
+            let [x, y] = [Exact::zero(), Exact::zero()];
+            [x, y, z]
+        })),
+        JointKind::Prismatic => {
+            candidates.push(opposite(&segment.offset));
+            candidates.extend(next);
+        }
+    }
+    candidates
+}
+
+/// The operations of all base columns, as they are written.
+fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
+    let mut chain = Chain::new(frames, regrouping);
+    for link in &mut chain.links {
+        let moments = kept(link.kind).iter().enumerate();
+        link.probes = moments
+            .map(|(column, moment)| Probe {
+                column,
+                of: Probed::Body(moment.unit()),
+            })
+            .collect();
+    }
+    chain.columns = kept(JointKind::Revolute).len();
+    let counter = Counter::new();
+    let chain = chain.map(|x| match x {
+        x if x.is_zero() => Count::Zero,
+        x if x.is_one() => Count::One,
+        x if x.neg().is_one() => Count::MinusOne,
+        _ => Count::Number,
+    });
+    let value = || counter.value();
+    let position = chain.links.iter().map(|link| match link.kind {
+        JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+            sin: value(),
+            cos: value(),
+        }),
+        JointKind::Prismatic => JointPosition::Prismatic(value()),
+    });
+    let position: Vec<JointPosition<Count<'_>>> = position.collect();
+    let rates: Vec<Count<'_>> = position.iter().map(|_| value()).collect();
+    let (chain, at) = chain.posed(&position);
+    chain.regressor(&at, &rates, &rates, CompositeOrder::Outward);
+    counter.multiplications() + counter.additions()
+}

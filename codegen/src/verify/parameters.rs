@@ -1,0 +1,180 @@
+//! The exact proof that base parameters give every torque: the column of each
+//! parameter of the robot file is the combination of the regressor's columns
+//! that its base parameters say.
+//!
+//! Let B be what [`BaseParameters`] holds, π' = B π. Then τ = Y_full π = Y π' for
+//! every π exactly if Y_full = Y B, entry by entry, and that is what is evaluated
+//! here, as [`exact`](super::exact) evaluates programs: both sides by
+//! Lagrange–Euler, modulo primes and at points that follow from the statement.
+//! That no fewer columns would do needs no such proof: they were independent
+//! modulo a prime, and so they are.
+//!
+//! [`BaseParameters`]: crate::scene::base::BaseParameters
+
+use std::cell::{Cell, RefCell};
+
+use dalembert_model::equations::regressor::{Column, of_drives, of_links};
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+
+use super::challenge::{Point, Transcript};
+use super::exact::{Disproof, MAX_DRAWS, PRIMES, WRITTEN_LIMIT};
+use super::miss;
+use super::ratio::Ratio;
+use super::size::Denominators;
+use crate::function::Function;
+use crate::program::Input;
+use crate::scene::Setting;
+use crate::scene::base::{BaseParameters, Parameter};
+
+/// Proves the base parameters of a setting.
+///
+/// # Errors
+/// A parameter whose torques they do not give, or too large a chance of a miss.
+pub fn prove_base(setting: &Setting, base: &BaseParameters) -> Result<(), Disproof> {
+    let formulation = match setting.joints().len() <= WRITTEN_LIMIT {
+        true => Formulation::LagrangeEuler,
+        false => Formulation::NewtonEulerLink,
+    };
+    let statement = Statement {
+        setting,
+        base,
+        formulation,
+    };
+    let challenge = statement.transcript().seal();
+    let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
+    let mut good = 0;
+    for point in points {
+        let Some(differences) = statement.at(&point) else {
+            continue;
+        };
+        if let Some(wrong) = differences.iter().position(|x| *x != 0) {
+            let parameters = statement.parameters();
+            let parameter = parameters[wrong % parameters.len()].to_string();
+            return Err(Disproof::Dependence { parameter });
+        }
+        good += 1;
+        if good == PRIMES {
+            return statement.is_sure();
+        }
+    }
+    Err(Disproof::Unfit)
+}
+
+struct Statement<'a> {
+    setting: &'a Setting,
+    base: &'a BaseParameters,
+    formulation: Formulation,
+}
+
+impl Statement<'_> {
+    fn transcript(&self) -> Transcript {
+        let mut transcript = Transcript::new("base parameters");
+        transcript.setting(self.setting);
+        transcript.number(self.base.columns.len());
+        for (column, terms) in self.base.columns.iter().zip(&self.base.combinations) {
+            let place = match column {
+                Column::Body { joint, .. } => format!("body {joint}"),
+                Column::Armature(joint) => format!("armature {joint}"),
+                Column::Viscous(joint) => format!("viscous {joint}"),
+            };
+            transcript.text(&place);
+            // Nothing of what there is none.
+            column.map(|number| transcript.text(&number.to_string()));
+            transcript.number(terms.len());
+            for (parameter, factor) in terms {
+                transcript.text(&parameter.to_string());
+                transcript.text(&factor.to_string());
+            }
+        }
+        transcript
+    }
+
+    /// All parameters of the robot file, in the order of the full columns.
+    fn parameters(&self) -> Vec<Parameter> {
+        use dalembert_model::equations::regressor::LinkParameter;
+        let joints = self.setting.joints().iter();
+        let links = joints.flat_map(|&joint| {
+            let all = LinkParameter::ALL.into_iter();
+            all.map(move |own| Parameter::Link(joint, own))
+        });
+        let drives = of_drives::<Exact>(self.setting.robot()).into_iter();
+        let drives = drives.map(|column| match column {
+            Column::Viscous(joint) => Parameter::Viscous(joint),
+            Column::Armature(joint) | Column::Body { joint, .. } => Parameter::Armature(joint),
+        });
+        links.chain(drives).collect()
+    }
+
+    /// Y_full − Y B over the rows, row by row; `None` if a constant has no value.
+    fn differences<S: Scalar>(
+        &self,
+        input: impl FnMut(Input) -> S,
+        constant: impl Fn(&Exact) -> Option<S>,
+    ) -> Option<Vec<S>> {
+        let failed = Cell::new(false);
+        let constant = |value: &Exact| {
+            constant(value).unwrap_or_else(|| {
+                failed.set(true);
+                S::zero()
+            })
+        };
+        let setting = self.setting;
+        let arm = Arm::from_robot(setting.robot(), &mut { constant });
+        let motion = setting.motion(input, constant);
+        let at = arm.at(&motion.q);
+        let by = |columns: &[Column<S>]| {
+            self.formulation
+                .regressor(&arm, &at, &motion.qd, &motion.qdd, columns)
+        };
+        let mut all = of_links(setting.joints().len());
+        all.extend(of_drives(setting.robot()));
+        let whole = by(&all);
+        let own = by(&setting.columns(Function::Regressor, constant));
+        let parameters = self.parameters();
+        let mut found = Vec::new();
+        for &row in setting.rows() {
+            let mut differences = whole[row].clone();
+            for (entry, terms) in own[row].iter().zip(&self.base.combinations) {
+                for (parameter, factor) in terms {
+                    let place = parameters.iter().position(|known| known == parameter);
+                    let place = place.and_then(|place| differences.get_mut(place));
+                    match place {
+                        Some(sum) => *sum = sum.sub(&entry.mul(&constant(factor))),
+                        None => failed.set(true),
+                    }
+                }
+            }
+            found.extend(differences);
+        }
+        (!failed.get()).then_some(found)
+    }
+
+    fn at(&self, point: &Point) -> Option<Vec<u64>> {
+        let input = |input| point.input(input);
+        let differences = self.differences(input, |constant| point.constant(constant))?;
+        let values = differences.iter().map(|x| x.value(point.prime()));
+        values.collect()
+    }
+
+    /// Whether a miss is unlikely.
+    fn is_sure(&self) -> Result<(), Disproof> {
+        let denominators: RefCell<Denominators> = RefCell::default();
+        let constant =
+            |constant: &Exact| Some(Ratio::constant(constant, &mut denominators.borrow_mut()));
+        let differences = self.differences(Ratio::input, constant);
+        let differences = differences.unwrap_or_default();
+        let denominators = denominators.borrow().clone();
+        let tops = || differences.iter().map(Ratio::top);
+        let degree = tops()
+            .map(|top| top.map_or(u64::MAX, |top| top.bound()))
+            .max();
+        let height = tops().map(|top| top.map_or(u64::MAX, |top| top.height(&denominators)));
+        let (degree, height) = (degree.unwrap_or(0), height.max().unwrap_or(0));
+        match miss::is_small(degree, height, PRIMES) {
+            true => Ok(()),
+            false => Err(Disproof::Large { degree, height }),
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! τ = Y π: of every arm, in both scalars, in scenes, with as few columns as there
+//! can be; and what a wrong combination is refused with.
+
+mod support;
+
+use std::path::Path;
+
+use dalembert_codegen::clauses::expand;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{GenerateError, Generated, Request, ToleranceError, Unbounded};
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::base::{BaseParameters, Parameter};
+use dalembert_codegen::states::seeded;
+use dalembert_codegen::verify::exact::Disproof;
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::verify::parameters::prove_base;
+use dalembert_model::equations::Arm;
+use dalembert_model::number::{Angle, Exact, Rational, Rounded};
+use dalembert_model::robot::{Position, Robot};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scene::Scene;
+
+const ROBOTS: [&str; 6] = [
+    "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
+];
+
+fn generate(robot: &Robot, scene: Option<&Scene>) -> Generated {
+    let request = Request {
+        functions: vec![Function::Regressor],
+        scene: scene.cloned(),
+        ..Request::default()
+    };
+    dalembert_codegen::generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The constants `BASE_PARAMETERS` of the text, a module each.
+fn printed(text: &str) -> Vec<Vec<f64>> {
+    let constants = text.split("pub const BASE_PARAMETERS: [").skip(1);
+    let constants = constants.map(|rest| {
+        let (_, rest) = rest.split_once("= [\n").unwrap();
+        let (values, _) = rest.split_once("];").unwrap();
+        let values = values.split(',').map(str::trim);
+        let values = values.filter(|value| !value.is_empty());
+        values.map(|value| value.parse().unwrap()).collect()
+    });
+    constants.collect()
+}
+
+/// The rank of Y over all links' parameters, in f64 from the runtime: elimination
+/// with the largest pivot there is, columns brought to one length first.
+fn rank(runtime: &Runtime, setting: &Setting) -> usize {
+    let rows = setting.rows().len();
+    let columns = 10 * setting.joints().len();
+    let states = seeded(setting.robot(), columns / rows + 10, 0x72616e6b);
+    let values = states
+        .iter()
+        .flat_map(|state| runtime.run(Function::FullRegressor, state));
+    let values: Vec<f64> = values.collect();
+    let mut matrix: Vec<Vec<f64>> = (0..columns)
+        .map(|column| {
+            values
+                .iter()
+                .skip(column)
+                .step_by(columns)
+                .copied()
+                .collect()
+        })
+        .collect();
+    let length = |column: &Vec<f64>| column.iter().map(|x| x * x).sum::<f64>().sqrt();
+    for column in &mut matrix {
+        let length = length(column);
+        // What is dust stays dust.
+        column.iter_mut().for_each(|x| *x /= length.max(1e-3));
+    }
+    let mut rank = 0;
+    loop {
+        let Some(largest) = matrix.iter().map(length).reduce(f64::max) else {
+            return rank;
+        };
+        if largest < 1e-9 {
+            return rank;
+        }
+        let at = matrix
+            .iter()
+            .position(|column| length(column) == largest)
+            .unwrap();
+        let pivot = matrix.swap_remove(at);
+        rank += 1;
+        for column in &mut matrix {
+            let along = column.iter().zip(&pivot).map(|(x, y)| x * y).sum::<f64>();
+            let factor = along / (largest * largest);
+            column
+                .iter_mut()
+                .zip(&pivot)
+                .for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+}
+
+/// The emitted Y times the printed π against the runtime's torques, relative to
+/// what the sums are made of; and as many columns as the rank.
+fn check(robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
+    let generated = generate(robot, scene);
+    let setting = Setting::of(robot, scene).unwrap();
+    let runtime = Runtime::in_setting(setting.clone());
+    let parameters = printed(&generated.text);
+    let base = rank(&runtime, &setting) + drives;
+    assert_eq!(generated.emitted.len(), 2);
+    for (emitted, pi) in generated.emitted.iter().zip(&parameters) {
+        assert_eq!(pi.len(), base, "{}", robot.name);
+        assert_eq!(emitted.sizes.base, base);
+        for state in seeded(setting.robot(), 50, 0x7275) {
+            let state = match emitted.scalar {
+                ScalarType::F64 => state,
+                ScalarType::F32 => state.in_single(),
+            };
+            let tau = runtime.run(Function::InverseDynamics, &state);
+            let y = emitted.run(&state);
+            let u = emitted.scalar.unit_roundoff();
+            assert_eq!(y.len(), tau.len() * base);
+            let mut errors = Vec::new();
+            let mut size = 0.0f64;
+            for (row, tau) in y.chunks(base.max(1)).zip(&tau) {
+                let terms = || row.iter().zip(pi).map(|(y, pi)| y * pi);
+                errors.push((terms().sum::<f64>() - tau).abs());
+                size = size.max(terms().map(f64::abs).sum());
+            }
+            for error in errors {
+                let most = BOUND * u * size;
+                assert!(
+                    error <= most,
+                    "{} {}: {error} {most}",
+                    robot.name,
+                    emitted.scalar
+                );
+            }
+        }
+    }
+    generated
+}
+
+/// Known numbers of base parameters: 36 of the PUMA (Gautier, Khalil 1990), 43
+/// of the Panda (Gaz et al. 2019), and 3 a link in the plane.
+#[test]
+fn torques_of_the_checked_in_robots() {
+    // Upper bounds on operations of a quick search; they only ever go down.
+    let most = [22, 49, 600, 529, 507, 978];
+    let bases = [6, 9, 36, 33, 36, 43];
+    for ((name, base), most) in ROBOTS.into_iter().zip(bases).zip(most) {
+        let generated = check(&support::robot(name), None, 0);
+        assert_eq!(generated.emitted[0].sizes.base, base);
+        let found = generated.functions[0].counts.operations();
+        assert!(found <= most, "{name}: {found}");
+    }
+}
+
+/// Slides before, between and after what turns; odd angles.
+#[test]
+fn torques_of_other_arms() {
+    for name in ["scara", "gantry", "rprpr"] {
+        check(&support::read_robot(&support::arm_file(name)), None, 0);
+    }
+}
+
+/// Rotors and friction have columns of their own, but for the first rotor, which
+/// is felt as the first link's inertia is.
+#[test]
+fn drives_have_columns() {
+    let mut robot = support::robot("planar2r");
+    for (joint, value) in robot.joints.iter_mut().zip([2, 3]) {
+        joint.armature = Rational::new(value.into(), 10.into());
+        joint.viscous = Rational::new(value.into(), 7.into());
+    }
+    let generated = check(&robot, None, 3);
+    for said in ["Izz1 + m2 + armature1 |", "| armature2 |", "| viscous1 |"] {
+        assert!(generated.text.contains(said), "{said}: {}", generated.text);
+    }
+}
+
+fn scene(change: impl FnOnce(&mut Scene)) -> Scene {
+    let mut scene = Scene {
+        name: "some".into(),
+        ..Scene::default()
+    };
+    change(&mut scene);
+    scene
+}
+
+/// What a scene holds still or does not ask for needs fewer parameters.
+#[test]
+fn torques_in_scenes() {
+    let angle = |n: i64, d: i64| Position::Angle(Angle::PiTimes(Rational::new(n.into(), d.into())));
+    let plane = scene(|scene| {
+        scene.lock = vec![(0, angle(0, 1)), (3, angle(0, 1)), (5, angle(1, 6))];
+    });
+    let pick = scene(|scene| {
+        scene.joints = Some(vec![2, 0]);
+        scene.velocity_zero = true;
+    });
+    let held = scene(|scene| {
+        scene.lock = vec![(4, angle(1, 4))];
+        scene.joints = Some(vec![4, 1]);
+    });
+    let still = scene(|scene| (scene.velocity_zero, scene.acceleration_zero) = (true, true));
+    let robot = support::robot("puma560");
+    for scene in [plane, pick, held, still] {
+        check(&robot, Some(&scene), 0);
+    }
+}
+
+/// π from the combinations is the torques' π exactly, and a combination that is
+/// off in one coefficient, or that lacks a column, is refused by the parameter.
+#[test]
+fn wrong_combinations_are_refused() {
+    let robot = support::robot("puma560");
+    let setting = Setting::whole(&robot);
+    let base = setting.base().unwrap();
+    assert_eq!(prove_base(&setting, base), Ok(()));
+    let arm = Arm::from_robot(&robot, &mut Exact::clone);
+    let printed = &printed(&generate(&robot, None).text)[0];
+    let values: Vec<f64> = base.values(&arm).iter().map(f64::nearest).collect();
+    assert_eq!(*printed, values);
+
+    let refused = |wrong: &BaseParameters, parameter: Parameter| {
+        let parameter = parameter.to_string();
+        let expected = Err(Disproof::Dependence { parameter });
+        assert_eq!(prove_base(&setting, wrong), expected);
+    };
+    for column in [0, 8, 20, 35] {
+        let mut wrong = base.clone();
+        let (parameter, factor) = wrong.combinations[column].last_mut().unwrap();
+        let tiny = Rational::new(1.into(), 1_000_000_000.into());
+        *factor = factor.add(&Exact::from(tiny));
+        let parameter = *parameter;
+        refused(&wrong, parameter);
+    }
+    let mut short = base.clone();
+    let (parameter, _) = short.combinations[35].pop().unwrap();
+    refused(&short, parameter);
+}
+
+/// No tolerance: what a column's error does depends on the parameter.
+#[test]
+fn tolerances_are_refused() {
+    let source = "\n[scene.some]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
+    let reading = support::reading_with("puma560", source);
+    for function in [Function::Regressor, Function::FullRegressor] {
+        let request = Request {
+            functions: vec![function],
+            scene: reading.scenes.first().cloned(),
+            ..Request::default()
+        };
+        let error = dalembert_codegen::generate(&reading.robot, &request).unwrap_err();
+        let why = ToleranceError::Function(Unbounded::Parameters);
+        assert_eq!(error, GenerateError::Tolerance(function, why));
+    }
+}
+
+/// By `dynamics!`: Y with its constant; after an error both stand there all the
+/// same, so that calls are no errors too.
+#[test]
+fn the_macro_gives_both() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+    let expanded = |file: &str| {
+        let outputs = "outputs: regressor, full_regressor; scalar: f64;";
+        let tokens = format!("pub mod arm = \"{file}\"; {outputs}")
+            .parse()
+            .unwrap();
+        let text = expand(tokens, &folder).to_string();
+        // Spaces depend on the lexer.
+        text.split_whitespace().collect::<String>()
+    };
+    let text = expanded("planar2r.toml");
+    let arguments = "(q:&[f64;2],qd:&[f64;2],qdd:&[f64;2])";
+    for said in [
+        "pubconstBASE_PARAMETERS:[f64;6]=".to_owned(),
+        format!("pubfnregressor{arguments}->[[f64;6];2]"),
+        format!("pubfnfull_regressor{arguments}->[[f64;20];2]"),
+    ] {
+        assert!(text.contains(&said), "{said}: {text}");
+    }
+    let text = expanded("planar9r.toml");
+    for said in [
+        "compile_error",
+        "pubconstBASE_PARAMETERS:&[f64]",
+        "pubfnregressor",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+}

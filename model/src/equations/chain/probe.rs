@@ -1,0 +1,104 @@
+//! What is fixed to the links of a chain beside their bodies: the columns of a
+//! regressor.
+
+use alloc::vec::Vec;
+
+use super::{Body, Rotation};
+use crate::equations::matrix::Vector;
+use crate::scalar::Scalar;
+
+/// What a column of a regressor is the torque of.
+#[derive(Clone, Debug)]
+pub enum Column<S> {
+    /// A body that is fixed to a link.
+    Body {
+        /// The joint that moves the link.
+        joint: usize,
+        /// About the origin and in the axes of the link's DH frame.
+        body: Body<S>,
+    },
+    /// A unit of the rotor's inertia that a joint feels.
+    Armature(usize),
+    /// A unit of a joint's viscous friction.
+    Viscous(usize),
+}
+
+impl<S> Column<S> {
+    /// Every number through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Column<T> {
+        match self {
+            Column::Body { joint, body } => Column::Body {
+                joint: *joint,
+                body: body.map(&mut f),
+            },
+            Column::Armature(joint) => Column::Armature(*joint),
+            Column::Viscous(joint) => Column::Viscous(*joint),
+        }
+    }
+}
+
+/// What is fixed to a link beside its body.
+#[derive(Clone, Debug)]
+pub struct Probe<S> {
+    /// The column of the regressor.
+    pub column: usize,
+    /// What it is.
+    pub of: Probed<S>,
+}
+
+/// What a column of a regressor is of.
+#[derive(Clone, Debug)]
+pub enum Probed<S> {
+    /// A body, about the origin and in the axes of the link's frame.
+    Body(Body<S>),
+    /// A unit of the rotor's inertia.
+    Armature,
+    /// A unit of viscous friction.
+    Viscous,
+}
+
+impl<S> Probe<S> {
+    pub(super) fn is_body(&self) -> bool {
+        matches!(self.of, Probed::Body(_))
+    }
+
+    /// Every body through `f`.
+    pub(super) fn each<T>(
+        probes: &[Probe<S>],
+        mut f: impl FnMut(&Body<S>) -> Body<T>,
+    ) -> Vec<Probe<T>> {
+        let each = probes.iter().map(|probe| Probe {
+            column: probe.column,
+            of: match &probe.of {
+                Probed::Body(body) => Probed::Body(f(body)),
+                Probed::Armature => Probed::Armature,
+                Probed::Viscous => Probed::Viscous,
+            },
+        });
+        each.collect()
+    }
+}
+
+/// The columns of a joint, from its DH frame into a frame in which that is
+/// turned and moved.
+pub(super) fn probes<S: Scalar>(
+    columns: &[Column<S>],
+    joint: usize,
+    turned: &Rotation<S>,
+    moved: &Vector<S>,
+) -> impl Iterator<Item = Probe<S>> {
+    let of = move |column: &Column<S>| match column {
+        Column::Body { joint: own, body } => {
+            (*own == joint).then(|| Probed::Body(body.carried(turned, moved)))
+        }
+        Column::Armature(own) => (*own == joint).then_some(Probed::Armature),
+        Column::Viscous(own) => (*own == joint).then_some(Probed::Viscous),
+    };
+    let all = columns.iter().enumerate();
+    all.filter_map(move |(column, what)| {
+        Some(Probe {
+            column,
+            of: of(what)?,
+        })
+    })
+}

@@ -1,0 +1,126 @@
+//! The columns of a regressor: what bodies that are fixed to the links take of
+//! torque, each by itself, at one motion.
+//!
+//! ω, ω̇, U and v̇ of a link are the same for whatever is fixed to it, and so are
+//! the joints' twists Δ_k seen from its frame. With F = m v̇ + U s and
+//! N = s × v̇ + (the antisymmetric part of U Σ) of a body, its entry in row k ≤ i
+//! is the power of that wrench on Δ_k. A unit body has a single moment, so that
+//! a column of U or two are all that there is of its wrench.
+//!
+//! Where the axes of several joints meet, the wrench may be taken about that
+//! point instead: N + F × o once, and of each of these joints the angular part
+//! alone.
+
+use alloc::vec::Vec;
+
+use super::composite::CompositeOrder;
+use super::probe::Probed;
+use super::recursion::{AccelerationForm, MomentForm};
+use super::twist::Twist;
+use super::{Chain, ChainLink, Displacement, unit_z};
+use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// A point that several axes pass through.
+struct Centre<S> {
+    joints: Vec<usize>,
+    /// Where it is in the frame of the link that is looked at.
+    at: Vector<S>,
+}
+
+impl<S: Scalar> Chain<S> {
+    /// The columns that the probes are, a row a joint; by twists that travel
+    /// outward alone, or by wrenches about points where axes meet.
+    pub fn regressor(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
+        let motions = self.motions(at, qd, qdd, AccelerationForm::Column);
+        let n = self.links.len();
+        let mut rows: Vec<Vec<S>> = (0..n).map(|_| zeros(self.columns)).collect();
+        // The joints' twists up to the link's own, seen from its frame.
+        let mut twists: Vec<Twist<S>> = Vec::with_capacity(n);
+        let mut centres: Vec<Centre<S>> = Vec::new();
+        for (i, link) in self.links.iter().enumerate() {
+            twists = twists.iter().map(|t| t.outward(link, &at[i])).collect();
+            twists.push(own_twist(link));
+            for centre in &mut centres {
+                let lever = link.lever(&at[i]);
+                centre.at = link.inward(&at[i], &difference(&centre.at, &lever));
+            }
+            if travel == CompositeOrder::Inward {
+                centres.extend(meeting(&twists));
+            }
+            for probe in &link.probes {
+                let body = match &probe.of {
+                    Probed::Armature => {
+                        rows[i][probe.column] = qdd[i].clone();
+                        continue;
+                    }
+                    Probed::Viscous => {
+                        rows[i][probe.column] = qd[i].clone();
+                        continue;
+                    }
+                    Probed::Body(body) => body,
+                };
+                let (force, moment) = motions[i].wrench(body, MomentForm::SecondMoments);
+                let moments: Vec<Vector<S>> = centres
+                    .iter()
+                    .map(|centre| sum(&moment, &cross(&force, &centre.at)))
+                    .collect();
+                for (k, twist) in twists.iter().enumerate() {
+                    let power = match widest(&centres, k) {
+                        Some(centre) => dot(&twist.turn, &moments[centre]),
+                        None => twist.power(&force, &moment),
+                    };
+                    rows[k][probe.column] = match self.links[k].kind {
+                        JointKind::Revolute => power,
+                        JointKind::Prismatic => times(&power, &self.per_unit),
+                    };
+                }
+            }
+        }
+        rows
+    }
+}
+
+fn own_twist<S: Scalar>(link: &ChainLink<S>) -> Twist<S> {
+    match link.kind {
+        JointKind::Revolute => Twist {
+            turn: unit_z(),
+            shift: zero_vector(),
+        },
+        JointKind::Prismatic => Twist {
+            turn: zero_vector(),
+            shift: link.axis.clone(),
+        },
+    }
+}
+
+/// The origin of a frame as a point where axes meet, if several do by structure.
+fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
+    let passes = |twist: &Twist<S>| {
+        let turns = twist.turn.iter().any(|x| !x.is_zero());
+        turns && twist.shift.iter().all(S::is_zero)
+    };
+    let joints = twists.iter().enumerate();
+    let joints = joints.filter(|(_, twist)| passes(twist));
+    let joints: Vec<usize> = joints.map(|(joint, _)| joint).collect();
+    (joints.len() > 1).then(|| Centre {
+        joints,
+        at: zero_vector(),
+    })
+}
+
+/// The point on a joint's axis that most others pass through, the first such.
+fn widest<S>(centres: &[Centre<S>], joint: usize) -> Option<usize> {
+    let on_axis = centres.iter().enumerate();
+    let on_axis = on_axis.filter(|(_, centre)| centre.joints.contains(&joint));
+    // The last of the largest in reverse is the first.
+    let widest = on_axis.rev().max_by_key(|(_, centre)| centre.joints.len());
+    widest.map(|(index, _)| index)
+}

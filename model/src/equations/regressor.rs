@@ -1,0 +1,232 @@
+//! Y in τ = Y π: what one unit of an inertial parameter alone takes of torque.
+//!
+//! Torques are linear in the mass, the first moments and the tensor about a
+//! fixed origin of every link, in the rotors' inertias and in the coefficients
+//! of viscous friction. A column of Y is therefore the torque of an arm that has
+//! nothing but that parameter. Its velocities and accelerations are the same
+//! for all columns; [`super::chain`] shares them. Here each column comes from
+//! any formulation of inverse dynamics, and the two check each other.
+
+use alloc::vec::Vec;
+
+pub use super::chain::Column;
+use super::chain::body::{Body, entry};
+use super::matrix::{minus, times, zero_vector, zeros};
+use super::{Arm, DhVariables, Formulation, Link};
+use crate::robot::{Inertia, Robot};
+use crate::scalar::Scalar;
+
+/// An inertial parameter of a link, about the origin and in the axes of the
+/// link's DH frame; the tensor's entries as they stand in the matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LinkParameter {
+    /// m
+    Mass,
+    /// A component of ∫ r dm.
+    First(usize),
+    /// An entry of the tensor, row ≤ column.
+    Tensor(usize, usize),
+}
+
+impl LinkParameter {
+    /// In the order of the columns of a full regressor.
+    pub const ALL: [LinkParameter; 10] = [
+        LinkParameter::Mass,
+        LinkParameter::First(0),
+        LinkParameter::First(1),
+        LinkParameter::First(2),
+        LinkParameter::Tensor(0, 0),
+        LinkParameter::Tensor(1, 1),
+        LinkParameter::Tensor(2, 2),
+        LinkParameter::Tensor(0, 1),
+        LinkParameter::Tensor(1, 2),
+        LinkParameter::Tensor(0, 2),
+    ];
+
+    /// How many a link has.
+    pub const COUNT: usize = Self::ALL.len();
+
+    /// Its name without the link's number.
+    pub fn name(self) -> &'static str {
+        match self {
+            LinkParameter::Mass => "m",
+            LinkParameter::First(0) => "mx",
+            LinkParameter::First(1) => "my",
+            LinkParameter::First(_) => "mz",
+            LinkParameter::Tensor(0, 0) => "Ixx",
+            LinkParameter::Tensor(1, 1) => "Iyy",
+            LinkParameter::Tensor(2, 2) => "Izz",
+            LinkParameter::Tensor(0, 1) => "Ixy",
+            LinkParameter::Tensor(1, 2) => "Iyz",
+            LinkParameter::Tensor(_, _) => "Ixz",
+        }
+    }
+
+    /// A body with a unit of it and nothing else.
+    pub fn unit<S: Scalar>(self) -> Body<S> {
+        let mut body = Body::zero();
+        match self {
+            LinkParameter::Mass => body.mass = S::one(),
+            LinkParameter::First(axis) => body.first[axis] = S::one(),
+            LinkParameter::Tensor(row, column) => {
+                // Σ = ½ tr(I)·1 − I
+                let half = S::one().half();
+                body.second = Inertia::symmetric(|i, j| match (i == j, row == column) {
+                    (true, true) if i == row => half.neg(),
+                    (true, true) => half.clone(),
+                    (false, false) if (i.min(j), i.max(j)) == (row, column) => S::one().neg(),
+                    _ => S::zero(),
+                });
+            }
+        }
+        body
+    }
+
+    /// Its value for a link.
+    pub fn of<S: Scalar>(self, link: &Link<S>) -> S {
+        let body = Body::of(link);
+        match self {
+            LinkParameter::Mass => body.mass,
+            LinkParameter::First(axis) => body.first[axis].clone(),
+            LinkParameter::Tensor(row, column) => {
+                let tensor = body.tensor();
+                entry(&tensor, row, column).clone()
+            }
+        }
+    }
+}
+
+/// The columns of a full regressor: every parameter of every link, link by link.
+pub fn of_links<S: Scalar>(joints: usize) -> Vec<Column<S>> {
+    let of = |joint| {
+        let all = LinkParameter::ALL.into_iter();
+        all.map(move |parameter| Column::Body {
+            joint,
+            body: parameter.unit(),
+        })
+    };
+    (0..joints).flat_map(of).collect()
+}
+
+/// The drives' columns of the parameters that a robot has: rotors' inertias,
+/// then viscous friction, where these are not zero.
+pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
+    use num_traits::Zero;
+    let joints = || robot.joints.iter().enumerate();
+    let armatures = joints().filter(|(_, joint)| !joint.armature.is_zero());
+    let viscous = joints().filter(|(_, joint)| !joint.viscous.is_zero());
+    let armatures = armatures.map(|(i, _)| Column::Armature(i));
+    armatures
+        .chain(viscous.map(|(i, _)| Column::Viscous(i)))
+        .collect()
+}
+
+/// What of a joint's drive a column is: what it multiplies in the joint's row.
+pub(super) fn drive<'a, S>(
+    column: &Column<S>,
+    qd: &'a [S],
+    qdd: &'a [S],
+) -> Option<(usize, &'a S)> {
+    match column {
+        Column::Body { .. } => None,
+        Column::Armature(joint) => Some((*joint, &qdd[*joint])),
+        Column::Viscous(joint) => Some((*joint, &qd[*joint])),
+    }
+}
+
+impl Formulation {
+    /// The columns of a regressor, n rows of an entry a column, each as the
+    /// difference of the torques of two arms.
+    pub fn regressor<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        qdd: &[S],
+        columns: &[Column<S>],
+    ) -> Vec<Vec<S>> {
+        differences(arm, columns, qd, qdd, |arm| {
+            self.inverse_dynamics(arm, at, qd, qdd)
+        })
+    }
+}
+
+/// The columns of a regressor from the torques of arms at one motion.
+///
+/// An arm's link has a mass, a centre of mass and a tensor about that: a first
+/// moment without a mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a
+/// body is the difference of two that are, the first with its centre at s.
+pub fn differences<S: Scalar>(
+    arm: &Arm<S>,
+    columns: &[Column<S>],
+    qd: &[S],
+    qdd: &[S],
+    torques: impl Fn(&Arm<S>) -> Vec<S>,
+) -> Vec<Vec<S>> {
+    let n = arm.links.len();
+    let empty = without_bodies(arm);
+    let mut rows: Vec<Vec<S>> = (0..n).map(|_| Vec::with_capacity(columns.len())).collect();
+    for column in columns {
+        let entries = match (column, drive(column, qd, qdd)) {
+            (Column::Body { joint, body }, _) => of_body(&empty, *joint, body, &torques),
+            (_, drive) => {
+                let mut entries = zeros(n);
+                if let Some((joint, factor)) = drive {
+                    entries[joint] = factor.clone();
+                }
+                entries
+            }
+        };
+        for (row, entry) in rows.iter_mut().zip(entries) {
+            row.push(entry);
+        }
+    }
+    rows
+}
+
+/// The same joints without masses, friction and rotors.
+fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
+    let mut empty = arm.clone();
+    for link in &mut empty.links {
+        link.mass = S::zero();
+        link.com = zero_vector();
+        link.inertia = Inertia::symmetric(|_, _| S::zero());
+        link.viscous = S::zero();
+        link.armature = S::zero();
+    }
+    empty
+}
+
+/// The torques of a body by itself.
+fn of_body<S: Scalar>(
+    empty: &Arm<S>,
+    joint: usize,
+    body: &Body<S>,
+    torques: &impl Fn(&Arm<S>) -> Vec<S>,
+) -> Vec<S> {
+    let with = |mass: S, com: [S; 3], inertia: Inertia<S>| {
+        let mut arm = empty.clone();
+        let link = &mut arm.links[joint];
+        (link.mass, link.com, link.inertia) = (mass, com, inertia);
+        torques(&arm)
+    };
+    if body.first.iter().all(S::is_zero) {
+        return with(body.mass.clone(), zero_vector(), body.tensor());
+    }
+    // About its centre at s a mass of one has Σ − s sᵀ.
+    let about_centre = Body {
+        second: Inertia::symmetric(|i, j| {
+            let own = times(&body.first[i], &body.first[j]);
+            minus(entry(&body.second, i, j), &own)
+        }),
+        ..body.clone()
+    };
+    let whole = with(S::one(), body.first.clone(), about_centre.tensor());
+    let rest = minus(&S::one(), &body.mass);
+    if rest.is_zero() {
+        return whole;
+    }
+    let point = with(rest, zero_vector(), Inertia::symmetric(|_, _| S::zero()));
+    let pairs = whole.iter().zip(&point);
+    pairs.map(|(whole, point)| minus(whole, point)).collect()
+}
