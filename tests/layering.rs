@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use source::Crate;
 
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "model",
     "codegen",
     "macros",
@@ -26,6 +26,7 @@ const CRATES: [&str; 10] = [
     "cli",
     ".",
     "sines",
+    "gallery",
 ];
 
 /// Who uses whom.
