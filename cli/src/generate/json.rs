@@ -62,7 +62,7 @@ pub fn proof(proof: &Proof) -> Value {
         "primes": proof.primes,
         "degree": proof.degree,
         "height": proof.height,
-        "failure_exponent": proof.failure_exponent,
+        "failure_exponent": proof.miss(),
     })
 }
 

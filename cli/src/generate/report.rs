@@ -187,7 +187,10 @@ pub fn counts(generated: &Generated) -> String {
                 true => format!("{}, plan", function.source.name()),
                 false => function.source.name().to_owned(),
             },
-            format!("exact, miss < 1e{}", function.proof.failure_exponent),
+            match function.proof.miss() {
+                Some(exponent) => format!("exact, miss < 1e{exponent}"),
+                None => "exact".to_owned(),
+            },
         ]);
     }
     output::table(&rows, 2) + &sines(generated)
