@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use dalembert_codegen::program::Counts;
 use dalembert_model::read::{Diagnostic, Doubt};
 use serde_json::{Value, json};
 
@@ -33,6 +34,18 @@ pub fn diagnostic(found: &Diagnostic) -> Value {
         "column": found.column,
         "message": found.message,
         "help": found.help,
+    })
+}
+
+/// Counts as JSON.
+pub fn counts(counts: &Counts) -> Value {
+    json!({
+        "mul": counts.mul,
+        "add": counts.add,
+        "div": counts.div,
+        "sincos": counts.sincos,
+        "trig_mul": counts.trig_mul,
+        "trig_add": counts.trig_add,
     })
 }
 

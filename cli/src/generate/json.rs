@@ -10,7 +10,7 @@ use dalembert_report::explain::errors::Errors;
 use serde_json::{Map, Value, json};
 
 use super::report;
-use crate::count;
+use crate::output;
 
 /// Counts, errors, what a tolerance admitted, proofs.
 pub fn json(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> Value {
@@ -34,11 +34,11 @@ pub fn json(robot: &Robot, request: &Request, generated: &Generated, states: usi
 
 fn one(function: &GeneratedFunction, errors: Option<Value>) -> Value {
     let stages = function.stages.iter().map(|stage| {
-        let counts = count::counts(&stage.counts);
+        let counts = output::counts(&stage.counts);
         json!({ "stage": stage.name, "counts": counts })
     });
     json!({
-        "counts": count::counts(&function.counts),
+        "counts": output::counts(&function.counts),
         "from": function.source.name(),
         "planned": function.planned,
         "proof": proof(&function.proof),

@@ -3,7 +3,7 @@
 use dalembert_report::sweep::Point;
 use serde_json::{Value, json};
 
-use crate::{count, output};
+use crate::output;
 
 /// The rows, for people or for programs, which get more digits and columns.
 fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
@@ -81,7 +81,7 @@ pub fn json(point: &Point) -> Value {
         "certificate": point.file(),
         "violation": point.violation,
     });
-    value["counts"] = count::counts(&point.counts());
+    value["counts"] = output::counts(&point.counts());
     value
 }
 
