@@ -1,7 +1,8 @@
 //! The guide in `docs/`: its commands are run, in the order of its chapters and in one
 //! folder, and print what it shows.
 //!
-//! What differs is written into the guide before the test fails, so that running it
+//! A block `console` shows all that a terminal would, `console result` what is on standard
+//! output alone. What differs is written into the guide before the test fails, so that running it
 //! once more is all that a change of a message takes; where a block leaves lines out
 //! (`...`), it is printed instead.
 
@@ -54,7 +55,7 @@ fn blocks(lines: &[String]) -> Vec<Block> {
 }
 
 /// Runs a line as a shell would: words, and at most one `> FILE`.
-fn run(line: &str, inside: &Path) -> String {
+fn run(line: &str, inside: &Path, what: &str) -> String {
     let (line, file) = match line.split_once(" > ") {
         Some((line, file)) => (line, Some(file)),
         None => (line, None),
@@ -71,8 +72,11 @@ fn run(line: &str, inside: &Path) -> String {
         fs::write(inside.join(file), &out).unwrap();
         out.clear();
     }
-    // As a terminal has it: warnings and progress come before the result.
-    err + &out
+    match what {
+        "result" => out,
+        // As a terminal has it: warnings and progress come before the result.
+        _ => err + &out,
+    }
 }
 
 /// Whether lines are those shown, where `...` stands for any.
@@ -85,12 +89,12 @@ fn shows(shown: &[&str], lines: &[&str]) -> bool {
 }
 
 /// A block of commands with what they print.
-fn ran(lines: &[String], inside: &Path) -> Vec<String> {
+fn ran(lines: &[String], inside: &Path, what: &str) -> Vec<String> {
     let mut all = Vec::new();
     for line in lines {
         if let Some(command) = line.strip_prefix("$ ") {
             all.push(line.clone());
-            let text = run(command, inside);
+            let text = run(command, inside, what);
             all.extend(text.lines().map(|line| line.trim_end().to_owned()));
         }
     }
@@ -126,8 +130,8 @@ fn commands_print_what_the_guide_shows() {
                     };
                     fs::write(path, before + &body.join("\n") + "\n").unwrap();
                 }
-                ("console", "") => {
-                    let found = ran(body, &inside);
+                ("console", what) => {
+                    let found = ran(body, &inside, what);
                     let texts = |lines: &[String]| lines.join("\n");
                     let [shown, printed] = [texts(body), texts(&found)];
                     let each = |text: &str| -> Vec<String> {
@@ -165,4 +169,44 @@ fn commands_print_what_the_guide_shows() {
     let arm = fs::read_to_string(inside.join("arm.toml")).unwrap();
     let compiled = fs::read_to_string(root.join("examples/guide/robots/arm.toml")).unwrap();
     assert_eq!(arm, compiled);
+}
+
+/// Pictures of the guide that are made elsewhere are those.
+#[test]
+fn pictures_are_what_the_commands_draw() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read =
+        |path: PathBuf| fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+    let planar = support::robot("planar2r");
+    let drawn = support::run(&["show", &planar, "--at", "0.6,0.7"]).out;
+    assert!(
+        read(folder().join("planar2r.svg")) == drawn,
+        "dalembert show generated/robots/planar2r.toml --at 0.6,0.7 -o docs/src/planar2r.svg"
+    );
+    let chart = read(root.join("generated/tradeoff/puma560.svg"));
+    assert!(
+        read(folder().join("tradeoff.svg")) == chart,
+        "cp generated/tradeoff/puma560.svg docs/src/tradeoff.svg"
+    );
+}
+
+/// Every link of the guide and the README leads somewhere.
+#[test]
+fn links_lead_somewhere() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut pages = chapters();
+    pages.extend(["README.md", "gallery/README.md", "docs/src/SUMMARY.md"].map(|p| root.join(p)));
+    for page in pages {
+        let text = fs::read_to_string(&page).unwrap();
+        // Code has brackets too.
+        let prose = text.split("```").step_by(2);
+        let links = prose.flat_map(|part| part.split("](").skip(1));
+        for link in links.filter_map(|rest| rest.split(')').next()) {
+            let target = link.split('#').next().unwrap();
+            if !target.is_empty() && !target.starts_with("http") {
+                let path = page.parent().unwrap().join(target);
+                assert!(path.exists(), "{page:?} links to {link}");
+            }
+        }
+    }
 }
