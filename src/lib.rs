@@ -93,8 +93,25 @@ pub use dalembert_batch as batch;
 ///
 /// What is odd about a robot, such as an inertia that no body has or lengths that
 /// look like millimetres, is a warning of the compiler. Whoever knows better
-/// writes `#[allow(deprecated)]` above the module: that is the lint which lets a
-/// macro warn.
+/// silences it by its name, which its help says: `allow = ["impossible_inertia"]` in
+/// a robot file, and in braces
+///
+/// ```
+/// #![deny(deprecated)]
+/// dalembert::dynamics! {
+///     mod turntable {
+///         convention: standard;
+///         gravity: [0, 0, -9.81];
+///         allow: [impossible_inertia];
+///         joint { kind: revolute, mass: 2, com: [0, 0, 0], inertia: [0, 0, 0.5, 0, 0, 0] }
+///     }
+///     outputs: inertia;
+/// }
+/// assert_eq!(turntable::inertia(&[0.3]), [[0.5]]);
+/// ```
+///
+/// All of them are silenced by `#[allow(deprecated)]` above the module: that is the
+/// lint which lets a macro warn.
 ///
 /// # Clauses
 ///

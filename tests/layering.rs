@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use source::Crate;
 
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 12] = [
     "model",
     "codegen",
     "macros",
@@ -27,6 +27,7 @@ const CRATES: [&str; 11] = [
     ".",
     "sines",
     "batch",
+    "gallery",
 ];
 
 /// Who uses whom.

@@ -131,6 +131,9 @@ pub struct NewArgs {
     /// version]
     #[arg(long, value_name = "FOLDER")]
     pub path: Option<PathBuf>,
+    /// Print what was made as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `import`.
@@ -163,6 +166,9 @@ pub struct ImportArgs {
     /// Take every digit as it stands
     #[arg(long)]
     pub exact: bool,
+    /// Print what there is to say of the URDF as JSON; the robot file goes to -o
+    #[arg(long, requires = "output")]
+    pub json: bool,
 }
 
 /// Arguments of `show`.
@@ -182,6 +188,9 @@ pub struct ShowArgs {
     /// Write the drawing here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Print the poses of links and hand as JSON; without -o nothing is drawn
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `generate`.
@@ -220,6 +229,9 @@ pub struct GenerateArgs {
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
     pub states: Option<usize>,
+    /// Print the report as JSON; the code goes to -o
+    #[arg(long, requires = "output")]
+    pub json: bool,
     #[command(flatten)]
     pub choice: Choice,
 }
@@ -348,6 +360,9 @@ pub struct CertifyArgs {
         default_value_t = 8
     )]
     pub climbs: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `tradeoff`.
@@ -391,6 +406,9 @@ pub struct TradeoffArgs {
         default_value_t = 4
     )]
     pub climbs: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
     /// Compile the variants and measure how long a call takes, as a ratio to
     /// the exact f64 variant in the same run; needs cargo
     #[arg(long)]

@@ -1,7 +1,7 @@
 //! `dalembert count`: the operations of the generated functions.
 
 use dalembert_codegen::generate::GeneratedFunction;
-use dalembert_codegen::program::{Counts, ScalarType};
+use dalembert_codegen::program::ScalarType;
 use serde_json::{Map, Value, json};
 
 use crate::args::CountArgs;
@@ -28,7 +28,8 @@ pub fn run(args: &CountArgs) -> Outcome {
     if args.json {
         // The first that was emitted.
         let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
-        let of = |f: &GeneratedFunction| counts(&scalar.map_or(f.counts, |s| f.counts_in(s)));
+        let of =
+            |f: &GeneratedFunction| output::counts(&scalar.map_or(f.counts, |s| f.counts_in(s)));
         let functions = generated.functions.iter();
         let functions: Map<String, Value> =
             functions.map(|f| (f.function.to_string(), of(f))).collect();
@@ -49,16 +50,4 @@ pub fn run(args: &CountArgs) -> Outcome {
         report::counts(&generated),
         report::limits(&generated)
     ))
-}
-
-/// Counts as JSON.
-pub fn counts(counts: &Counts) -> Value {
-    json!({
-        "mul": counts.mul,
-        "add": counts.add,
-        "div": counts.div,
-        "sincos": counts.sincos,
-        "trig_mul": counts.trig_mul,
-        "trig_add": counts.trig_add,
-    })
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use dalembert_import::{Change, Imported, MAX_BYTES, Options, import};
 use dalembert_model::robot::Robot;
+use serde_json::{Value, json};
 
 use crate::args::ImportArgs;
 use crate::files::target::Target;
@@ -34,8 +35,50 @@ pub fn run(args: &ImportArgs) -> Outcome {
     let imported = import(&source, &options)
         .map_err(|errors| Failure::Input(errors.render(&name, &source)))?;
     write::write(&[(&target, &imported.text)])?;
-    report(&imported, &name, &source);
-    Ok(())
+    match args.json {
+        true => output::print_json(&json(&imported, &name, &source)),
+        false => {
+            report(&imported, &name, &source);
+            Ok(())
+        }
+    }
+}
+
+/// The same for programs.
+fn json(imported: &Imported, name: &str, source: &str) -> Value {
+    let robot = &imported.robot;
+    let snaps = imported.snaps.iter().map(|snap| {
+        json!({
+            "line": snap.line(source),
+            "of": snap.of,
+            "from": snap.from,
+            "to": snap.to,
+        })
+    });
+    let change = imported.change.as_ref().map(|change| {
+        let limits = change.limits();
+        let bounds = change.torques(limits);
+        let joints = robot.joints.iter().zip(bounds).enumerate();
+        let joints = joints.map(|(i, (joint, bound))| {
+            json!({
+                "joint": joint.name,
+                "torque": bound,
+                "velocity": limits.velocity[i],
+                "acceleration": limits.acceleration[i],
+            })
+        });
+        json!({ "of_efforts": change.of_efforts(), "joints": joints.collect::<Vec<_>>() })
+    });
+    let joints = robot.joints.iter().map(|joint| &joint.name);
+    json!({
+        "urdf": name,
+        "robot": robot.name,
+        "input": robot.short_hash(),
+        "joints": joints.collect::<Vec<_>>(),
+        "notes": imported.notes.iter().map(output::diagnostic).collect::<Vec<_>>(),
+        "taken_for_others": snaps.collect::<Vec<_>>(),
+        "change": change,
+    })
 }
 
 /// What a person wants to know: what was left out, which numbers were taken for

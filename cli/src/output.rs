@@ -2,6 +2,10 @@
 
 use std::io::{self, Write};
 
+use dalembert_codegen::program::Counts;
+use dalembert_model::read::{Diagnostic, Doubt};
+use serde_json::{Value, json};
+
 use crate::outcome::Failure;
 
 /// Prints to standard output. A reader that has gone away, as in `… | head`,
@@ -17,8 +21,32 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// Prints a JSON document.
-pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+pub fn print_json(value: &Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
+}
+
+/// Something about a file, as JSON.
+pub fn diagnostic(found: &Diagnostic) -> Value {
+    json!({
+        "severity": found.severity.to_string(),
+        "warning": found.doubt.map(Doubt::name),
+        "line": found.line,
+        "column": found.column,
+        "message": found.message,
+        "help": found.help,
+    })
+}
+
+/// Counts as JSON.
+pub fn counts(counts: &Counts) -> Value {
+    json!({
+        "mul": counts.mul,
+        "add": counts.add,
+        "div": counts.div,
+        "sincos": counts.sincos,
+        "trig_mul": counts.trig_mul,
+        "trig_add": counts.trig_add,
+    })
 }
 
 /// A line, or several, on standard error.

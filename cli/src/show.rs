@@ -1,16 +1,20 @@
 //! `dalembert show`: the arm in two views, as SVG.
 
+use dalembert_model::equations::matrix::Columns;
 use dalembert_model::number::Angle;
 use dalembert_model::number::Rounded;
 use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::Robot;
 use dalembert_report::drawing;
+use nalgebra::DVector;
+use serde_json::{Value, json};
 
 use crate::args::ShowArgs;
 use crate::files::target::Target;
 use crate::files::{distinct, write};
-use crate::input;
 use crate::outcome::{Failure, Outcome};
+use crate::{input, output};
 
 /// Runs the subcommand.
 pub fn run(args: &ShowArgs) -> Outcome {
@@ -23,9 +27,40 @@ pub fn run(args: &ShowArgs) -> Outcome {
         &[("the robot file", &args.robot)],
         &[("the drawing", &target)],
     )?;
-    let svg = drawing::svg(&robot, &position(args, &robot)?)
-        .map_err(|error| Failure::Input(format!("error: --at: {error}")))?;
-    write::write(&[(&target, &svg)])
+    let at = position(args, &robot)?;
+    let wrong = |error| Failure::Input(format!("error: --at: {error}"));
+    let svg = drawing::svg(&robot, &at).map_err(wrong)?;
+    if !args.json {
+        return write::write(&[(&target, &svg)]);
+    }
+    let poses = json(&robot, &at).map_err(wrong)?;
+    if args.output.is_some() {
+        write::write(&[(&target, &svg)])?;
+    }
+    output::print_json(&poses)
+}
+
+/// Where everything is: each pose is [R | p], row by row, in base axes.
+fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
+    let runtime = Reference::<f64>::from_robot(robot);
+    let q = DVector::from_column_slice(at);
+    let rows = |pose: &Columns<f64>| {
+        let rows = pose.rows();
+        rows.chunks(4).map(<[f64]>::to_vec).collect::<Vec<_>>()
+    };
+    let poses = runtime.poses(&q)?;
+    let links = robot
+        .joints
+        .iter()
+        .zip(&poses)
+        .map(|(joint, pose)| json!({ "joint": joint.name, "pose": rows(pose) }));
+    Ok(json!({
+        "robot": robot.name,
+        "input": robot.short_hash(),
+        "at": at,
+        "links": links.collect::<Vec<_>>(),
+        "hand": rows(&runtime.hand(&q)?),
+    }))
 }
 
 /// Where the joints are: at zero unless said.

@@ -10,7 +10,6 @@ use dalembert_report::table3::{self, FORMULATIONS, JOINTS, Pair, Row};
 use serde_json::{Map, Value, json};
 
 use crate::args::Table3Args;
-use crate::count;
 use crate::outcome::Outcome;
 use crate::{input, output};
 
@@ -118,17 +117,17 @@ fn row_json(row: &Row) -> Value {
         value[Source::Textbook(formulation).name()] = json!({
             "paper": pair_json(cell.paper),
             "as_written": pair_json(cell.written),
-            "generated": count::counts(&cell.generated),
+            "generated": output::counts(&cell.generated),
         });
     }
-    value["auto"] = json!({ "generated": count::counts(&row.auto) });
+    value["auto"] = json!({ "generated": output::counts(&row.auto) });
     value
 }
 
 fn stage_json(stage: &Stage) -> Value {
     let mut value = json!({ "stage": stage.name });
     if let (Value::Object(value), Value::Object(counts)) =
-        (&mut value, count::counts(&stage.counts))
+        (&mut value, output::counts(&stage.counts))
     {
         value.extend(counts);
     }

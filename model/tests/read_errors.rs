@@ -1,7 +1,7 @@
 //! What is wrong with a file is said on the right line, in words that help,
 //! and all at once. One row a case.
 
-use dalembert_model::read::{Diagnostic, MAX_BYTES, Options, Severity, parse, parse_bytes};
+use dalembert_model::read::{Diagnostic, Doubt, MAX_BYTES, Options, Severity, parse, parse_bytes};
 
 /// A good robot of one joint; the rows below put one thing wrong.
 const GOOD: &str = r#"name = "arm"
@@ -402,7 +402,7 @@ fn sizes_of_other_units() {
         assert!(note.message.contains(message), "{note:?}");
         let said = note.help.as_deref().unwrap_or_default();
         assert!(
-            said.contains(help) && said.ends_with("as it stands"),
+            said.contains(help) && said.contains("it is taken as it stands; allow = [\""),
             "{note:?}"
         );
     }
@@ -514,4 +514,77 @@ fn not_utf8() {
     let errors = parse_bytes(&bytes, &Options::default()).expect_err("not text");
     assert_eq!((errors.0[0].line, errors.0[0].column), (5, 9));
     assert!(errors.0[0].message.contains("not UTF-8"));
+}
+
+/// A file that knows better says so by name, and hears of the rest only.
+#[test]
+fn warnings_are_silenced_one_by_one() {
+    let odd = GOOD
+        .replacen("inertia = [1, 1, 1,", "inertia = [1, 1, 3,", 1)
+        .replacen("mass = 2", "mass = 2000", 1);
+    let doubts = |source: &str| -> Vec<Option<Doubt>> {
+        let notes = parse(source, &Options::default()).expect("reads").notes;
+        notes.iter().map(|note| note.doubt).collect()
+    };
+    let [mass, inertia] = [Doubt::LargeMass, Doubt::ImpossibleInertia].map(Some);
+    assert_eq!(doubts(&odd), [mass, inertia]);
+    for (allow, left) in [
+        ("[]", vec![mass, inertia]),
+        ("[\"large_mass\"]", vec![inertia]),
+        ("[\"impossible_inertia\"]", vec![mass]),
+        ("[\"impossible_inertia\", \"large_mass\"]", vec![]),
+        // It may be said of what the file has none of.
+        ("[\"loose_tolerance\"]", vec![mass, inertia]),
+    ] {
+        assert_eq!(doubts(&format!("allow = {allow}\n{odd}")), left, "{allow}");
+    }
+    // A warning says by which name.
+    let notes = parse(&odd, &Options::default()).unwrap().notes;
+    let help = notes[0].help.as_deref().unwrap();
+    assert!(
+        help.ends_with("; allow = [\"large_mass\"] silences this"),
+        "{help}"
+    );
+}
+
+/// What silences nothing is an error: whoever wrote it thinks that it does.
+#[test]
+fn names_of_warnings() {
+    for (allow, message, help) in [
+        (
+            "[\"large_mas\"]",
+            "there is no warning `large_mas`",
+            "did you mean \"large_mass\"?",
+        ),
+        (
+            "[\"everything\"]",
+            "there is no warning `everything`",
+            "warnings are: impossible_inertia, ",
+        ),
+        (
+            "[1]",
+            "expected a string, found the number `1`",
+            "write it in quotes",
+        ),
+        (
+            "\"large_mass\"",
+            "expected an array of the names of warnings, found the string `large_mass`",
+            "allow = [\"impossible_inertia\"]",
+        ),
+    ] {
+        let found = errors(&format!("allow = {allow}\n{GOOD}"));
+        assert_eq!(found.len(), 1, "{allow}: {found:?}");
+        assert_eq!((found[0].line, found[0].message.as_str()), (1, message));
+        let said = found[0].help.as_deref().unwrap_or_default();
+        assert!(said.starts_with(help), "{said}");
+    }
+    let mut names: Vec<&str> = Doubt::WORDS.iter().map(|(name, _)| *name).collect();
+    assert!(
+        Doubt::WORDS
+            .iter()
+            .all(|(name, doubt)| doubt.name() == *name)
+    );
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), Doubt::WORDS.len());
 }

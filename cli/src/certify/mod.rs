@@ -1,17 +1,23 @@
 //! `dalembert certify`: a certificate checked again, part by part.
+//!
+//! - this file: the check, and what a person reads of it
+//! - [`json`]: the same for programs
+
+mod json;
 
 use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::certificate::format::{self, MAX_BYTES};
 use dalembert_codegen::certificate::gappa;
+use dalembert_codegen::certificate::{Certificate, Checked};
 use dalembert_codegen::emit::figures::inside;
-use dalembert_codegen::falsify::falsify;
+use dalembert_codegen::falsify::{Falsification, falsify};
 use dalembert_codegen::generate::GenerateError;
 use dalembert_codegen::interval::Interval;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::{Scene, Tolerance};
+use serde_json::json;
 use std::path::Path;
 
 use crate::args::CertifyArgs;
@@ -29,8 +35,26 @@ pub fn run(args: &CertifyArgs) -> Outcome {
         .as_ref()
         .map(|folder| Folder::at(folder, &[], None));
     let folder = folder.transpose()?;
+    let mut documents = Vec::new();
+    let mut violations = Vec::new();
     for certificate in &certificates {
-        one(args, &reading, certificate)?;
+        let checked = Check::of(args, &reading, certificate)?;
+        match args.json {
+            true => documents.push(json::json(args, &reading.robot, &checked)),
+            false => checked.print(args, &reading.robot)?,
+        }
+        violations.extend(checked.violation(args));
+    }
+    if args.json {
+        output::print_json(&json!({
+            "robot": reading.robot.name,
+            "input": reading.robot.short_hash(),
+            "certificates": documents,
+            "passed": violations.is_empty(),
+        }))?;
+    }
+    if !violations.is_empty() {
+        return Err(Failure::Check(violations.join("\n")));
     }
     if let Some(folder) = folder {
         folder.write(&scripts(&certificates))?;
@@ -56,66 +80,102 @@ fn read(path: &Path) -> Result<Vec<Certificate>, Failure> {
     })
 }
 
-fn one(args: &CertifyArgs, reading: &Reading, certificate: &Certificate) -> Outcome {
-    let name = args.certificate.display();
-    let own = certificate.scene.as_ref().map(|scene| &scene.name);
-    let scene = args.scene.as_ref().or(own);
-    let scene = scene.map(|scene| input::scene(&args.robot, reading, scene));
-    let scene = scene.transpose()?;
-    let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
-    let own = scene.and_then(|scene| scene.tolerance.clone());
-    let tolerance = match &args.tolerance {
-        Some(value) => Some(Tolerance {
-            value: vec![value.clone()],
-            relative_to: certificate.relative_to.ok_or_else(|| {
-                let why = "its errors are relative to scales of its own: no tolerance fits them";
-                Failure::Input(format!("error: {name}: {why}"))
-            })?,
-        }),
-        None => own,
-    };
-    let checked = certificate
-        .check_within(&setting, tolerance.as_ref())
-        .map_err(|why| Failure::Check(format!("error: {name}: {why}")))?;
-    let of = scene.map_or_else(String::new, |scene| format!(" in scene {}", scene.name));
-    let mut text = format!(
-        "{name} holds for `{}` in {} of {}{of}\n  {}\n",
-        certificate.emitted.function, certificate.scalar, reading.robot.name, checked.proof
-    );
-    text += &over(certificate, scene, &reading.robot);
-    for finding in &checked.findings {
-        text += &format!("warning: {finding}\n");
+/// A certificate that holds, and what was seen when its code was run.
+struct Check<'a> {
+    certificate: &'a Certificate,
+    scene: Option<&'a Scene>,
+    checked: Checked,
+    /// The run at many states, if it was asked for.
+    seen: Option<Falsification>,
+}
+
+impl<'a> Check<'a> {
+    fn of(
+        args: &CertifyArgs,
+        reading: &'a Reading,
+        certificate: &'a Certificate,
+    ) -> Result<Check<'a>, Failure> {
+        let name = args.certificate.display();
+        let own = certificate.scene.as_ref().map(|scene| &scene.name);
+        let scene = args.scene.as_ref().or(own);
+        let scene = scene.map(|scene| input::scene(&args.robot, reading, scene));
+        let scene = scene.transpose()?;
+        let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
+        let own = scene.and_then(|scene| scene.tolerance.clone());
+        let tolerance = match &args.tolerance {
+            Some(value) => Some(Tolerance {
+                value: vec![value.clone()],
+                relative_to: certificate.relative_to.ok_or_else(|| {
+                    let why =
+                        "its errors are relative to scales of its own: no tolerance fits them";
+                    Failure::Input(format!("error: {name}: {why}"))
+                })?,
+            }),
+            None => own,
+        };
+        let failed = |why: String| Failure::Check(format!("error: {name}: {why}"));
+        let checked = certificate
+            .check_within(&setting, tolerance.as_ref())
+            .map_err(|why| failed(why.to_string()))?;
+        let seen = (args.samples > 0)
+            .then(|| falsify(certificate, args.samples, args.climbs, 1))
+            .transpose()
+            .map_err(|error| failed(error.to_string()))?;
+        Ok(Check {
+            certificate,
+            scene,
+            checked,
+            seen,
+        })
     }
-    let mut rows = report::bounds(certificate);
-    rows[0].push("seen".into());
-    for (row, seen) in rows[1..].iter_mut().zip(&checked.ran.observed) {
-        row.push(format!("{seen:.3e}"));
-    }
-    let mut seen = None;
-    if args.samples > 0 {
-        let falsification = falsify(certificate, args.samples, args.climbs, 1)
-            .map_err(|error| Failure::Check(format!("error: {name}: {error}")))?;
-        rows[0].push("observed".into());
-        for (row, observed) in rows[1..].iter_mut().zip(&falsification.observed) {
-            row.push(format!("{observed:.3e}"));
+
+    fn print(&self, args: &CertifyArgs, robot: &Robot) -> Outcome {
+        let (certificate, checked) = (self.certificate, &self.checked);
+        let of = self.scene;
+        let of = of.map_or_else(String::new, |scene| format!(" in scene {}", scene.name));
+        let mut text = format!(
+            "{} holds for `{}` in {} of {}{of}\n  {}\n",
+            args.certificate.display(),
+            certificate.emitted.function,
+            certificate.scalar,
+            robot.name,
+            checked.proof
+        );
+        text += &over(certificate, self.scene, robot);
+        for finding in &checked.findings {
+            text += &format!("warning: {finding}\n");
         }
-        seen = Some(falsification);
-    }
-    text += &output::table(&rows, 0);
-    output::print(&text)?;
-    if let Some(falsification) = seen {
-        output::note(&format!("run at {} states", falsification.states));
-        if let Some((index, state)) = falsification.violation {
-            return Err(Failure::Check(format!(
-                "error: {name}: {} errs more than E at q = {:?}, qd = {:?}, qdd = {:?}",
-                certificate.emitted.entry(index),
-                state.q,
-                state.qd,
-                state.qdd
-            )));
+        let mut rows = report::bounds(certificate);
+        let mut column = |head: &str, values: &[f64]| {
+            rows[0].push(head.into());
+            for (row, value) in rows[1..].iter_mut().zip(values) {
+                row.push(format!("{value:.3e}"));
+            }
+        };
+        column("seen", &checked.ran.observed);
+        if let Some(seen) = &self.seen {
+            column("observed", &seen.observed);
         }
+        text += &output::table(&rows, 0);
+        output::print(&text)?;
+        if let Some(seen) = &self.seen {
+            output::note(&format!("run at {} states", seen.states));
+        }
+        Ok(())
     }
-    Ok(())
+
+    /// Where the code errs more than it may, in words.
+    fn violation(&self, args: &CertifyArgs) -> Option<String> {
+        let (index, state) = self.seen.as_ref()?.violation.as_ref()?;
+        Some(format!(
+            "error: {}: {} errs more than E at q = {:?}, qd = {:?}, qdd = {:?}",
+            args.certificate.display(),
+            self.certificate.emitted.entry(*index),
+            state.q,
+            state.qd,
+            state.qdd
+        ))
+    }
 }
 
 /// Scripts for Gappa, one an output that takes an operation.

@@ -13,7 +13,7 @@ use dalembert_report::table3::{self, Pair};
 use serde_json::{Map, Value, json};
 
 use super::{Measured, QUANTITIES, REASONS, tally};
-use crate::count;
+use crate::output;
 
 /// Everything.
 pub fn write(
@@ -49,7 +49,7 @@ fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors])
             value["scalar"] = json!(scalar.name());
         }
         if let (Value::Object(value), Value::Object(counts)) =
-            (&mut value, count::counts(&row.counts))
+            (&mut value, output::counts(&row.counts))
         {
             value.extend(counts);
         }

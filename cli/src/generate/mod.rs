@@ -3,8 +3,10 @@
 //! - this file: code and certificates
 //! - [`files`]: what goes where, and what is there already
 //! - [`report`]: what a person wants to know about the code
+//! - [`json`]: the same for programs
 
 mod files;
+pub mod json;
 pub mod report;
 
 use dalembert_codegen::certificate::format;
@@ -44,7 +46,10 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     if states > affordable_states(robot.joints.len()) {
         output::note(&format!("measuring rounding errors at {states} states"));
     }
-    output::note(&report::text(&robot, &request, &generated, states));
+    match args.json {
+        true => output::print_json(&json::json(&robot, &request, &generated, states))?,
+        false => output::note(&report::text(&robot, &request, &generated, states)),
+    }
     let plan = args.save_plan.then(|| {
         let kept = keep(&robot, &request, &generated, kept);
         for (function, scalar) in kept.own {

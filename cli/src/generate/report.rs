@@ -5,11 +5,11 @@ use dalembert_codegen::approximate::choose::Admitted;
 use dalembert_codegen::approximate::prune::omissions;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::emit::figures::bound_of;
-use dalembert_codegen::generate::{Generated, Request};
+use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
 use dalembert_codegen::program::Counts;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::robot::Robot;
-use dalembert_report::explain::errors::of_program;
+use dalembert_report::explain::errors::{Errors, of_program};
 use dalembert_report::stress::truth::Truth;
 
 use crate::output;
@@ -72,25 +72,37 @@ pub fn limits(generated: &Generated) -> String {
     text
 }
 
-/// What rounding costs each program; what a tolerance admits has its
-/// certificates.
-fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
+/// What rounding costs each program in each scalar; what a tolerance admits has
+/// its certificates.
+pub fn measured(
+    robot: &Robot,
+    request: &Request,
+    generated: &Generated,
+    states: usize,
+) -> Option<Vec<Vec<Errors>>> {
     let scene = request.scene.as_ref();
     if scene.is_some_and(|scene| scene.tolerance.is_some()) {
-        return String::new();
+        return None;
     }
-    let Ok(setting) = Setting::of(robot, scene) else {
+    let truth = Truth::in_setting(&Setting::of(robot, scene).ok()?);
+    let functions = generated.functions.iter();
+    let errors = |f: &GeneratedFunction| of_program(&truth, &f.program, &request.scalars, states);
+    Some(functions.map(errors).collect())
+}
+
+/// The table of them.
+fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
+    let Some(measured) = measured(robot, request, generated, states) else {
         return String::new();
     };
     let mut head = vec!["function".to_owned()];
     for scalar in &request.scalars {
         head.extend(["normwise", "per joint"].map(|what| format!("{scalar} {what}")));
     }
-    let truth = Truth::in_setting(&setting);
     let mut rows = vec![head];
-    for function in &generated.functions {
+    for (function, errors) in generated.functions.iter().zip(measured) {
         let mut row = vec![function.function.to_string()];
-        for errors in of_program(&truth, &function.program, &request.scalars, states) {
+        for errors in errors {
             row.extend([errors.normwise, errors.per_joint].map(|error| format!("{error:.1}")));
         }
         rows.push(row);
@@ -175,7 +187,10 @@ pub fn counts(generated: &Generated) -> String {
                 true => format!("{}, plan", function.source.name()),
                 false => function.source.name().to_owned(),
             },
-            format!("exact, miss < 1e{}", function.proof.failure_exponent),
+            match function.proof.miss() {
+                Some(exponent) => format!("exact, miss < 1e{exponent}"),
+                None => "exact".to_owned(),
+            },
         ]);
     }
     output::table(&rows, 2) + &sines(generated)

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use dalembert_import::{MAX_BYTES, Options, import};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::suggested_name;
+use serde_json::json;
 
 use crate::args::NewArgs;
 use crate::outcome::{Failure, Outcome};
@@ -46,6 +47,16 @@ pub fn run(args: &NewArgs) -> Outcome {
             folder.display()
         ))
     })?;
+    if args.json {
+        let files: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+        return output::print_json(&json!({
+            "crate": name,
+            "folder": folder.display().to_string(),
+            "robot": robot,
+            "joints": reading.robot.joints.len(),
+            "files": files,
+        }));
+    }
     output::note(&format!(
         "{}: cargo run prints torques, cargo test compares them with the runtime",
         folder.display()

@@ -22,6 +22,7 @@ use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};
 use dalembert_report::sweep::rungs::Rungs;
 use dalembert_report::sweep::{Point, SweepError, mark};
+use serde_json::json;
 
 use crate::args::TradeoffArgs;
 use crate::files::folder::Folder;
@@ -94,7 +95,17 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         compiler.measure(&mut points)?;
     }
     mark(&mut points);
-    output::print(&report::table(&points))?;
+    match args.json {
+        true => output::print_json(&json!({
+            "robot": reading.robot.name,
+            "input": reading.robot.short_hash(),
+            "scene": scene.map(|scene| &scene.name),
+            "function": exact.function.name(),
+            "relative_to": word(relative_to),
+            "variants": points.iter().map(report::json).collect::<Vec<_>>(),
+        }))?,
+        false => output::print(&report::table(&points))?,
+    }
     if let Some(folder) = &output {
         let chart = chart(&reading, scene, exact.function, relative_to, &points);
         folder.write(&files(chart, &points))?;
@@ -169,6 +180,13 @@ fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
         .map(|(_, scale)| scale)
         .or(own)
         .unwrap_or(Scale::Actuator)
+}
+
+/// What a scale is called on the command line.
+fn word(scale: Scale) -> &'static str {
+    let mut words = Scale::WORDS.into_iter();
+    let found = words.find(|(_, other)| *other == scale);
+    found.map_or("", |(word, _)| word)
 }
 
 fn chart(

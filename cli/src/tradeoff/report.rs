@@ -1,6 +1,7 @@
 //! The table of variants.
 
 use dalembert_report::sweep::Point;
+use serde_json::{Value, json};
 
 use crate::output;
 
@@ -36,14 +37,10 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     let mut rows = vec![head.into_iter().map(String::from).collect()];
     for point in points {
         let counts = point.counts();
-        let by = match point.certificate.sines.is_empty() {
-            true => "libm",
-            false => "polynomials",
-        };
         let mut row = vec![
             format!("{:e}", point.tolerance),
             point.certificate.scalar.to_string(),
-            by.to_owned(),
+            by(point).to_owned(),
             counts.mul.to_string(),
             counts.add.to_string(),
             counts.sincos.to_string(),
@@ -65,6 +62,35 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
         rows.push(row);
     }
     rows
+}
+
+/// A variant for programs, by the names of the table.
+pub fn json(point: &Point) -> Value {
+    let mut value = json!({
+        "tolerance": point.tolerance,
+        "scalar": point.certificate.scalar.name(),
+        "sincos_by": by(point),
+        "left_out": point.edits(),
+        "certified": point.certified,
+        "observed": point.observed,
+        "rounding": point.rounding,
+        "rounding_observed": point.rounding_observed,
+        "nanoseconds": point.time.map(|time| time.nanoseconds),
+        "time": point.time.map(|time| time.ratio),
+        "front": !point.dominated,
+        "certificate": point.file(),
+        "violation": point.violation,
+    });
+    value["counts"] = output::counts(&point.counts());
+    value
+}
+
+/// Where its sines come from.
+fn by(point: &Point) -> &'static str {
+    match point.certificate.sines.is_empty() {
+        true => "libm",
+        false => "polynomials",
+    }
 }
 
 /// For people.

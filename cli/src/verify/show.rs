@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::given::Given;
 use super::{Check, Claim};
+use crate::generate::json::proof;
 use crate::generate::report;
 use crate::{output, sines};
 
@@ -90,14 +91,10 @@ impl Found<'_> {
             given,
         } = self;
         let proofs = generated.functions.iter().map(|f| {
-            json!({
-                "function": f.function.name(),
-                "proved": true,
-                "primes": f.proof.primes,
-                "degree": f.proof.degree,
-                "height": f.proof.height,
-                "failure_exponent": f.proof.failure_exponent,
-            })
+            let mut value = proof(&f.proof);
+            value["function"] = json!(f.function.name());
+            value["proved"] = json!(true);
+            value
         });
         let errors = checks.iter().map(|check| {
             let measure = &check.measure;

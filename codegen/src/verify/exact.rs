@@ -60,8 +60,16 @@ pub struct Proof {
     pub degree: u64,
     /// Bits of the difference's coefficients as integers, from above.
     pub height: u64,
-    /// The probability of a miss is below 10 to the power of this.
+    /// The probability of a miss is below 10 to the power of this; `i32::MIN` of
+    /// what vanishes whatever the state, which nothing else can be taken for.
     pub failure_exponent: i32,
+}
+
+impl Proof {
+    /// The exponent, unless there is no chance of a miss.
+    pub fn miss(&self) -> Option<i32> {
+        (self.failure_exponent != i32::MIN).then_some(self.failure_exponent)
+    }
 }
 
 /// Why a program is not the formula.
@@ -105,9 +113,13 @@ impl fmt::Display for Proof {
         write!(
             f,
             "equals {formula} at random points modulo {} random primes of 63 bits \
-             (degree {}, {} bits, chance of a miss below 1e{})",
-            self.primes, self.degree, self.height, self.failure_exponent
-        )
+             (degree {}, {} bits, ",
+            self.primes, self.degree, self.height
+        )?;
+        match self.miss() {
+            Some(exponent) => write!(f, "chance of a miss below 1e{exponent})"),
+            None => f.write_str("no chance of a miss)"),
+        }
     }
 }
 

@@ -12,19 +12,20 @@ use super::places::Places;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
-use super::{Options, guard, joint, placed, scene, syntax};
+use super::{Options, allow, guard, joint, placed, scene, syntax};
 use crate::number::Rational;
 use crate::placed::{LastLink, Placed};
 use crate::robot::{Convention, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
 
 /// The keys of a robot.
-const KEYS: [&str; 7] = [
+const KEYS: [&str; 8] = [
     "name",
     "convention",
     "gravity",
     "base",
     "tool",
+    "allow",
     "joint",
     "scene",
 ];
@@ -58,7 +59,7 @@ pub(super) fn read<'s>(
         }
         let span = places.span(finding.place).unwrap_or(0..0);
         let help = finding.help.unwrap_or_default();
-        cx.sink.push(finding.severity, span, finding.message, &help);
+        cx.sink.found(finding.doubt, span, finding.message, &help);
     }
     let scenes = root.as_table().and_then(|table| table.get("scene"));
     // Without joints, every joint of a scene would be unknown as well.
@@ -98,6 +99,10 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
     let gravity = places.keep(Place::Gravity, at(gravity), vector, || {
         [(); 3].map(|()| Rational::zero())
     });
+
+    if let Some(value) = keys.get("allow") {
+        allow::read(cx, value);
+    }
 
     let base = placement(cx, places, &keys, "base", Place::Base);
     let tool = placement(cx, places, &keys, "tool", Place::Tool);

@@ -3,7 +3,7 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file`, `joint` and `scene`: the keys of the file, through `table` and
+//! - `file`, `allow`, `joint` and `scene`: the keys of the file, through `table` and
 //!   `value`
 //! - `placed`: DH rows for joints that are placed by frames
 //! - [`Robot::validate`]: what is wrong whoever made the robot
@@ -13,11 +13,15 @@
 //! ```toml
 //! base = { xyz = [0, 0, 0.8], rpy = ["pi", 0, 0] }    # frame 0 in base axes
 //! tool = { xyz = [0, 0, 0.107] }                      # the hand in the last frame
+//! allow = ["impossible_inertia"]                      # warnings that are known, by name
 //!
 //! [[joint]]                       # a joint without a row of the DH table:
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
 //! axis = [0, 0, 1]
 //! ```
+//!
+//! What is odd and not wrong is a warning, each with a name ([`Doubt`]) in its help.
+//! Of those that the file allows nothing is said.
 //!
 //! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's
 //! own without a `base`. A placement is where a frame is in the one before: moved
@@ -31,6 +35,7 @@
 //! `report` collects and prints what was found; `suggest` finds the word that
 //! was meant, `foreign` what was meant where the text is no TOML.
 
+mod allow;
 mod file;
 mod foreign;
 mod guard;
@@ -50,7 +55,7 @@ use crate::number::Snap;
 use crate::robot::Robot;
 use crate::scene::Scene;
 
-pub use crate::robot::Severity;
+pub use crate::robot::{Doubt, Severity};
 pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
 pub use suggest::closest;

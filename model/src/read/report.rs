@@ -1,12 +1,13 @@
 //! Collecting what was found, and printing it under the line it is about.
 
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use super::{Reading, Severity};
+use super::{Doubt, Reading, Severity};
 use crate::robot::Robot;
 use crate::scene::Scene;
 
@@ -20,6 +21,8 @@ const MAX_WIDTH: usize = 120;
 pub struct Diagnostic {
     /// Error, warning or note.
     pub severity: Severity,
+    /// What a warning of a robot file is about; `None` of anything else.
+    pub doubt: Option<Doubt>,
     /// What is wrong, and what was expected.
     pub message: String,
     /// Bytes of the source that it is about.
@@ -128,6 +131,7 @@ pub(super) struct Sink<'s> {
     source: &'s str,
     line_starts: Vec<usize>,
     found: Vec<Diagnostic>,
+    allowed: BTreeSet<Doubt>,
 }
 
 impl<'s> Sink<'s> {
@@ -140,16 +144,53 @@ impl<'s> Sink<'s> {
             source,
             line_starts,
             found: Vec::new(),
+            allowed: BTreeSet::new(),
         }
     }
 
-    pub(super) fn error(&mut self, span: Range<usize>, message: String, help: &str) {
-        self.push(Severity::Error, span, message, help);
+    /// Nothing is said of this, wherever in the file it is.
+    pub(super) fn allow(&mut self, doubt: Doubt) {
+        self.allowed.insert(doubt);
     }
 
-    pub(super) fn push(
+    pub(super) fn error(&mut self, span: Range<usize>, message: String, help: &str) {
+        self.push(Severity::Error, None, span, message, help);
+    }
+
+    pub(super) fn note(&mut self, span: Range<usize>, message: String, help: &str) {
+        self.push(Severity::Note, None, span, message, help);
+    }
+
+    /// Its help ends with the way to silence it.
+    pub(super) fn warning(
+        &mut self,
+        doubt: Doubt,
+        span: Range<usize>,
+        message: String,
+        help: &str,
+    ) {
+        let help = format!("{help}; allow = [\"{doubt}\"] silences this");
+        self.push(Severity::Warning, Some(doubt), span, message, &help);
+    }
+
+    /// A warning, or an error if there is no doubt.
+    pub(super) fn found(
+        &mut self,
+        doubt: Option<Doubt>,
+        span: Range<usize>,
+        message: String,
+        help: &str,
+    ) {
+        match doubt {
+            Some(doubt) => self.warning(doubt, span, message, help),
+            None => self.error(span, message, help),
+        }
+    }
+
+    fn push(
         &mut self,
         severity: Severity,
+        doubt: Option<Doubt>,
         span: Range<usize>,
         message: String,
         help: &str,
@@ -157,6 +198,7 @@ impl<'s> Sink<'s> {
         let (line, column) = self.position(span.start);
         self.found.push(Diagnostic {
             severity,
+            doubt,
             message,
             span,
             line,
@@ -182,6 +224,9 @@ impl<'s> Sink<'s> {
         read: Option<(Robot, Vec<Scene>)>,
     ) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
+        let allowed = self.allowed;
+        let known = |found: &Diagnostic| found.doubt.is_some_and(|d| allowed.contains(&d));
+        self.found.retain(|found| !known(found));
         let (mut errors, notes): (Vec<_>, Vec<_>) = self
             .found
             .into_iter()

@@ -13,7 +13,7 @@ use toml_span::value::{Table, ValueInner};
 
 use super::report::{Sink, quote};
 use super::table::Keys;
-use super::{Severity, foreign, suggest};
+use super::{Doubt, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
 use crate::robot::{Inertia, Placement};
@@ -154,7 +154,7 @@ impl<'s> Context<'s, '_> {
             Snapped::Taken(angle) => {
                 let message = format!("{text} is read as {angle}");
                 let help = format!("write {} to say so", written(&angle));
-                self.sink.push(Severity::Note, span, message, &help);
+                self.sink.note(span, message, &help);
                 angle
             }
             Snapped::Near {
@@ -165,7 +165,8 @@ impl<'s> Context<'s, '_> {
                 let message =
                     format!("{text} is {distance:.1e} from {multiple}; it stays as written");
                 let help = format!("write {} if you mean it", written(&multiple));
-                self.sink.push(Severity::Warning, span, message, &help);
+                let doubt = Doubt::NearRightAngle;
+                self.sink.warning(doubt, span, message, &help);
                 angle
             }
         }

@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::Place;
+use super::{Doubt, Place};
 
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -33,6 +33,8 @@ impl fmt::Display for Severity {
 pub struct Finding {
     /// Error or warning.
     pub severity: Severity,
+    /// What a warning is about; `None` of an error.
+    pub doubt: Option<Doubt>,
     /// Which part of the robot.
     pub place: Place,
     /// What is wrong.
@@ -52,17 +54,22 @@ impl fmt::Display for Finding {
 pub(super) struct Findings(Vec<Finding>);
 
 impl Findings {
-    pub(super) fn push(&mut self, severity: Severity, place: Place, message: String, help: &str) {
+    pub(super) fn error(&mut self, place: Place, message: String, help: &str) {
+        self.push(None, place, message, help);
+    }
+
+    pub(super) fn warning(&mut self, doubt: Doubt, place: Place, message: String, help: &str) {
+        self.push(Some(doubt), place, message, help);
+    }
+
+    fn push(&mut self, doubt: Option<Doubt>, place: Place, message: String, help: &str) {
         self.0.push(Finding {
-            severity,
+            severity: doubt.map_or(Severity::Error, |_| Severity::Warning),
+            doubt,
             place,
             message,
             help: (!help.is_empty()).then(|| help.to_owned()),
         });
-    }
-
-    pub(super) fn error(&mut self, place: Place, message: String, help: &str) {
-        self.push(Severity::Error, place, message, help);
     }
 
     pub(super) fn into_all(self) -> Vec<Finding> {

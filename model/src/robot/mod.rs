@@ -6,6 +6,7 @@
 //! - `placement`: where a frame is in another, [`Placement`]
 //! - `place`: names of the parts of a robot, for findings
 //! - `findings`: what is said of a robot, and how much it matters
+//! - `doubt`: the names of warnings, by which a file silences them ([`Doubt`])
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
 //! - `units`: sizes that were probably meant in another unit
 //! - `body`: which inertia tensors a body can have
@@ -13,6 +14,7 @@
 //! - `write`: the robot file that says the same ([`write`](write())), and its hash
 
 mod body;
+mod doubt;
 mod findings;
 mod place;
 mod placement;
@@ -27,6 +29,7 @@ use alloc::vec::Vec;
 
 use crate::number::{Angle, Rational};
 
+pub use doubt::Doubt;
 pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
 pub use placement::Placement;

@@ -13,8 +13,8 @@ use core::cmp::Ordering;
 use num_traits::Signed;
 
 use super::body::Defect;
-use super::findings::{Finding, Findings, Severity};
-use super::{Convention, Field, Joint, JointKind, Place, Placement, Position, Robot, units};
+use super::findings::{Finding, Findings};
+use super::{Convention, Doubt, Field, Joint, JointKind, Place, Placement, Position, Robot, units};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational};
 
@@ -237,7 +237,7 @@ impl Findings {
         // A missing mass that leaves the tensor a possible one is usual in
         // published tables, and so is a broken one: either way only a warning.
         let message = defect.message().to_owned();
-        self.push(Severity::Warning, place, message, help);
+        self.warning(Doubt::ImpossibleInertia, place, message, help);
     }
 }
 

@@ -19,7 +19,7 @@ use num_traits::Signed;
 use super::Scene;
 use crate::number::Rational;
 use crate::number::parse::write_decimal;
-use crate::robot::{Field, Joint, JointKind, Position, Robot, Severity};
+use crate::robot::{Doubt, Field, Joint, JointKind, Position, Robot, Severity};
 
 /// A part of a scene, so that a reader can say on which line it is. Indices
 /// are places in the scene's lists, zero-based.
@@ -49,6 +49,8 @@ pub enum Part {
 pub struct SceneFinding {
     /// Error or warning.
     pub severity: Severity,
+    /// What a warning is about; `None` of an error.
+    pub doubt: Option<Doubt>,
     /// Which part.
     pub part: Part,
     /// What is wrong.
@@ -94,12 +96,17 @@ struct Check<'a> {
 
 impl<'a> Check<'a> {
     fn say(&mut self, part: Part, message: String, help: &str) {
-        self.push(Severity::Error, part, message, help);
+        self.push(None, part, message, help);
     }
 
-    fn push(&mut self, severity: Severity, part: Part, message: String, help: &str) {
+    fn warn(&mut self, doubt: Doubt, part: Part, message: String, help: &str) {
+        self.push(Some(doubt), part, message, help);
+    }
+
+    fn push(&mut self, doubt: Option<Doubt>, part: Part, message: String, help: &str) {
         self.found.push(SceneFinding {
-            severity,
+            severity: doubt.map_or(Severity::Error, |_| Severity::Warning),
+            doubt,
             part,
             message,
             help: help.to_owned(),

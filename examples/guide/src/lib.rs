@@ -1,0 +1,36 @@
+//! The code of the guide in `docs/`, where every block of Rust is a piece of this crate.
+//!
+//! - [`hold`]: an arm held against gravity
+//! - [`simulate`]: an arm that moves under torques
+//! - [`payload`]: the mass in its hand, from torques
+//! - [`control`]: a controller that follows a motion
+#![forbid(unsafe_code)]
+
+pub mod control;
+pub mod hold;
+pub mod payload;
+pub mod simulate;
+
+dalembert::dynamics! {
+    /// The arm of the guide.
+    pub mod arm = "robots/arm.toml";
+    outputs: inverse_dynamics, gravity, forward_dynamics;
+    scalar: f64;
+}
+
+dalembert::dynamics! {
+    /// The same arm with a kilogram in its hand.
+    pub mod with_a_kilogram = "robots/arm.toml";
+    scene: kilo;
+    scalar: f64;
+}
+
+dalembert::dynamics! {
+    /// What picking takes: two torques, 1% of the actuators' limits.
+    pub mod picking = "robots/arm.toml";
+    scene: pick;
+    scalar: f64;
+}
+
+/// A value for each joint.
+pub type Joints = [f64; arm::N];

@@ -1,0 +1,51 @@
+//! What the guide prints: torques that hold, a payload found, a motion followed, and
+//! how long a call takes here.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use guide::{Joints, arm, control, hold, payload, picking, with_a_kilogram};
+
+fn main() {
+    let q = [0.3, 0.6, -0.4];
+    println!("holds with      {:.3?} N·m", hold::float(&q));
+
+    // What sensors would say of 0.7 kg: a fraction between empty and a kilogram.
+    let poses = [q, [0.0, 0.2, 0.9], [1.0, -0.3, 0.5]];
+    let measured = poses.map(|q| {
+        let (empty, loaded) = (arm::gravity(&q), with_a_kilogram::gravity(&q));
+        let tau = std::array::from_fn(|i| empty[i] + 0.7 * (loaded[i] - empty[i]));
+        (q, tau)
+    });
+    if let Some(mass) = payload::mass(&measured) {
+        println!("payload         {mass:.3} kg");
+    }
+
+    println!("follows within  {:.1e} rad", control::follow(4));
+
+    println!(
+        "exact           {:.1} ns",
+        nanoseconds(arm::inverse_dynamics)
+    );
+    println!(
+        "to pick, at 1%  {:.1} ns",
+        nanoseconds(picking::inverse_dynamics)
+    );
+}
+
+/// The time of a call, the best of some rounds.
+fn nanoseconds<T>(call: impl Fn(&Joints, &Joints, &Joints) -> T) -> f64 {
+    const CALLS: u32 = 100_000;
+    let mut best = f64::INFINITY;
+    for _ in 0..20 {
+        let start = Instant::now();
+        let state = [[0.0, 0.6, -0.4], [0.0, 0.5, 0.5], [0.0, 2.0, 2.0]];
+        for _ in 0..CALLS {
+            // The compiler knows no argument, and every result is wanted.
+            let [q, qd, qdd] = black_box(state);
+            black_box(call(&q, &qd, &qdd));
+        }
+        best = best.min(start.elapsed().as_secs_f64() / f64::from(CALLS));
+    }
+    best * 1e9
+}
