@@ -181,14 +181,18 @@ fn one(
     function: Function,
     request: &Request,
 ) -> Result<GeneratedFunction, GenerateError> {
-    if function.columns() == Columns::Base {
-        let base = setting.base();
-        let base = base.map_err(|why| GenerateError::Base(function, why))?;
-        prove_base(setting, base).map_err(|why| GenerateError::Disproved(function, why))?;
-    }
+    let base = match function.columns() {
+        Columns::Base => Some(setting.base()),
+        Columns::Links | Columns::None => None,
+    };
+    let base = base.transpose();
+    let base = base.map_err(|why| GenerateError::Base(function, why))?;
     let outputs = function.outputs(setting.sizes(function));
     if outputs > MAX_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
+    }
+    if let Some(base) = base {
+        prove_base(setting, base).map_err(|why| GenerateError::Disproved(function, why))?;
     }
     if function.inverts_inertia()
         && let Some(joint) = without_inertia(setting)

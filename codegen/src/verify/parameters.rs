@@ -12,6 +12,7 @@
 //! [`BaseParameters`]: crate::scene::base::BaseParameters
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
 use dalembert_model::equations::regressor::{Column, of_drives, of_links};
 use dalembert_model::equations::{Arm, Formulation};
@@ -132,18 +133,24 @@ impl Statement<'_> {
         all.extend(of_drives(setting.robot()));
         let whole = by(&all);
         let own = by(&setting.columns(Function::Regressor, constant));
-        let parameters = self.parameters();
+        // Each base parameter's terms: the place of a parameter, and its factor.
+        let places: BTreeMap<Parameter, usize> = (self.parameters().into_iter())
+            .enumerate()
+            .map(|(place, parameter)| (parameter, place))
+            .collect();
+        let mut combinations: Vec<Vec<(usize, S)>> = Vec::new();
+        for terms in &self.base.combinations {
+            let term = |(parameter, factor): &(Parameter, Exact)| {
+                Some((*places.get(parameter)?, constant(factor)))
+            };
+            combinations.push(terms.iter().map(term).collect::<Option<_>>()?);
+        }
         let mut found = Vec::new();
         for &row in setting.rows() {
             let mut differences = whole[row].clone();
-            for (entry, terms) in own[row].iter().zip(&self.base.combinations) {
-                for (parameter, factor) in terms {
-                    let place = parameters.iter().position(|known| known == parameter);
-                    let place = place.and_then(|place| differences.get_mut(place));
-                    match place {
-                        Some(sum) => *sum = sum.sub(&entry.mul(&constant(factor))),
-                        None => failed.set(true),
-                    }
+            for (entry, terms) in own[row].iter().zip(&combinations) {
+                for (place, factor) in terms {
+                    differences[*place] = differences[*place].sub(&entry.mul(factor));
                 }
             }
             found.extend(differences);
