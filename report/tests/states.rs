@@ -281,6 +281,7 @@ fn unknown_keys_are_errors_with_the_likely_word() {
             "`torque` is missing, which `forward_dynamics` depends on",
         ),
         (r#""\u001b[31m": [1, 2]"#, "`\u{fffd}[31m` is no key"),
+        (r#""condition": "good""#, "`condition` is a number"),
     ] {
         let FileError::Content(error) = read(file(keys).as_bytes(), 2).unwrap_err() else {
             panic!("{keys}");
@@ -290,7 +291,7 @@ fn unknown_keys_are_errors_with_the_likely_word() {
             "{keys}: {error}"
         );
     }
-    let good = read(file(r#""tau": [1, 2]"#).as_bytes(), 2).unwrap();
+    let good = read(file(r#""condition": 7.5, "tau": [1, 2]"#).as_bytes(), 2).unwrap();
     assert_eq!(good[0].known[&Quantity::Torque], [1.0, 2.0]);
     // What a quantity does not depend on may be left out, no more than that.
     let still = r#"{"states": [{"q": [0, 0], "c": [1, 2]}]}"#;

@@ -68,6 +68,10 @@ const OTHER_WORDS: [(&str, &str); 33] = [
     ("samples", "states"),
 ];
 
+/// What a state may say of itself, a number each: the condition of D, by which its
+/// source judged the results that need D⁻¹. No function returns it.
+const REMARKS: [&str; 1] = ["condition"];
+
 /// Why a file of states cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileError {
@@ -134,9 +138,12 @@ fn state(value: &Value, n: usize) -> Result<GivenState, String> {
         format!("a state is an object with `q`, `qd`, `qdd` and any of {results}")
     })?;
     let known = self::keys();
-    for key in keys.keys() {
-        if !known.contains(&key.as_str()) {
-            return Err(unknown(key));
+    for (key, value) in keys {
+        match (known.contains(&key.as_str()), REMARKS.contains(&key.as_str())) {
+            (true, _) => {}
+            (_, true) if value.is_number() => {}
+            (_, true) => return Err(format!("`{key}` is a number")),
+            (false, false) => return Err(unknown(key)),
         }
     }
     let need = |key: &str| vector(keys, key, n)?.ok_or_else(|| format!("`{key}` is missing"));
