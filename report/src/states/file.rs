@@ -139,7 +139,10 @@ fn state(value: &Value, n: usize) -> Result<GivenState, String> {
     })?;
     let known = self::keys();
     for (key, value) in keys {
-        match (known.contains(&key.as_str()), REMARKS.contains(&key.as_str())) {
+        match (
+            known.contains(&key.as_str()),
+            REMARKS.contains(&key.as_str()),
+        ) {
             (true, _) => {}
             (_, true) if value.is_number() => {}
             (_, true) => return Err(format!("`{key}` is a number")),
