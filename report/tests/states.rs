@@ -275,7 +275,11 @@ fn unknown_keys_are_errors_with_the_likely_word() {
         (r#""M": [1, 0, 0, 1]"#, "did you mean `D`?"),
         (r#""tua": [1, 2]"#, "did you mean `tau`?"),
         (r#""ddq": [1, 2]"#, "did you mean `qdd`?"),
-        (r#""regressor": [1, 2]"#, "help: a state has `q`"),
+        (r#""wind": [1, 2]"#, "help: a state has `q`"),
+        (
+            r#""regressor": [1, 2]"#,
+            "`regressor` has 2 numbers, not 40",
+        ),
         (
             r#""forward_dynamics": [1, 2]"#,
             "`torque` is missing, which `forward_dynamics` depends on",
