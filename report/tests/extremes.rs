@@ -1,6 +1,6 @@
 //! The matrix of extremes: every category, f64 and f32, generic runtime and
 //! emitted code, each by its criterion. Without optimisation, the first case of
-//! each category: minutes are for release mode.
+//! each category, and no search of long arms: minutes are for release mode.
 
 mod extremes_support;
 
@@ -74,7 +74,7 @@ impl Robots {
 
 /// What is searched; but where that takes long, with many different angles
 /// and in long chains, only τ of each category's first robot in f64, and else
-/// the recursion as it is.
+/// the recursion as it is. Without optimisation, only short arms are searched.
 fn start(robot: &Robot, scalar: ScalarType, function: Function, first: bool) -> Start {
     let angles = robot.joints.iter().flat_map(|j| [&j.alpha, &j.theta]);
     let mut odd: Vec<_> = angles.filter(|a| a.quarter_turns().is_none()).collect();
@@ -84,7 +84,7 @@ fn start(robot: &Robot, scalar: ScalarType, function: Function, first: bool) -> 
         (ScalarType::F64, Function::InverseDynamics) => first && robot.joints.len() <= 12,
         _ => robot.joints.len() <= 3 || odd.len() <= 2 && robot.joints.len() <= 7,
     };
-    if quick {
+    if quick && (!cfg!(debug_assertions) || robot.joints.len() <= 4) {
         Start::Auto
     } else {
         Start::Only(Formulation::NewtonEulerLink)
