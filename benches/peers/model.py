@@ -1,0 +1,164 @@
+"""A robot file as a chain of joints that turn or slide along their own z.
+
+`placement` and rows of the DH table alike become: the constant place (rotation,
+translation) of each joint's frame in the frame of the link before it, and the
+link's mass, centre of mass and inertia about it in the frame that moves with
+the joint. Cosines of right angles become exactly 0, as careful users of the
+peers see to, for their generators count what is not.
+"""
+
+import math
+import tomllib
+
+import numpy as np
+
+
+def number(value):
+    """A number of a robot file: TOML's own, "pi/2", "-2*pi" or "90deg"."""
+    if not isinstance(value, str):
+        return float(value)
+    if value.endswith("deg"):
+        return math.radians(float(value[:-3]))
+    result = 1.0
+    text = value.replace(" ", "")
+    if text.startswith("-"):
+        result, text = -1.0, text[1:]
+    for i, factor in enumerate(text.split("*")):
+        top, *under = factor.split("/")
+        result *= math.pi if top == "pi" else float(top)
+        for below in under:
+            result /= float(below)
+    return result
+
+
+def snapped(matrix):
+    """What is within 1e-14 of 0, 1 or -1 is that."""
+    rounded = np.round(matrix)
+    return np.where(np.abs(matrix - rounded) < 1e-14, rounded, matrix) + 0.0
+
+
+def turn(axis, angle):
+    """The rotation about a coordinate axis."""
+    c, s = math.cos(angle), math.sin(angle)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    r = np.eye(3)
+    r[i, i] = r[j, j] = c
+    r[i, j], r[j, i] = -s, s
+    return snapped(r)
+
+
+def fixed_axes(rpy):
+    """Roll, pitch and yaw about fixed axes, as URDF has them."""
+    r, p, y = (number(x) for x in rpy)
+    return snapped(turn(2, y) @ turn(1, p) @ turn(0, r))
+
+
+def placed(table):
+    """A constant place: `xyz` and `rpy`, each of which may be left out."""
+    xyz = np.array([number(x) for x in table.get("xyz", [0, 0, 0])])
+    return fixed_axes(table.get("rpy", [0, 0, 0])), xyz
+
+
+def along_z(axis):
+    """A rotation that carries z to an axis."""
+    a = np.array([number(x) for x in axis])
+    a = a / np.linalg.norm(a)
+    if abs(a[2] - 1) < 1e-14:
+        return np.eye(3)
+    if abs(a[2] + 1) < 1e-14:
+        return turn(0, math.pi)
+    v = np.cross([0, 0, 1], a)
+    k = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    return snapped(np.eye(3) + k + k @ k / (1 + a[2]))
+
+
+def after(first, second):
+    """One place in another."""
+    (r1, p1), (r2, p2) = first, second
+    return snapped(r1 @ r2), p1 + r1 @ p2
+
+
+NOWHERE = (np.eye(3), np.zeros(3))
+
+
+class Arm:
+    """Joints from base to tip, gravity in base axes."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            robot = tomllib.load(file)
+        self.name = robot["name"]
+        self.gravity = np.array([number(x) for x in robot["gravity"]])
+        self.prismatic, self.place = [], []
+        self.mass, self.com, self.inertia = [], [], []
+        self.viscous, self.armature = [], []
+        standard = robot.get("convention") == "standard"
+        before = placed(robot.get("base", {}))
+        for joint in robot["joint"]:
+            kind = joint["kind"] == "prismatic"
+            get = lambda key: number(joint.get(key, 0))
+            # From the joint's own frame to the one that the file's numbers are in.
+            link = NOWHERE
+            if "placement" in joint:
+                align = (along_z(joint.get("axis", [0, 0, 1])), np.zeros(3))
+                place = after(placed(joint["placement"]), align)
+                link = (align[0].T, np.zeros(3))
+            else:
+                x = (turn(0, get("alpha")), np.array([get("a"), 0, 0]))
+                z = (turn(2, get("theta")), np.array([0, 0, get("d")]))
+                z = after(z, (NOWHERE[0], np.array([0, 0, get("offset")])) if kind
+                          else (turn(2, get("offset")), np.zeros(3)))
+                if standard:
+                    place, link = z, x
+                else:
+                    place = after((x[0], x[1]), z)
+            self.place.append(after(before, place))
+            before = link if standard else NOWHERE
+            if "placement" in joint:
+                before = link
+            self.prismatic.append(kind)
+            com = np.array([number(x) for x in joint.get("com", [0, 0, 0])])
+            xx, yy, zz, xy, yz, xz = (number(x) for x in joint.get("inertia", [0] * 6))
+            about = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            self.mass.append(get("mass"))
+            self.com.append(link[0] @ com + link[1])
+            self.inertia.append(link[0] @ about @ link[0].T)
+            self.viscous.append(get("viscous"))
+            self.armature.append(get("armature"))
+        self.n = len(self.mass)
+
+    def pinocchio(self):
+        """The same arm for Pinocchio; friction and armature are added outside."""
+        import pinocchio as pin
+
+        model = pin.Model()
+        model.gravity = pin.Motion(np.concatenate([self.gravity, np.zeros(3)]))
+        parent = 0
+        for i in range(self.n):
+            kind = pin.JointModelPZ() if self.prismatic[i] else pin.JointModelRZ()
+            parent = model.addJoint(parent, kind, pin.SE3(*self.place[i]), f"j{i + 1}")
+            body = pin.Inertia(self.mass[i], self.com[i], self.inertia[i])
+            model.appendBodyToJoint(parent, body, pin.SE3.Identity())
+        return model
+
+    def urdf(self):
+        """The same arm as a URDF, for libraries that take no other."""
+        rows = [f'<robot name="{self.name}">', '<link name="l0"/>']
+        for i in range(self.n):
+            r, p = self.place[i]
+            xx, xy, xz, yy, yz, zz = self.inertia[i][np.triu_indices(3)]
+            text = lambda v: " ".join(repr(float(x)) for x in v)
+            roll, pitch = math.atan2(r[2, 1], r[2, 2]), math.asin(max(-1, min(1, -r[2, 0])))
+            yaw = math.atan2(r[1, 0], r[0, 0])
+            if abs(abs(r[2, 0]) - 1) < 1e-14:
+                roll, yaw = 0.0, math.atan2(-r[0, 1], r[1, 1])
+            kind = "prismatic" if self.prismatic[i] else "revolute"
+            rows += [
+                f'<link name="l{i + 1}"><inertial><origin xyz="{text(self.com[i])}"/>'
+                f'<mass value="{self.mass[i]!r}"/><inertia ixx="{xx!r}" ixy="{xy!r}" ixz="{xz!r}"'
+                f' iyy="{yy!r}" iyz="{yz!r}" izz="{zz!r}"/></inertial></link>',
+                f'<joint name="j{i + 1}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/>'
+                f'<origin xyz="{text(p)}" rpy="{text([roll, pitch, yaw])}"/><axis xyz="0 0 1"/>'
+                '<limit lower="-7" upper="7" velocity="100" effort="1000"/></joint>',
+            ]
+        return "\n".join(rows + ["</robot>", ""]).replace("np.float64(", "").replace(")", "")

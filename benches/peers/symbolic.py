@@ -1,0 +1,268 @@
+"""The algorithms of the peers over CasADi's SX, as a careful user writes them.
+
+Newton–Euler recursion about the centre of mass and about the joint's origin,
+articulated bodies, composite bodies; derivatives by CasADi's own differentiation.
+Of several ways to one function the one of fewest operations is kept, after
+CasADi's `cse`: what is reported is the best that these tools give.
+"""
+
+import casadi as ca
+import numpy as np
+
+MUL = {ca.OP_MUL, ca.OP_SQ, ca.OP_TWICE}
+ADD = {ca.OP_ADD, ca.OP_SUB}
+FREE = {ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_CONST, ca.OP_NEG, ca.OP_ASSIGN}
+
+
+def counts(function):
+    """[multiplications, additions, divisions, sines and cosines]."""
+    result = [0, 0, 0, 0]
+    for k in range(function.n_instructions()):
+        op = function.instruction_id(k)
+        if op in MUL:
+            result[0] += 1
+        elif op in ADD:
+            result[1] += 1
+        elif op in (ca.OP_DIV, ca.OP_INV):
+            result[2] += 1
+        elif op in (ca.OP_SIN, ca.OP_COS):
+            result[3] += 1
+        elif op not in FREE:
+            raise ValueError(f"operation {op} is not counted")
+    return result
+
+
+def made(name, inputs, *matrices):
+    """A function, after the common subexpressions are merged: row by row, like ours."""
+    flat = ca.vertcat(*(ca.vec(ca.densify(m).T) for m in matrices))
+    return ca.Function(name, inputs, [ca.cse(flat)])
+
+
+def best(*functions):
+    """The one of fewest multiplications and additions."""
+    return min(functions, key=lambda f: sum(counts(f)[:3]))
+
+
+def const(matrix):
+    """A constant whose zeros are structural, so that nothing is computed with them."""
+    return ca.sparsify(ca.SX(ca.DM(np.asarray(matrix, dtype=float))))
+
+
+def cross(a, b):
+    return ca.vertcat(
+        a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    )
+
+
+def skew(p):
+    return ca.vertcat(
+        ca.horzcat(0, -p[2], p[1]), ca.horzcat(p[2], 0, -p[0]), ca.horzcat(-p[1], p[0], 0)
+    )
+
+
+class Chain:
+    def __init__(self, arm):
+        self.arm, self.n = arm, arm.n
+        self.q, self.qd, self.qdd, self.tau = (
+            ca.SX.sym(name, arm.n) for name in ("q", "qd", "qdd", "tau")
+        )
+        self.rotation, self.offset = [], []
+        for i in range(self.n):
+            r, p = (const(x) for x in arm.place[i])
+            if arm.prismatic[i]:
+                p = p + r @ ca.vertcat(0, 0, self.q[i])
+            else:
+                s, c = ca.sin(self.q[i]), ca.cos(self.q[i])
+                turned = ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
+                r = r @ ca.sparsify(turned)
+            self.rotation.append(r)
+            self.offset.append(p)
+
+    def friction(self, i):
+        return self.arm.viscous[i] * self.qd[i]
+
+    def newton_euler(self, qd, qdd, gravity, about_com):
+        """Inverse dynamics; moments about centres of mass, or about joints' origins."""
+        w, dw, a = ca.SX.zeros(3), ca.SX.zeros(3), const(-gravity)
+        forces = []
+        for i in range(self.n):
+            r, p = self.rotation[i], self.offset[i]
+            a = r.T @ (a + cross(dw, p) + cross(w, cross(w, p)))
+            w, dw = r.T @ w, r.T @ dw
+            z, zd = ca.vertcat(0, 0, qd[i]), ca.vertcat(0, 0, qdd[i])
+            if self.arm.prismatic[i]:
+                a = a + zd + 2 * cross(w, z)
+            else:
+                dw = dw + zd + cross(w, z)
+                w = w + z
+            m, c, about = self.arm.mass[i], self.arm.com[i], self.arm.inertia[i]
+            if about_com:
+                c = const(c)
+                f = m * (a + cross(dw, c) + cross(w, cross(w, c)))
+                about = const(about)
+                k = about @ dw + cross(w, about @ w) + cross(c, f)
+            else:
+                about = const(about + m * (c @ c * np.eye(3) - np.outer(c, c)))
+                mc = const(m * c)
+                f = m * a + cross(dw, mc) + cross(w, cross(w, mc))
+                k = about @ dw + cross(w, about @ w) + cross(mc, a)
+            forces.append((f, k))
+        tau = [None] * self.n
+        f, k = ca.SX.zeros(3), ca.SX.zeros(3)
+        for i in reversed(range(self.n)):
+            f, k = f + forces[i][0], k + forces[i][1]
+            tau[i] = (f if self.arm.prismatic[i] else k)[2]
+            if self.arm.armature[i]:
+                tau[i] = tau[i] + self.arm.armature[i] * qdd[i]
+            p = self.offset[i]
+            f = self.rotation[i] @ f
+            k = self.rotation[i] @ k + cross(p, f)
+        return ca.vertcat(*tau)
+
+    def damped(self, tau):
+        return tau + ca.vertcat(*(self.friction(i) for i in range(self.n)))
+
+    def potential_energy(self):
+        """−gᵀ Σ m p, from the last link to the base."""
+        m, mc = 0, ca.SX(3, 1)
+        for i in reversed(range(self.n)):
+            m, mc = m + self.arm.mass[i], mc + const(self.arm.mass[i] * self.arm.com[i])
+            mc = self.rotation[i] @ mc + m * self.offset[i]
+        return -ca.dot(const(self.arm.gravity), mc)
+
+    def composite(self):
+        """The inertia matrix, by composite bodies."""
+        d = ca.SX.zeros(self.n, self.n)
+        m, mc, about = 0, ca.SX.zeros(3), ca.SX.zeros(3, 3)
+        for i in reversed(range(self.n)):
+            own, c = self.arm.mass[i], self.arm.com[i]
+            m, mc = m + own, mc + const(own * c)
+            about = about + const(self.arm.inertia[i] + own * (c @ c * np.eye(3) - np.outer(c, c)))
+            if self.arm.prismatic[i]:
+                f, k = ca.vertcat(0, 0, m), ca.vertcat(mc[1], -mc[0], 0)
+            else:
+                f, k = ca.vertcat(-mc[1], mc[0], 0), about[:, 2]
+            for j in reversed(range(i + 1)):
+                d[i, j] = d[j, i] = (f if self.arm.prismatic[j] else k)[2]
+                if i == j:
+                    d[i, i] += self.arm.armature[i]
+                p, r = self.offset[j], self.rotation[j]
+                f = r @ f
+                k = r @ k + cross(p, f)
+            # The body as the link before it sees it.
+            r, p = self.rotation[i], self.offset[i]
+            turned = r @ mc
+            mp = m * p
+            cp = skew(turned) @ skew(p)
+            about = r @ about @ r.T - cp - cp.T - skew(mp) @ skew(p)
+            mc = turned + mp
+        return d
+
+    def articulated(self):
+        """Forward dynamics, by articulated bodies over 6-vectors."""
+        n, x, bias = self.n, [], []
+        inertia, force = [], []
+        v = ca.SX.zeros(6)
+        for i in range(n):
+            r, p = self.rotation[i], self.offset[i]
+            motion = ca.SX(6, 6)
+            motion[:3, :3] = r.T
+            motion[3:, 3:] = r.T
+            motion[3:, :3] = -r.T @ ca.sparsify(skew(p))
+            x.append(motion)
+            v = motion @ v
+            k = 5 if self.arm.prismatic[i] else 2
+            s = ca.SX(6, 1)
+            s[k] = self.qd[i]
+            bias.append(ca.vertcat(cross(v[:3], s[:3]), cross(v[3:], s[:3]) + cross(v[:3], s[3:])))
+            v = v + s
+            m, c = self.arm.mass[i], self.arm.com[i]
+            about = self.arm.inertia[i] + m * (c @ c * np.eye(3) - np.outer(c, c))
+            hat = m * np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
+            body = const(np.block([[about, hat], [hat.T, m * np.eye(3)]]))
+            inertia.append(body)
+            h = body @ v
+            force.append(ca.vertcat(cross(v[:3], h[:3]) + cross(v[3:], h[3:]), cross(v[:3], h[3:])))
+        u, d, column = [None] * n, [None] * n, [None] * n
+        for i in reversed(range(n)):
+            k = 5 if self.arm.prismatic[i] else 2
+            column[i] = inertia[i][:, k]
+            d[i] = column[i][k] + self.arm.armature[i]
+            u[i] = self.tau[i] - self.friction(i) - force[i][k]
+            if i:
+                gain = column[i] / d[i]
+                reduced = inertia[i] - gain @ column[i].T
+                rest = force[i] + reduced @ bias[i] + gain * u[i]
+                inertia[i - 1] = inertia[i - 1] + x[i].T @ reduced @ x[i]
+                force[i - 1] = force[i - 1] + x[i].T @ rest
+        a = ca.vertcat(ca.SX(3, 1), const(-self.arm.gravity))
+        result = []
+        for i in range(n):
+            k = 5 if self.arm.prismatic[i] else 2
+            a = x[i] @ a + bias[i]
+            result.append((u[i] - ca.dot(column[i], a)) / d[i])
+            a[k] += result[-1]
+        return ca.vertcat(*result)
+
+    def factored(self, d, rhs):
+        """D x = rhs by LDLᵀ from the last joint on, which keeps the zeros of an arm."""
+        n = self.n
+        a = [[d[i, j] for j in range(n)] for i in range(n)]
+        low = [[0] * n for _ in range(n)]
+        inverse = [None] * n
+        for k in reversed(range(n)):
+            inverse[k] = 1 / a[k][k]
+            for i in range(k):
+                low[k][i] = a[k][i] * inverse[k]
+            for i in range(k):
+                for j in range(i + 1):
+                    a[i][j] = a[i][j] - low[k][i] * a[k][j]
+        x = [rhs[i] for i in range(n)]
+        for k in reversed(range(n)):
+            for i in range(k):
+                x[i] = x[i] - low[k][i] * x[k]
+        for k in range(n):
+            x[k] = x[k] * inverse[k]
+            for i in range(k):
+                x[k] = x[k] - low[k][i] * x[i]
+        return ca.vertcat(*x)
+
+    def functions(self):
+        """name → function, its inputs in the order of ours."""
+        q, qd, qdd, tau = self.q, self.qd, self.qdd, self.tau
+        zero, g = ca.SX(self.n, 1), self.arm.gravity
+        both = (True, False)
+        torque = [self.damped(self.newton_euler(qd, qdd, g, way)) for way in both]
+        state = [q, qd, qdd]
+        result = {"inverse_dynamics": best(*(made("inverse_dynamics", state, t) for t in torque))}
+        still = [self.newton_euler(zero, zero, g, way) for way in both]
+        still.append(ca.gradient(self.potential_energy(), q))
+        result["gravity"] = best(*(made("gravity", [q], c) for c in still))
+        matrices = [self.composite()] + [ca.jacobian(t, qdd) for t in torque]
+        result["inertia"] = best(*(made("inertia", [q], d) for d in matrices))
+        load = [self.damped(self.newton_euler(qd, zero, g, way)) for way in both]
+        solved = [self.factored(d, tau - b) for d in matrices for b in load] + [self.articulated()]
+        given = [q, qd, tau]
+        forward = [made("forward_dynamics", given, x) for x in solved]
+        result["forward_dynamics"] = best(*forward)
+        slopes = [
+            made(
+                "inverse_dynamics_derivatives",
+                state,
+                *(ca.jacobian(t, x) for x in (q, qd, qdd)),
+            )
+            for t in torque
+        ]
+        result["inverse_dynamics_derivatives"] = best(*slopes)
+        short = solved[min(range(len(solved)), key=lambda i: sum(counts(forward[i])[:3]))]
+        # By differentiation of the whole, and from −D⁻¹ ∂τ/∂x at the solution.
+        name = "forward_dynamics_derivatives"
+        ways = [made(name, given, *(ca.jacobian(short, x) for x in (q, qd, tau)))]
+        unit = ca.SX.eye(self.n)
+        solve = [self.factored(matrices[0], unit[:, k]) for k in range(self.n)]
+        inverse = ca.horzcat(*solve)
+        for t in torque:
+            slopes = [ca.substitute(ca.jacobian(t, x), qdd, short) for x in (q, qd)]
+            ways.append(made(name, given, *(-(inverse @ s) for s in slopes), inverse))
+        result[name] = best(*ways)
+        return result
