@@ -142,10 +142,42 @@ pub use dalembert_batch as batch;
 ///   arithmetic: `with_sincos` adds `NAME_with_sincos` for who has the sines
 ///   already, `lanes` also `NAME_lanes`, several states at once, and `batch` also
 ///   `NAME_batch` and `NAME_columns`, slices of states ([below](#many-states)).
+/// - `parameters: payload;`, `gravity` or both make arguments of what are constants
+///   of the robot otherwise ([below](#parameters-at-run-time)).
 /// - `scene: NAME;` generates only what that scene of the robot needs, or
 ///   `scene: NAME { … };` what is said here. Then `outputs` and `scalar` may
 ///   be left out: they are the scene's.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
+///
+/// # Parameters at run time
+///
+/// What the hand carries changes with the tool, and where gravity points with the
+/// base. Functions take both as arguments, after the state:
+///
+/// ```
+/// dalembert::dynamics! {
+///     mod arm = "generated/robots/planar2r.toml";
+///     outputs: gravity, inertia;
+///     parameters: payload, gravity;
+/// }
+/// // Mass, centre of mass in the last link's frame, inertia about it as in a robot
+/// // file: once for each tool.
+/// let load: arm::Load = arm::load(&[0.5, 0.0, 0.0, 0.1, 1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
+/// let q = [0.3, -0.5];
+/// let upright = arm::gravity(&q, &[0.0, -9.81, 0.0], &load);
+/// let on_its_side = arm::gravity(&q, &[9.81, 0.0, 0.0], &load);
+/// // Joints that turn about z feel nothing of gravity along it; D never does.
+/// assert_eq!(arm::gravity(&q, &[0.0, 0.0, -9.81], &load), [0.0, 0.0]);
+/// assert!(upright[0] > 0.0 && on_its_side[0] > 0.0);
+/// assert!(arm::inertia(&q, &load)[0][0] > arm::inertia(&q, &arm::load(&[0.0; 10]))[0][0]);
+/// ```
+///
+/// `load` gives the regrouped parameters that the payload changes, which stand where
+/// constants stood, so that a payload costs a call little. Every function is proved
+/// with the payload's ten numbers as variables. Kinematics take none; what depends
+/// on more of a payload than joints feel (`potential_energy`, `reaction_wrenches`,
+/// `dalembert_terms`) is refused, as are scenes with a tolerance and `entries: batch;`.
+/// A plan keeps programs of the robot's own parameters alone.
 ///
 /// # Many states
 ///

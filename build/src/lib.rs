@@ -97,6 +97,8 @@ pub use dalembert_codegen::emit::Layout;
 #[doc(inline)]
 pub use dalembert_codegen::function::Function as Output;
 #[doc(inline)]
+pub use dalembert_codegen::function::RuntimeParameter as Parameter;
+#[doc(inline)]
 pub use dalembert_codegen::generate::in_scene::UnknownScene;
 #[doc(inline)]
 pub use dalembert_codegen::generate::{GenerateError, Prefer};
@@ -240,6 +242,17 @@ impl Generator {
     #[must_use]
     pub fn entries(mut self, entries: Entries) -> Self {
         self.request.entries = entries;
+        self
+    }
+
+    /// What functions take as arguments that are constants of the robot otherwise:
+    /// [`Parameter::Payload`] by the regrouped parameters of a type `Load`, which a
+    /// function `load` computes once for each tool, and [`Parameter::Gravity`] as
+    /// `g`, for an arm whose base is tilted or moves. Searched for at every build:
+    /// a plan keeps programs of the robot's own parameters.
+    #[must_use]
+    pub fn parameters(mut self, parameters: impl IntoIterator<Item = Parameter>) -> Self {
+        self.request.parameters = parameters.into_iter().collect();
         self
     }
 

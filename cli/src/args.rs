@@ -13,6 +13,7 @@ use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::outputs::RuntimeParameter;
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -78,6 +79,10 @@ pub struct Choice {
     /// are the defaults
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
+    /// What functions take as arguments that are constants otherwise: `payload`,
+    /// by the regrouped parameters that a function `load` computes, and `gravity`
+    #[arg(long, value_name = "WHICH", value_delimiter = ',', value_parser = parameter_parser())]
+    pub parameters: Vec<RuntimeParameter>,
     /// Search anew even if a plan is kept beside the robot file
     #[arg(long)]
     pub no_plan: bool,
@@ -100,6 +105,7 @@ impl Choice {
             start: self.formulation,
             effort: self.effort,
             prefer: self.prefer,
+            parameters: self.parameters.clone(),
             ..Request::default()
         };
         if !self.outputs.is_empty() {
@@ -505,6 +511,15 @@ fn prefer_parser() -> impl TypedValueParser<Value = Prefer> {
         let mut all = Prefer::ALL.into_iter();
         all.find(|prefer| prefer.name() == name)
             .ok_or("no such preference")
+    })
+}
+
+fn parameter_parser() -> impl TypedValueParser<Value = RuntimeParameter> {
+    let names = PossibleValuesParser::new(RuntimeParameter::ALL.map(RuntimeParameter::name));
+    names.try_map(|name| {
+        let mut all = RuntimeParameter::ALL.into_iter();
+        all.find(|parameter| parameter.name() == name)
+            .ok_or("no such parameter")
     })
 }
 

@@ -6,7 +6,7 @@ use dalembert_model::robot::{Field, Joint, JointKind, Position, Robot};
 
 use crate::random::Random;
 
-/// One value a joint.
+/// One value a joint, but for the last three.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct JointState {
     /// Positions, rad or m.
@@ -21,6 +21,12 @@ pub struct JointState {
     pub v: Vec<f64>,
     /// Accelerations wished for.
     pub a: Vec<f64>,
+    /// The acceleration of gravity in base axes, where it is an argument.
+    pub g: Vec<f64>,
+    /// The load that the payload is, where it is an argument.
+    pub load: Vec<f64>,
+    /// Mass, centre of mass and inertia of a payload, where it is one.
+    pub payload: Vec<f64>,
 }
 
 impl JointState {
@@ -42,13 +48,16 @@ impl JointState {
             Argument::Torque => &self.tau,
             Argument::ReferenceVelocity => &self.v,
             Argument::ReferenceAcceleration => &self.a,
+            Argument::Gravity => &self.g,
+            Argument::Load => &self.load,
+            Argument::Payload => &self.payload,
         }
     }
 
-    /// A joint's entry of an argument; NaN where the state has none, which
+    /// An entry of an argument; NaN where the state has none, which
     /// reaches whatever reads it.
-    pub fn entry(&self, argument: Argument, joint: usize) -> f64 {
-        let entry = self.of(argument).get(joint);
+    pub fn entry(&self, argument: Argument, index: usize) -> f64 {
+        let entry = self.of(argument).get(index);
         entry.copied().unwrap_or(f64::NAN)
     }
 
@@ -61,6 +70,9 @@ impl JointState {
             Argument::Torque => &mut self.tau,
             Argument::ReferenceVelocity => &mut self.v,
             Argument::ReferenceAcceleration => &mut self.a,
+            Argument::Gravity => &mut self.g,
+            Argument::Load => &mut self.load,
+            Argument::Payload => &mut self.payload,
         }
     }
 }
@@ -79,10 +91,10 @@ const OTHERS: u64 = 0x6172_6773;
 /// every machine.
 pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     // Once, not state by state: a multiple of π is rounded from 120 digits.
-    let range = |joint: &Joint| Argument::ALL.map(|argument| range(joint, argument));
+    let range = |joint: &Joint| Argument::JOINTS.map(|argument| range(joint, argument));
     let ranges: Vec<_> = robot.joints.iter().map(range).collect();
     let mut states = vec![JointState::default(); count];
-    let (state, others) = Argument::ALL.split_at(Argument::STATE.len());
+    let (state, others) = Argument::JOINTS.split_at(Argument::STATE.len());
     // Other arguments have draws of their own: theirs do not move the states.
     for (arguments, seed) in [(state, seed), (others, seed ^ OTHERS)] {
         let mut random = Random::new(seed);
@@ -100,10 +112,14 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
 }
 
 impl JointState {
-    /// The nearest f32 state, held in doubles.
+    /// The nearest f32 state, held in doubles. A load follows from the payload, and
+    /// code rounds it to its own scalar.
     pub fn in_single(&self) -> JointState {
         let mut state = self.clone();
         for argument in Argument::ALL {
+            if argument == Argument::Load {
+                continue;
+            }
             let entries = state.of_mut(argument).iter_mut();
             entries.for_each(|x| *x = f64::from(*x as f32));
         }
@@ -115,9 +131,9 @@ impl JointState {
 fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     let limits = &joint.limits;
     let most = match argument.limit() {
-        Field::Velocity => &limits.velocity,
-        Field::Acceleration => &limits.acceleration,
-        Field::Torque => &limits.torque,
+        Some(Field::Velocity) => &limits.velocity,
+        Some(Field::Acceleration) => &limits.acceleration,
+        Some(Field::Torque) => &limits.torque,
         _ => return position(joint),
     };
     let most = most.as_ref();

@@ -32,12 +32,24 @@ pub fn symbols(
     arguments: &[Argument],
     builder: &Rc<RefCell<Builder>>,
 ) -> Motion<Symbol> {
+    setting.motion(reader(arguments, builder), |constant| {
+        Symbol::from(constant.clone())
+    })
+}
+
+/// Inputs of a state or of these arguments in symbols, others zero.
+fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Input) -> Symbol {
     let is_read = |argument| Argument::STATE.contains(&argument) || arguments.contains(&argument);
-    let input = |input: Input| match is_read(input.argument()) {
+    move |input: Input| match is_read(input.argument()) {
         true => Symbol::input(builder, input),
         false => Symbol::zero(),
-    };
-    setting.motion(input, |constant| Symbol::from(constant.clone()))
+    }
+}
+
+/// An argument that is no joint vector, in symbols.
+pub fn parameter(argument: Argument, length: usize, builder: &Rc<RefCell<Builder>>) -> Vec<Symbol> {
+    let entry = |index| Symbol::input(builder, Input::Entry(argument, index));
+    (0..length).map(entry).collect()
 }
 
 /// Runs a formulation with symbols in a setting.
@@ -45,15 +57,16 @@ pub fn trace(setting: &Setting, function: Function, formulation: Formulation) ->
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let constant = |constant: &Exact| Symbol::from(constant.clone());
     let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let motion = symbols(setting, &function.arguments(), &builder);
-    let columns = setting.columns(function, constant);
-    let outputs = function.evaluate(formulation, &arm, &motion, &columns);
-    let outputs: Vec<_> = setting
-        .select(function, setting.joints(), outputs)
+    // As the textbook has it, a payload is a body and no load.
+    let mut arguments = setting.arguments(function);
+    arguments.push(Argument::Payload);
+    let posed = setting.posed(function, arm, reader(&arguments, &builder), constant);
+    let outputs = posed.results(setting, function, formulation);
+    let outputs: Vec<_> = outputs
         .iter()
         .map(|output| output.value(&mut builder.borrow_mut()))
         .collect();
-    drop((motion, columns));
+    drop(posed);
     let traced = builder.borrow().asked();
     let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic))
         .finish(&outputs);

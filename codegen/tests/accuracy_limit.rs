@@ -80,7 +80,7 @@ fn the_estimate_is_what_is_observed() {
         };
         let generated = generate(&robot, &request).unwrap();
         let program = &generated.functions[0].program;
-        let estimate = Rounding::estimate(&robot, program).worst();
+        let estimate = Rounding::estimate(&Setting::whole(&robot), program).worst();
         let runtime = Runtime::in_setting(Setting::whole(&robot));
         let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         let mut observed = 0.0f64;

@@ -85,7 +85,10 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
                 for axis in quantity.shape().0 {
                     let (length, places) = match *axis {
                         Axis::Joints => (n, rows.clone()),
-                        Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters => {
+                        Axis::Fixed(_)
+                        | Axis::LinkParameters
+                        | Axis::BaseParameters
+                        | Axis::Load => {
                             let length = axis.length(emitted.sizes);
                             (length, (0..length).collect())
                         }

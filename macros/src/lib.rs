@@ -5,9 +5,8 @@ use proc_macro::TokenStream;
 
 /// Generates verified dynamics of one robot: see the crate `dalembert`, which
 /// re-exports this, for the robot, the clauses (`outputs`, `scalar`,
-/// `formulation`, `effort`, `prefer`, `sincos`, `sincos_error`, `entries`, `scene`,
-/// `crate`)
-/// and the keys of a scene.
+/// `formulation`, `effort`, `prefer`, `sincos`, `sincos_error`, `entries`,
+/// `parameters`, `scene`, `crate`) and the keys of a scene.
 #[proc_macro]
 pub fn dynamics(input: TokenStream) -> TokenStream {
     // Cargo sets it; without it, paths are relative to where the compiler runs.

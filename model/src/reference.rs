@@ -18,6 +18,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::equations::dalembert::Part;
 use crate::equations::energy::contracted;
 use crate::equations::kinematics::poses;
+use crate::equations::load::Loading;
 use crate::equations::matrix::{Columns, total};
 use crate::equations::newton_euler::Wrench;
 use crate::equations::newton_euler::table2::{self, Moment};
@@ -95,6 +96,8 @@ pub struct JointVectors<T> {
     pub a: DVector<T>,
     /// What the columns of a regressor are; none where it is not asked for.
     pub columns: Vec<Column<T>>,
+    /// What the hand carries, where a load is asked for.
+    pub loading: Option<Loading<T>>,
 }
 
 impl<T> JointVectors<T> {
@@ -109,6 +112,7 @@ impl<T> JointVectors<T> {
             v,
             a,
             columns: Vec::new(),
+            loading: None,
         }
     }
 }

@@ -13,7 +13,6 @@ use dalembert_codegen::certificate::format;
 use dalembert_codegen::emit::Layout;
 use dalembert_codegen::generate::keep::keep;
 use dalembert_codegen::generate::{GenerateError, Generated, Request};
-use dalembert_codegen::scene::Setting;
 use dalembert_codegen::simplify::Effort;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
@@ -77,7 +76,7 @@ fn certificates(
         .iter()
         .filter_map(|f| f.admitted.as_ref());
     let certificates: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
-    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let setting = request.setting(robot).map_err(GenerateError::Scene)?;
     for certificate in &certificates {
         let function = certificate.emitted.function;
         certificate.check(&setting).map_err(|why| {

@@ -11,8 +11,7 @@ mod show;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::falsify::{Falsification, falsify};
 use dalembert_codegen::generate::{GenerateError, Generated};
-use dalembert_codegen::scene::Setting;
-use dalembert_codegen::states::{SEED, STATES, seeded};
+use dalembert_codegen::states::{SEED, STATES};
 use dalembert_codegen::verify::floating::{BOUND, Emitted, Measure, Runtime};
 
 use crate::args::VerifyArgs;
@@ -64,8 +63,8 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     // What cannot be proved is not generated: this ends with the reason.
     let generated = input::generated(&args.robot, &robot, &request)?;
     drop(session);
-    let setting = Setting::of(&robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
-    let states = seeded(setting.robot(), STATES, SEED);
+    let setting = request.setting(&robot).map_err(GenerateError::Scene)?;
+    let states = setting.states(STATES, SEED);
     let runtime = Runtime::in_setting(setting);
     let mut checks = Vec::new();
     let claims = claims(&generated)?;

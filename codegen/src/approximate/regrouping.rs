@@ -61,7 +61,7 @@ pub(super) fn descend(
         let from = best
             .as_ref()
             .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
-        let mut regroupings = portfolio::regroupings(setting, from);
+        let mut regroupings = portfolio::regroupings(setting, function, from);
         if round == 0 {
             regroupings.insert(0, from.clone());
         }

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use crate::backend::result::{self, array_type};
 use crate::backend::statement::{last_uses, operand, statement};
 use crate::backend::{MathPath, parts, trig};
-use crate::function::Argument;
+use crate::function::{Argument, Function};
 use crate::program::{Operand, Output, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
@@ -23,6 +23,12 @@ pub const FLAT: usize = 1000;
 /// information walks them recursively: somewhere above 2 000 it overflows the
 /// compiler's stack. A block closes its scopes.
 pub const BLOCK: usize = 500;
+
+/// The name of the load's type in a module.
+pub const LOAD: &str = "Load";
+
+/// The name of a payload's type.
+pub const PAYLOAD: &str = "Payload";
 
 /// Prints the function with the library's sines; `doc` stands above it, one line an
 /// item.
@@ -98,14 +104,15 @@ fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
 
 /// The signature, without a brace.
 fn signature(program: &Program, scalar: ScalarType) -> String {
-    let (n, function) = (program.joints, program.function);
+    let function = program.function;
     let arguments: Vec<String> = program
         .arguments
         .iter()
         .map(|&argument| {
             // An argument that this robot's function does not depend on.
             let mark = if reads(program, argument) { "" } else { "_" };
-            format!("{mark}{}: &[{scalar}; {n}]", argument.name())
+            let kind = argument_type(program, argument, scalar);
+            format!("{mark}{}: &{kind}", argument.name())
         })
         .collect();
     let result = result_type(program, scalar);
@@ -116,11 +123,22 @@ fn signature(program: &Program, scalar: ScalarType) -> String {
     )
 }
 
+/// The type of an argument: an array, which has a name where it is no joint vector
+/// of as many numbers as users would count.
+pub(super) fn argument_type(program: &Program, argument: Argument, scalar: ScalarType) -> String {
+    match argument {
+        Argument::Load => LOAD.to_owned(),
+        Argument::Payload => PAYLOAD.to_owned(),
+        other => format!("[{scalar}; {}]", other.length(program.sizes())),
+    }
+}
+
 /// What it returns.
 pub(super) fn result_type(program: &Program, scalar: ScalarType) -> String {
     let function = program.function;
     match function.structure() {
         Some(name) => name.to_owned(),
+        None if function == Function::Load => LOAD.to_owned(),
         None => array_type(function.quantities()[0], program.sizes(), scalar),
     }
 }

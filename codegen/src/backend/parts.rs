@@ -48,7 +48,7 @@ pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
         };
         line(4, &format!("let [{results}] = {{"));
         line(8, "#[inline(never)]");
-        let parameters = reads.parameters(program.joints, scalar);
+        let parameters = reads.parameters(program, scalar);
         line(
             8,
             &format!("fn part({parameters}) -> [{scalar}; {count}] {{"),
@@ -96,23 +96,25 @@ impl Reads {
         }
     }
 
-    fn arrays(&self) -> impl Iterator<Item = &'static str> + '_ {
+    fn arrays(&self) -> impl Iterator<Item = Argument> + '_ {
         let arguments = Argument::ALL.into_iter().zip(self.arrays);
-        arguments.filter_map(|(argument, read)| read.then_some(argument.name()))
+        arguments.filter_map(|(argument, read)| read.then_some(argument))
     }
 
-    fn parameters(&self, n: usize, scalar: ScalarType) -> String {
-        let mut parameters: Vec<String> = self
-            .arrays()
-            .map(|name| format!("{name}: &[{scalar}; {n}]"))
-            .collect();
+    fn parameters(&self, program: &Program, scalar: ScalarType) -> String {
+        let sizes = program.sizes();
+        let parameter = |argument: Argument| {
+            let (name, length) = (argument.name(), argument.length(sizes));
+            format!("{name}: &[{scalar}; {length}]")
+        };
+        let mut parameters: Vec<String> = self.arrays().map(parameter).collect();
         let (names, count) = (self.values.join(", "), self.values.len());
         parameters.push(format!("[{names}]: [{scalar}; {count}]"));
         parameters.join(", ")
     }
 
     fn arguments(&self) -> String {
-        let mut arguments: Vec<String> = self.arrays().map(String::from).collect();
+        let mut arguments: Vec<String> = self.arrays().map(|a| a.name().to_owned()).collect();
         arguments.push(format!("[{}]", self.values.join(", ")));
         arguments.join(", ")
     }

@@ -166,7 +166,12 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
             vec![((n + joint) as u128 + 1, Interval::ONE)]
         }
         Input::Entry(
-            Argument::Torque | Argument::ReferenceVelocity | Argument::ReferenceAcceleration,
+            Argument::Torque
+            | Argument::ReferenceVelocity
+            | Argument::ReferenceAcceleration
+            | Argument::Gravity
+            | Argument::Load
+            | Argument::Payload,
             _,
         ) => return None,
         Input::Entry(Argument::Position, joint) => {

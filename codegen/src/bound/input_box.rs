@@ -218,6 +218,7 @@ mod tests {
             joints: 1,
             rows: vec![0],
             arguments: function.arguments().to_vec(),
+            load: 0,
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),

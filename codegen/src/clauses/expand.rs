@@ -15,6 +15,7 @@ use super::invocation::{self, Invocation, RobotSource};
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::generate::in_scene::find;
+use crate::generate::parameters::ParameterError;
 use crate::generate::{GenerateError, Generated, Request, generate};
 use crate::plan::{self, Plan};
 use crate::program::ScalarType;
@@ -179,6 +180,7 @@ fn functions(
         sincos: invocation.sincos,
         math: module::math(invocation.sincos),
         entries: invocation.entries,
+        parameters: invocation.parameters.iter().map(|(p, _)| *p).collect(),
         batch: module::BATCH.to_owned(),
         module: Some(invocation.name.to_string()),
         work: Request::work_while_compiling(invocation.effort),
@@ -194,6 +196,10 @@ fn functions(
                 | GenerateError::StalePlan { .. }
                 | GenerateError::StaleScene { .. }
                 | GenerateError::Scene(_) => None,
+                GenerateError::Parameter(
+                    ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _),
+                ) => Some(*function),
+                GenerateError::Parameter(_) => None,
                 GenerateError::Constant { function, .. }
                 | GenerateError::Contradicted { function, .. }
                 | GenerateError::Singular { function, .. }
@@ -211,6 +217,11 @@ fn functions(
                 .filter(|(output, _)| Some(*output) == function)
                 .map(|(_, tokens)| tokens.clone())
                 .next();
+            let asked = match &error {
+                GenerateError::Parameter(_) => invocation.parameters.first(),
+                _ => None,
+            };
+            let at = at.or_else(|| asked.map(|(_, tokens)| tokens.clone()));
             let at = at.unwrap_or_else(|| invocation.place());
             errors.say(at, &error.to_string(), "");
         })

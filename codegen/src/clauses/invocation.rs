@@ -6,6 +6,7 @@ use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, LitStr, Token, Visibility};
 
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::closest;
 
 use super::errors::Errors;
@@ -37,6 +38,8 @@ pub(super) struct Invocation {
     /// The error of polynomials stands in it once all clauses are read.
     pub(super) sincos: SinCos,
     pub(super) entries: Entries,
+    /// With the tokens that asked for them.
+    pub(super) parameters: Vec<(RuntimeParameter, TokenStream)>,
     /// The scene's name, and what it is if that stands here.
     pub(super) scene: Option<(Ident, Option<Group>)>,
     /// The path of the facade crate.
@@ -50,7 +53,7 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 10] = [
+const CLAUSES: [&str; 11] = [
     "outputs",
     "scalar",
     "formulation",
@@ -59,6 +62,7 @@ const CLAUSES: [&str; 10] = [
     "sincos",
     "sincos_error",
     "entries",
+    "parameters",
     "scene",
     "crate",
 ];
@@ -90,6 +94,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         prefer: Prefer::Accuracy,
         sincos: SinCos::Auto,
         entries: Entries::Single,
+        parameters: Vec::new(),
         scene: None,
         facade: quote!(::dalembert),
     };
@@ -200,6 +205,15 @@ impl Invocation {
             Some("prefer") => self.prefer = word(value, errors).unwrap_or(self.prefer),
             Some("sincos") => self.sincos = word(value, errors).unwrap_or(self.sincos),
             Some("entries") => self.entries = word(value, errors).unwrap_or(self.entries),
+            Some("parameters") => {
+                for (parameter, at) in words::<RuntimeParameter>(value, errors) {
+                    if self.parameters.iter().any(|(known, _)| *known == parameter) {
+                        errors.twice(&at);
+                    } else {
+                        self.parameters.push((parameter, at));
+                    }
+                }
+            }
             Some("scene") => match value {
                 [TokenTree::Ident(name)] => self.scene = Some((name.clone(), None)),
                 [TokenTree::Ident(name), body] if braces(body).is_some() => {

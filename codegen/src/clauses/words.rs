@@ -1,8 +1,9 @@
-//! Outputs, scalars, formulations, efforts, preferences, sources of sines and
-//! entries by name.
+//! Outputs, scalars, formulations, efforts, preferences, sources of sines, entries
+//! and parameters by name.
 
 use std::fmt;
 
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::closest;
 
 use crate::backend::Entries;
@@ -59,6 +60,14 @@ impl Word for Entries {
 
     fn all() -> Vec<(&'static str, Self)> {
         Entries::ALL.map(|e| (e.name(), e)).to_vec()
+    }
+}
+
+impl Word for RuntimeParameter {
+    const WHAT: &'static str = "parameter that can be an argument";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        RuntimeParameter::ALL.map(|p| (p.name(), p)).to_vec()
     }
 }
 
@@ -159,6 +168,7 @@ mod tests {
         check::<Effort>();
         check::<Prefer>();
         check::<Entries>();
+        check::<RuntimeParameter>();
         check::<Start>();
         check::<SinCos>();
         assert_eq!(SinCos::all().len(), SinCos::NAMES.len());

@@ -7,8 +7,10 @@
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
 //!   are relative to; `sines`: polynomials for sines; [`figures`]: numbers
 //!   rounded to the side that stays true
-//! - `parameters`: what the columns of a regressor are
+//! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
+//!   its load are, and gravity where it is an argument
 
+mod arguments;
 mod escape;
 pub mod figures;
 mod generated;

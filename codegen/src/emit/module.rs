@@ -8,7 +8,7 @@ use super::escape::escaped;
 use super::figures::decimal;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{parameters, sines, variant};
+use super::{arguments, parameters, sines, variant};
 use crate::backend::entries::angles::Angles;
 use crate::backend::entries::{self, Around};
 use crate::backend::{Entries, MathPath, function, result};
@@ -128,6 +128,7 @@ fn module(
             rows.len()
         );
     }
+    text.push_str(&arguments::types(setting, scalar));
     if let Some(state_box) = StateBox::of(functions, setting, scalar) {
         state_box.write(&mut text, scalar);
     }
@@ -180,7 +181,6 @@ fn header(
         Convention::Standard => "standard",
         Convention::Modified => "modified (Craig)",
     };
-    let gravity: Vec<String> = robot.gravity.iter().map(decimal).collect();
     let mut lines = vec![
         format!(
             "Dynamics of the robot `{}`, {} joints, in `{scalar}`.",
@@ -190,8 +190,8 @@ fn header(
         format!("Input hash {}.", robot.short_hash()),
         String::new(),
         format!(
-            "SI units, radians; {convention} DH; gravity ({}) m/s² in base axes.",
-            gravity.join(", ")
+            "SI units, radians; {convention} DH; {}",
+            arguments::gravity(robot, setting)
         ),
     ];
     if let Some(base) = &robot.base {
@@ -331,6 +331,7 @@ fn function_doc(
         );
         lines.push("where a joint moves no inertia, with infinities and NaN.".into());
     }
+    lines.extend(arguments::doc(generated.function, setting));
     lines.extend(parameters::doc(generated.function, setting));
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {

@@ -81,6 +81,7 @@ mod tests {
             joints: 2,
             rows: vec![0, 1],
             arguments: function.arguments(),
+            load: 0,
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),

@@ -9,7 +9,7 @@ use crate::certificate::Refuted;
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;
 use crate::scene::Setting;
-use crate::states::{JointState, seeded};
+use crate::states::JointState;
 use crate::verify::floating::Emitted;
 use crate::verify::reference::Reference;
 use crate::verify::running;
@@ -26,7 +26,8 @@ pub(super) fn check(
     functions: &[GeneratedFunction],
     emitted: &[Emitted],
 ) -> Result<(), GenerateError> {
-    let states: Vec<JointState> = seeded(setting.robot(), STATES, SEED)
+    let states: Vec<JointState> = setting
+        .states(STATES, SEED)
         .iter()
         .map(JointState::in_single)
         .collect();

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::parameters::ParameterError;
 use crate::approximate::choose::ToleranceError;
 use crate::certificate::Refuted;
 use crate::function::Function;
@@ -79,6 +80,8 @@ pub enum GenerateError {
     },
     /// The base parameters cannot be written down.
     Base(Function, NoBase),
+    /// A parameter cannot be an argument.
+    Parameter(ParameterError),
     /// No variant meets the scene's tolerance.
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
@@ -153,6 +156,7 @@ impl fmt::Display for GenerateError {
                 "`{function}` in {scalar} was proved, but not when it was run: {why}"
             ),
             GenerateError::Base(function, why) => write!(f, "`{function}`: {why}"),
+            GenerateError::Parameter(why) => why.fmt(f),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
                 write!(f, "the plan's variant of `{function}`: {why}")

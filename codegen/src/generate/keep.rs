@@ -30,7 +30,13 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
         entries: Vec::new(),
     });
     let mut own = Vec::new();
-    for function in &generated.functions {
+    let functions = generated.functions.iter();
+    // Programs that take parameters have no place in it: searched for each time.
+    let of_constants = functions.filter(|function| {
+        let mut arguments = function.program.arguments.iter();
+        arguments.all(|argument| argument.is_of_joints())
+    });
+    for function in of_constants {
         for scalar in scalars(request, function) {
             let entry = entry(request, function, scalar);
             let (name, scene) = (function.function, request.scene.as_ref());

@@ -6,6 +6,7 @@
 //! - [`mod@keep`]: what was generated, in a plan
 //! - [`early`]: a search that was ended early, and what programs are compared by
 //! - `contradiction`: what was proved, tried
+//! - [`parameters`]: which parameters can be arguments
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated
 
@@ -14,6 +15,7 @@ pub mod early;
 pub mod error;
 pub mod in_scene;
 pub mod keep;
+pub mod parameters;
 mod range;
 pub mod request;
 #[doc(hidden)]
@@ -21,6 +23,7 @@ pub mod search;
 #[doc(hidden)]
 pub mod tolerate;
 
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 pub use crate::approximate::choose::{ToleranceError, Unbounded};
@@ -48,7 +51,7 @@ use tolerate::tolerate;
 /// Everything generated for a robot.
 #[derive(Clone, Debug)]
 pub struct Generated {
-    /// In the order of [`Function::ALL`].
+    /// In the order of [`Function::ALL`], behind that of a load.
     pub functions: Vec<GeneratedFunction>,
     /// The Rust source: one module a scalar.
     pub text: String,
@@ -91,7 +94,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             ));
         }
     }
-    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let setting = request.setting(robot).map_err(GenerateError::Scene)?;
+    parameters::check(request, &setting).map_err(GenerateError::Parameter)?;
     let (mut functions, scalars) = all(&setting, request)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
@@ -167,6 +171,9 @@ fn all(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
 
 fn attempt(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
     let mut functions = Vec::new();
+    if setting.has(RuntimeParameter::Payload) {
+        functions.push(one(setting, Function::Load, request)?);
+    }
     for function in Function::ALL {
         if request.functions.contains(&function) {
             functions.push(one(setting, function, request)?);
@@ -195,7 +202,7 @@ fn one(
         prove_base(setting, base).map_err(|why| GenerateError::Disproved(function, why))?;
     }
     if function.inverts_inertia()
-        && let Some(joint) = without_inertia(setting)
+        && let Some(joint) = without_inertia(setting, function)
     {
         let joint = setting.robot().joint_label(joint);
         return Err(GenerateError::Singular { function, joint });

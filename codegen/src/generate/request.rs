@@ -1,5 +1,6 @@
 //! What somebody wants generated.
 
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
@@ -9,6 +10,7 @@ use crate::function::Function;
 use crate::plan::Plan;
 use crate::portfolio::Start;
 use crate::program::ScalarType;
+use crate::scene::{Setting, SettingError};
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
@@ -71,6 +73,8 @@ pub struct Request {
     pub module: Option<String>,
     /// Whether the text has modules, or is the contents of one.
     pub layout: Layout,
+    /// What functions take as arguments that are the robot's parameters otherwise.
+    pub parameters: Vec<RuntimeParameter>,
     /// What the robot is used for; everything if `None`. Its outputs and
     /// scalar are defaults that the ways in apply ([`Request::choose`]).
     pub scene: Option<Scene>,
@@ -92,6 +96,15 @@ impl Request {
             Effort::Quick => Some(WORK_WHILE_COMPILING),
             Effort::Thorough => None,
         }
+    }
+
+    /// The robot in the scene, where functions take the parameters.
+    ///
+    /// # Errors
+    /// The scene is none of this robot.
+    pub fn setting(&self, robot: &Robot) -> Result<Setting, SettingError> {
+        let setting = Setting::of(robot, self.scene.as_ref())?;
+        Ok(setting.taking(&self.parameters))
     }
 
     /// The module's name.
@@ -120,6 +133,7 @@ impl Default for Request {
             batch: "dalembert_batch".to_owned(),
             module: None,
             layout: Layout::default(),
+            parameters: Vec::new(),
             scene: None,
             any_scalar: false,
             work: None,

@@ -24,6 +24,10 @@ pub fn replay<'r>(
     let Some(plan) = &request.plan else {
         return Ok(None);
     };
+    // A plan's programs have the robot's own parameters.
+    if setting.takes_any(function) {
+        return Ok(None);
+    }
     let scene = setting.scene();
     let find = |scene| {
         let mut scalars = request.scalars.iter();

@@ -156,6 +156,7 @@ fn program(words: &[&str]) -> Result<Entry, String> {
             joints,
             rows: (0..joints).collect(),
             arguments: function.arguments(),
+            load: 0,
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),

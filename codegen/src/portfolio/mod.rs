@@ -12,19 +12,20 @@ use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Displacement, Regrouping, Skeleton};
+use dalembert_model::equations::matrix::{Vector, scaled};
 use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, Formulation, SinCosPair};
+use dalembert_model::equations::{Arm, Formulation, Link, SinCosPair};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Motion, Regrouped, Written};
+use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
 use dalembert_model::scalar::Scalar;
 
-use crate::function::{Function, Quantity};
+use crate::function::{Argument, Function, Quantity};
 use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Folding, Graph};
 use crate::program::{AngleSum, Counts, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
-use crate::trace::{symbols, trace};
+use crate::trace::{parameter, symbols, trace};
 use crate::watch::{FunctionWatch, Part};
 pub use start::Start;
 use tune::Tuned;
@@ -33,8 +34,17 @@ pub use dalembert_model::equations::chain::Form;
 
 /// A quantity that the chain formulas do not give, by the recursion in link
 /// axes.
-fn written(setting: &Setting, quantity: Quantity, motion: &Motion<Symbol>) -> Vec<Symbol> {
+fn written(
+    setting: &Setting,
+    quantity: Quantity,
+    motion: &Motion<Symbol>,
+    gravity: Option<&Vector<Symbol>>,
+) -> Vec<Symbol> {
     let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    let arm = match gravity {
+        Some(gravity) => arm.with_gravity(gravity),
+        None => arm,
+    };
     quantity.written(&Written {
         formulation: Formulation::NewtonEulerLink,
         arm: &arm,
@@ -54,7 +64,19 @@ pub fn trace_chain(
     folding: Folding,
 ) -> (Graph, Counts) {
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let chain = chain.map(|constant| Symbol::from(constant.clone()));
+    let mut chain = chain.map(|constant| Symbol::from(constant.clone()));
+    let mut gravity = None;
+    if setting.takes(function, RuntimeParameter::Gravity) {
+        let taken: Vector<Symbol> = core::array::from_fn(|axis| {
+            Symbol::input(&builder, Input::Entry(Argument::Gravity, axis))
+        });
+        chain.gravity = scaled(&chain.per_unit, &in_frame_0(setting, &taken));
+        gravity = Some(taken);
+    }
+    if setting.takes(function, RuntimeParameter::Payload) {
+        let length = setting.sizes(function).load;
+        chain = chain.loaded(&parameter(Argument::Load, length, &builder));
+    }
     let whole = symbols(setting, &function.arguments(), &builder);
     let motion = &whole.of_joints(setting.chained());
     let (chain, at) = &chain.posed(&motion.q);
@@ -73,7 +95,7 @@ pub fn trace_chain(
             None => setting.select_of(
                 quantity,
                 setting.joints(),
-                written(setting, quantity, &whole),
+                written(setting, quantity, &whole, gravity.as_ref()),
             ),
         };
         let mut builder = builder.borrow_mut();
@@ -89,9 +111,27 @@ pub fn skeleton(setting: &Setting) -> Skeleton<Exact> {
     with_columns(setting, &[])
 }
 
-/// The same for a function: if it is a regressor, with its columns.
+/// A vector of base axes in those of frame 0.
+fn in_frame_0(setting: &Setting, vector: &Vector<Symbol>) -> Vector<Symbol> {
+    let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    arm.with_gravity(vector).gravity
+}
+
+/// The same for a function: if it is a regressor, with its columns; if it takes a
+/// load, with the numbers of that as columns, and bodies that have the other
+/// regrouped parameters.
 pub fn skeleton_for(setting: &Setting, function: Function) -> Skeleton<Exact> {
-    with_columns(setting, &setting.columns(function, Exact::clone))
+    let load = setting.takes(function, RuntimeParameter::Payload);
+    let Some(load) = load.then(|| setting.load().ok()).flatten() else {
+        return with_columns(setting, &setting.columns(function, Exact::clone));
+    };
+    let mut arm = Arm::from_robot(setting.robot(), &mut Exact::clone).fold_base();
+    for link in &mut arm.links {
+        let bare = Link::still();
+        (link.mass, link.com, link.inertia) = (bare.mass, bare.com, bare.inertia);
+    }
+    let skeleton = Skeleton::with_columns(&arm, &setting.merged(), &load.columns);
+    skeleton.with_values(load.rows.len(), &load.constants)
 }
 
 fn with_columns(setting: &Setting, columns: &[Column<Exact>]) -> Skeleton<Exact> {
@@ -212,7 +252,15 @@ pub fn tuned(
             price(&graph, limit, below)
         }
     };
-    let start = tune::start(&arm);
+    let mut start = tune::start(&arm);
+    if setting.takes(function, RuntimeParameter::Payload)
+        && let Ok(load) = setting.load()
+    {
+        // About other points the load's numbers would have to be combined.
+        for (link, own) in start.links.iter_mut().zip(&load.regrouping.links) {
+            link.origin.clone_from(&own.origin);
+        }
+    }
     let with = |axes: Vec<i32>| {
         let mut from = start.clone();
         for (link, axes) in from.links.iter_mut().zip(axes) {
@@ -318,15 +366,19 @@ pub fn regrouped(
 /// A function in the regroupings that differ from a tuned one in one link, in its
 /// form.
 pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
-    let regroupings = regroupings(setting, &tuned.regrouping);
+    let regroupings = regroupings(setting, function, &tuned.regrouping);
     let graph = |regrouping| in_gauge(setting, function, regrouping, tuned.form);
     regroupings.iter().map(graph).collect()
 }
 
 /// The regroupings that differ from one in one link; none of chains too long to
 /// look at each.
-pub fn regroupings(setting: &Setting, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
-    let arm = skeleton(setting);
+pub fn regroupings(
+    setting: &Setting,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+) -> Vec<Regrouping<Exact>> {
+    let arm = skeleton_for(setting, function);
     match arm.links.len() <= MAX_QUICK_LINKS {
         true => tune::neighbours(&arm, regrouping),
         false => Vec::new(),

@@ -3,6 +3,7 @@
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
 
 use crate::function::Function;
 use crate::portfolio::tune::Tuned;
@@ -84,7 +85,9 @@ impl Start {
                 // The textbook recursion gives D column by column and h_ikm
                 // by polarisation, with n² of work a link or more: no match.
                 let mut quantities = function.quantities().iter();
-                if quantities.all(|quantity| quantity.starts_from_recursion()) {
+                // It has no load, but a body in the hand.
+                let is_loaded = setting.takes(function, RuntimeParameter::Payload);
+                if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
                     let recursion = Formulation::NewtonEulerLink;
                     variants.push(portfolio::textbook(setting, function, recursion));
                 }

@@ -117,7 +117,7 @@ pub enum Input {
     Sin(AngleSum),
     /// The cosine of an angle.
     Cos(AngleSum),
-    /// A joint's entry of an argument; of q that of a prismatic joint.
+    /// An entry of an argument, of most a joint's; of q that of a prismatic joint.
     Entry(Argument, usize),
 }
 

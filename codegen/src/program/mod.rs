@@ -45,12 +45,15 @@ pub use scalar_type::ScalarType;
 pub struct Program {
     /// What it computes.
     pub function: Function,
-    /// n: the length of every argument.
+    /// n: the length of every argument that has an entry a joint.
     pub joints: usize,
     /// The joints that the results are over, zero-based, in their order.
     pub rows: Vec<usize>,
     /// The arguments there are, in order.
     pub arguments: Vec<Argument>,
+    /// How many entries the load has; none where it is neither argument nor
+    /// result.
+    pub load: usize,
     /// The angles whose sine or cosine it needs, ascending.
     pub trig: Vec<Trig>,
     /// The arithmetic, operands before users.
@@ -193,6 +196,7 @@ impl Program {
             rows,
             joints: self.joints,
             base,
+            load: self.load,
         }
     }
 

@@ -100,7 +100,7 @@ pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, Str
         };
     }
     input(word)
-        .filter(|input| input_fits(*input, program.joints))
+        .filter(|input| input_fits(*input, program))
         .map(Operand::Input)
         .ok_or_else(|| format!("`{word}` is neither an input, a step nor a constant"))
 }
@@ -111,8 +111,8 @@ fn input(word: &str) -> Option<Input> {
             .strip_prefix(argument.name())
             .and_then(|rest| rest.strip_prefix('['));
         if let Some(index) = index {
-            let joint = index.strip_suffix(']')?.parse().ok()?;
-            return Some(Input::Entry(argument, joint));
+            let entry = index.strip_suffix(']')?.parse().ok()?;
+            return Some(Input::Entry(argument, entry));
         }
     }
     let angle = |digits: &str| digits.parse::<AngleSum>().ok();
@@ -123,9 +123,12 @@ fn input(word: &str) -> Option<Input> {
     }
 }
 
-fn input_fits(input: Input, joints: usize) -> bool {
+fn input_fits(input: Input, program: &Program) -> bool {
+    let sizes = program.sizes();
     match input {
-        Input::Sin(angle) | Input::Cos(angle) => angle.terms().all(|(joint, _)| joint < joints),
-        Input::Entry(_, joint) => joint < joints,
+        Input::Sin(angle) | Input::Cos(angle) => {
+            angle.terms().all(|(joint, _)| joint < program.joints)
+        }
+        Input::Entry(argument, index) => index < argument.length(sizes),
     }
 }

@@ -10,6 +10,10 @@
 //! - joints that nobody asks for are results that are left out
 //!   ([`Setting::select`]), and what only they needed is dead.
 //!
+//! Gravity and a payload may also be arguments ([`Setting::taking`]): then
+//! [`Setting::posed`] has the arm with them, and [`load`] the parameters that a
+//! payload changes.
+//!
 //! Arguments keep an entry for every joint, so that callers need not repack
 //! their state; entries of locked joints are not read. Results are over the
 //! [`rows`](Setting::rows), in the order of the scene: τ, h and c have an
@@ -18,7 +22,10 @@
 
 pub mod base;
 mod key;
+pub mod load;
 mod motion;
+mod posed;
+mod states;
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -26,14 +33,16 @@ use std::sync::OnceLock;
 use dalembert_model::equations::JointPosition;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Axis, Columns, Motion, Sizes};
+use dalembert_model::outputs::{Axis, Columns, Motion, RuntimeParameter, Sizes};
 use dalembert_model::robot::{Position, Robot, Severity};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
 use base::{BaseParameters, NoBase};
 pub use key::{SceneKey, input_hash};
+use load::LoadParameters;
 pub use motion::motion;
+pub use posed::Posed;
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;
@@ -49,8 +58,12 @@ pub struct Setting {
     chained: Vec<usize>,
     /// An entry a joint.
     locks: Vec<Option<JointPosition<Exact>>>,
+    /// What functions take as arguments that are constants otherwise.
+    parameters: Vec<RuntimeParameter>,
     /// Found where a function is over them.
     base: OnceLock<Result<BaseParameters, NoBase>>,
+    /// Found where a payload is an argument.
+    load: OnceLock<Result<LoadParameters, NoBase>>,
 }
 
 /// Why there is no such setting.
@@ -87,7 +100,9 @@ impl Setting {
             chained: joints.clone(),
             joints,
             locks: vec![None; n],
+            parameters: Vec::new(),
             base: OnceLock::new(),
+            load: OnceLock::new(),
         }
     }
 
@@ -114,7 +129,9 @@ impl Setting {
                 .collect(),
             rows,
             locks,
+            parameters: Vec::new(),
             base: OnceLock::new(),
+            load: OnceLock::new(),
         })
     }
 
@@ -127,6 +144,44 @@ impl Setting {
             || Ok(Setting::whole(robot)),
             |scene| Setting::new(robot, scene),
         )
+    }
+
+    /// The same setting where functions take these parameters as arguments.
+    #[must_use]
+    pub fn taking(self, parameters: &[RuntimeParameter]) -> Setting {
+        Setting {
+            parameters: parameters.to_vec(),
+            base: OnceLock::new(),
+            load: OnceLock::new(),
+            ..self
+        }
+    }
+
+    /// The same joints at any velocities and accelerations, with the torques of
+    /// all that move: what any function may depend on.
+    fn in_full_motion(&self) -> Setting {
+        let mut full = self.clone().taking(&self.parameters);
+        full.rows = full.chained.clone();
+        if let Some(scene) = &mut full.scene {
+            (scene.velocity_zero, scene.acceleration_zero) = (false, false);
+        }
+        full
+    }
+
+    /// Whether a parameter is an argument.
+    pub fn has(&self, parameter: RuntimeParameter) -> bool {
+        self.parameters.contains(&parameter)
+    }
+
+    /// Whether a function takes a parameter as an argument.
+    pub fn takes(&self, function: Function, parameter: RuntimeParameter) -> bool {
+        self.has(parameter) && function.feels(parameter)
+    }
+
+    /// Whether a function takes any.
+    pub fn takes_any(&self, function: Function) -> bool {
+        let mut all = RuntimeParameter::ALL.into_iter();
+        function == Function::Load || all.any(|parameter| self.takes(function, parameter))
     }
 
     /// The robot with the scene's payload and gravity, the box as its limits.
@@ -183,7 +238,12 @@ impl Setting {
     /// The arguments that a function keeps: rates that are zero need none.
     pub fn arguments(&self, function: Function) -> Vec<Argument> {
         let all = function.arguments().into_iter();
-        all.filter(|&argument| !self.has_zero(argument)).collect()
+        let mut own: Vec<Argument> = all.filter(|&argument| !self.has_zero(argument)).collect();
+        let taken = RuntimeParameter::ALL.into_iter();
+        let taken = taken.filter(|&parameter| self.takes(function, parameter));
+        own.extend(taken.map(RuntimeParameter::argument));
+        own.sort();
+        own
     }
 
     /// Whether the scene says that an argument is zero.
@@ -236,6 +296,15 @@ impl Setting {
         found.as_ref().map_err(|why| *why)
     }
 
+    /// The regrouped parameters that a payload changes.
+    ///
+    /// # Errors
+    /// Why they cannot be written down.
+    pub fn load(&self) -> Result<&LoadParameters, NoBase> {
+        let found = self.load.get_or_init(|| LoadParameters::of(self));
+        found.as_ref().map_err(|why| *why)
+    }
+
     /// What the columns of a function's regressor are; none of other functions,
     /// and where there are no base parameters.
     pub fn columns<S: Scalar>(
@@ -255,15 +324,20 @@ impl Setting {
 
     /// What the lengths of a function's results follow from.
     pub fn sizes(&self, function: Function) -> Sizes {
-        self.sizes_of(function.columns() == Columns::Base)
+        let is_loaded =
+            function == Function::Load || self.takes(function, RuntimeParameter::Payload);
+        self.sizes_of(function.columns() == Columns::Base, is_loaded)
     }
 
-    fn sizes_of(&self, is_over_base: bool) -> Sizes {
+    fn sizes_of(&self, is_over_base: bool, is_loaded: bool) -> Sizes {
         let base = is_over_base.then(|| self.base().ok()).flatten();
+        let is_loaded = is_loaded && self.has(RuntimeParameter::Payload);
+        let load = is_loaded.then(|| self.load().ok()).flatten();
         Sizes {
             rows: self.rows.len(),
             joints: self.joints.len(),
             base: base.map_or(0, |base| base.columns.len()),
+            load: load.map_or(0, |load| load.rows.len()),
         }
     }
 
@@ -301,7 +375,7 @@ impl Setting {
         let place = |row: &usize| joints.iter().position(|joint| joint == row);
         let places: Vec<usize> = self.rows.iter().filter_map(place).collect();
         let shape = quantity.shape();
-        let sizes = self.sizes_of(shape.is_over_base());
+        let sizes = self.sizes_of(shape.is_over_base(), shape.0.contains(&Axis::Load));
         let entry = |index: usize| {
             let axes = shape.0.iter().zip(shape.places(index, sizes));
             // The place of the entry among those over all joints.

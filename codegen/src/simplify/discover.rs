@@ -314,7 +314,7 @@ fn sample(input: Input) -> Rational {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
         Input::Entry(argument, joint) => {
-            const DENOMINATORS: [i64; Argument::COUNT] = [7, 11, 13, 17, 19, 23];
+            const DENOMINATORS: [i64; Argument::COUNT] = [7, 11, 13, 17, 19, 23, 29, 31, 37];
             let place = argument.index();
             ratio((joint + place) as i64 + 2, DENOMINATORS[place])
         }

@@ -97,5 +97,5 @@ impl<'a> AccuracyFilter<'a> {
 
 fn estimate(setting: &Setting, function: Function, graph: &Graph) -> Rounding {
     let program = Program::in_setting(setting, function, graph);
-    Rounding::estimate(setting.robot(), &program)
+    Rounding::estimate(setting, &program)
 }

@@ -12,6 +12,7 @@ use hmac_sha256::Hash;
 
 use dalembert_model::equations::SinCosPair;
 use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::write as write_robot;
 use dalembert_model::scalar::prime::Prime;
 use dalembert_model::scalar::residue::Residue;
@@ -61,6 +62,13 @@ impl Transcript {
         self.text(&write_robot(setting.robot()));
         self.text(&setting.scene().map(write_scene).unwrap_or_default());
         self.numbers(setting.rows());
+        // Of settings without any nothing is added: their points stay.
+        for parameter in RuntimeParameter::ALL {
+            if setting.has(parameter) {
+                self.text("argument");
+                self.text(parameter.name());
+            }
+        }
     }
 
     /// A program with its exact constants.

@@ -23,10 +23,8 @@
 use std::cell::{Cell, RefCell};
 use std::fmt;
 
-use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::Motion;
 use dalembert_model::scalar::residue::Residue;
 use dalembert_model::scalar::{Divide, Scalar};
 
@@ -35,9 +33,9 @@ use super::degree::Degree;
 use super::miss;
 use super::ratio::Ratio;
 use super::size::Denominators;
-use crate::function::Function;
-use crate::program::Program;
-use crate::scene::Setting;
+use crate::function::{Argument, Function};
+use crate::program::{Input, Program};
+use crate::scene::{Posed, Setting};
 
 /// The most joints for which Lagrange–Euler itself is the yardstick: its cost
 /// grows with n⁴ to n⁵.
@@ -171,7 +169,8 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
         let formula = Formula::new(setting, program.function, yardstick, input, constant);
         formula.map_or(Ok(None), |formula| formula.checked(point))
     };
-    compare(transcript, program, expected)?;
+    let inputs = Inputs { setting, program };
+    compare(transcript, program, |point| inputs.run(point), expected)?;
     let denominators = RefCell::default();
     let constant = |constant: &Exact| {
         let degree = Ratio::constant(constant, &mut denominators.borrow_mut());
@@ -179,8 +178,9 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
     };
     let formula = Formula::new(setting, program.function, yardstick, Ratio::input, constant);
     let formula = formula.map_or_else(Vec::new, |formula| formula.results());
-    let mut denominators = denominators.borrow().clone();
-    let (degree, height) = bounded(program, &formula, &mut denominators)?;
+    let own = inputs.degrees(&denominators);
+    let denominators = denominators.borrow().clone();
+    let (degree, height) = bounded(&own, &formula, &denominators)?;
     Ok(Proof {
         yardstick,
         primes: PRIMES,
@@ -198,10 +198,15 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     let mut transcript = Transcript::new("two programs");
     transcript.program(a);
     transcript.program(b);
-    compare(transcript, b, |point| Ok(run(a, point)))?;
+    compare(
+        transcript,
+        b,
+        |point| run(b, point),
+        |point| Ok(run(a, point)),
+    )?;
     let mut denominators = Denominators::default();
-    let degrees = a.degrees(&mut denominators);
-    bounded(b, &degrees, &mut denominators).map(drop)
+    let [a, b] = [a, b].map(|program| program.degrees(&mut denominators));
+    bounded(&b, &a, &denominators).map(drop)
 }
 
 /// A formula over the whole arm at a motion: a locked joint is one whose pair
@@ -210,9 +215,7 @@ pub(super) struct Formula<'a, S> {
     setting: &'a Setting,
     function: Function,
     yardstick: Formulation,
-    arm: Arm<S>,
-    motion: Motion<S>,
-    columns: Vec<Column<S>>,
+    posed: Posed<S>,
 }
 
 impl<'a, S: Divide> Formula<'a, S> {
@@ -221,7 +224,7 @@ impl<'a, S: Divide> Formula<'a, S> {
         setting: &'a Setting,
         function: Function,
         yardstick: Formulation,
-        input: impl FnMut(crate::program::Input) -> S,
+        input: impl FnMut(Input) -> S,
         constant: impl Fn(&Exact) -> Option<S>,
     ) -> Option<Self> {
         let failed = Cell::new(false);
@@ -232,26 +235,21 @@ impl<'a, S: Divide> Formula<'a, S> {
             })
         };
         let arm = Arm::from_robot(setting.robot(), &mut { constant });
-        let motion = setting.motion(input, constant);
-        let columns = setting.columns(function, constant);
+        let posed = setting.posed(function, arm, input, constant);
         (!failed.get()).then_some(Formula {
             setting,
             function,
             yardstick,
-            arm,
-            motion,
-            columns,
+            posed,
         })
     }
 
     fn evaluate(&self) -> Vec<S> {
-        let function = self.function;
-        function.evaluate(self.yardstick, &self.arm, &self.motion, &self.columns)
+        self.posed.all(self.function, self.yardstick)
     }
 
     fn select(&self, outputs: Vec<S>) -> Vec<S> {
-        let joints = self.setting.joints();
-        self.setting.select(self.function, joints, outputs)
+        self.posed.select(self.setting, self.function, outputs)
     }
 
     /// The results over the setting's rows.
@@ -266,9 +264,12 @@ impl Formula<'_, Residue> {
     /// with D and the loads as written. None where they have no values.
     fn checked(&self, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
         let outputs = self.evaluate();
-        let residual = self
-            .function
-            .residual(self.yardstick, &self.arm, &self.motion, &outputs);
+        let residual = self.function.residual(
+            self.yardstick,
+            &self.posed.arm,
+            &self.posed.motion,
+            &outputs,
+        );
         for value in residual {
             match value.value(point.prime()) {
                 None => return Ok(None),
@@ -284,13 +285,14 @@ impl Formula<'_, Residue> {
 fn compare(
     transcript: Transcript,
     program: &Program,
+    run: impl Fn(&Point) -> Option<Vec<Residue>>,
     expected: impl Fn(&Point) -> Result<Option<Vec<Residue>>, Disproof>,
 ) -> Result<(), Disproof> {
     let challenge = transcript.seal();
     let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
     let mut good = 0;
     for point in points {
-        let values = run(program, &point).zip(expected(&point)?);
+        let values = run(&point).zip(expected(&point)?);
         let Some((actual, expected)) = values else {
             continue;
         };
@@ -317,14 +319,12 @@ fn compare(
     Err(Disproof::Unfit)
 }
 
-/// Degree and height of the differences between a program's outputs and
-/// others, if a miss is unlikely.
+/// Degree and height of the differences between outputs, if a miss is unlikely.
 fn bounded(
-    program: &Program,
+    own: &[Ratio],
     others: &[Ratio],
-    denominators: &mut Denominators,
+    denominators: &Denominators,
 ) -> Result<(u64, u64), Disproof> {
-    let own = program.degrees(denominators);
     let differences: Vec<Ratio> = own.iter().zip(others).map(|(a, b)| a.add(b)).collect();
     let most = |of: &dyn Fn(&Degree) -> u64| {
         let bounds = differences.iter().map(|d| d.top().map_or(u64::MAX, of));
@@ -335,6 +335,57 @@ fn bounded(
     match miss::is_small(degree, height, PRIMES) {
         true => Ok((degree, height)),
         false => Err(Disproof::Large { degree, height }),
+    }
+}
+
+/// A program whose load, if it takes one, is that of a payload of any ten
+/// numbers: these are the variables of the proof.
+struct Inputs<'a> {
+    setting: &'a Setting,
+    program: &'a Program,
+}
+
+impl Inputs<'_> {
+    /// The values of the load; none where a constant has no value.
+    fn load<S: Scalar>(
+        &self,
+        input: impl FnMut(Input) -> S,
+        mut constant: impl FnMut(&Exact) -> Option<S>,
+    ) -> Option<Vec<S>> {
+        if !self.program.arguments.contains(&Argument::Load) {
+            return Some(Vec::new());
+        }
+        let mut is_whole = true;
+        let load = self.setting.load_of(input, |value| {
+            constant(value).unwrap_or_else(|| {
+                is_whole = false;
+                S::zero()
+            })
+        });
+        is_whole.then_some(load)
+    }
+
+    /// The program at a point, as [`run`].
+    fn run(&self, point: &Point) -> Option<Vec<Residue>> {
+        let constant = |constant: &Exact| point.constant(constant);
+        let load = self.load(|input| point.input(input), constant)?;
+        let input = |input: &Input| match *input {
+            Input::Entry(Argument::Load, index) => load.get(index).cloned(),
+            input => Some(point.input(input)),
+        };
+        self.program.evaluate(input, constant)
+    }
+
+    /// The degrees of every output in the variables.
+    fn degrees(&self, denominators: &RefCell<Denominators>) -> Vec<Ratio> {
+        let constant =
+            |constant: &Exact| Some(Ratio::constant(constant, &mut denominators.borrow_mut()));
+        let load = self.load(Ratio::input, constant).unwrap_or_default();
+        let input = |input: &Input| match *input {
+            Input::Entry(Argument::Load, index) => load.get(index).cloned(),
+            input => Some(Ratio::input(input)),
+        };
+        self.program.evaluate(input, constant).unwrap_or_default()
     }
 }
 

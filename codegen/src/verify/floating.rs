@@ -10,7 +10,6 @@ use dalembert_model::equations::factor::among;
 use dalembert_model::equations::forward::free;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::outputs::Motion;
 use dalembert_model::robot::Robot;
 
 use super::condition::Condition;
@@ -19,7 +18,7 @@ use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
 use crate::program::{AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, ScalarType};
-use crate::scene::Setting;
+use crate::scene::{Posed, Setting};
 use crate::states::JointState;
 
 /// The bound on the normwise error against the runtime, in units of u.
@@ -99,13 +98,13 @@ impl Runtime {
         if !function.inverts_inertia() {
             return 1.0;
         }
-        let motion = self.motion(state);
-        let d = Formulation::NewtonEulerLink.inertia(&self.arm, &self.arm.at(&motion.q));
+        let Posed { arm, motion, .. } = self.posed(function, &self.arm, state);
+        let d = Formulation::NewtonEulerLink.inertia(&arm, &arm.at(&motion.q));
         let d = among(&d, &free(&motion.moves)).concat();
         Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0)
     }
 
-    fn motion(&self, state: &JointState) -> Motion<f64> {
+    fn posed(&self, function: Function, arm: &Arm<f64>, state: &JointState) -> Posed<f64> {
         let input = |input| {
             // A motion reads the angles of single joints only.
             let angle = |sum: crate::program::AngleSum| {
@@ -117,21 +116,19 @@ impl Runtime {
                 Input::Entry(argument, joint) => state.entry(argument, joint),
             }
         };
-        self.setting.motion(input, f64::nearest)
+        self.setting
+            .posed(function, arm.clone(), input, f64::nearest)
     }
 
     /// The results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
-        let motion = self.motion(state);
         let mut quantities = function.quantities().iter();
         let arm = match quantities.any(|quantity| quantity.feels_base()) {
             true => &self.whole,
             false => &self.arm,
         };
-        let columns = self.setting.columns(function, f64::nearest);
-        let results = function.evaluate(Formulation::NewtonEulerLink, arm, &motion, &columns);
-        let joints = self.setting.joints();
-        self.setting.select(function, joints, results)
+        let posed = self.posed(function, arm, state);
+        posed.results(&self.setting, function, Formulation::NewtonEulerLink)
     }
 }
 

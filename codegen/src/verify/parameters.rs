@@ -123,16 +123,17 @@ impl Statement<'_> {
         };
         let setting = self.setting;
         let arm = Arm::from_robot(setting.robot(), &mut { constant });
-        let motion = setting.motion(input, constant);
+        let posed = setting.posed(Function::Regressor, arm, input, constant);
+        let (arm, motion) = (&posed.arm, &posed.motion);
         let at = arm.at(&motion.q);
         let by = |columns: &[Column<S>]| {
             self.formulation
-                .regressor(&arm, &at, &motion.qd, &motion.qdd, columns)
+                .regressor(arm, &at, &motion.qd, &motion.qdd, columns)
         };
         let mut all = of_links(setting.joints().len());
         all.extend(of_drives(setting.robot()));
         let whole = by(&all);
-        let own = by(&setting.columns(Function::Regressor, constant));
+        let own = by(&posed.columns);
         // Each base parameter's terms: the place of a parameter, and its factor.
         let places: BTreeMap<Parameter, usize> = (self.parameters().into_iter())
             .enumerate()

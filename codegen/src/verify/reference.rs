@@ -78,13 +78,9 @@ impl<'s> Reference<'s> {
                 Known::sized(finite(x), x.abs())
             }
         };
-        let motion = self.setting.motion(input, Known::of);
-        let columns = self.setting.columns(function, Known::of);
-        let recursion = Formulation::NewtonEulerLink;
-        let results = function.evaluate(recursion, &self.arm, &motion, &columns);
-        let results = self
-            .setting
-            .select(function, self.setting.joints(), results);
+        let arm = self.arm.clone();
+        let posed = self.setting.posed(function, arm, input, Known::of);
+        let results = posed.results(self.setting, function, Formulation::NewtonEulerLink);
         let known = |Known { value, size }: Known| TrueValue {
             value,
             lost: size * LOST,

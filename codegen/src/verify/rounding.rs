@@ -10,12 +10,12 @@
 use std::collections::BTreeMap;
 
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::robot::Robot;
 use num_traits::Signed;
 
 use crate::program::adjoint::{Leaf, backward};
 use crate::program::{Input, Operand, Operation, Program};
-use crate::states::{self, JointState};
+use crate::scene::Setting;
+use crate::states::JointState;
 
 /// How many states are looked at.
 const STATES: usize = 64;
@@ -33,13 +33,11 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Of a program inside the robot's limits.
-    pub fn estimate(robot: &Robot, program: &Program) -> Rounding {
+    /// Of a program inside the limits of the setting's robot.
+    pub fn estimate(setting: &Setting, program: &Program) -> Rounding {
         let network = Network::new(program);
-        let runs: Vec<Vec<(f64, f64)>> = states::seeded(robot, STATES, SEED)
-            .iter()
-            .map(|state| network.errors(state))
-            .collect();
+        let states = setting.states(STATES, SEED);
+        let runs: Vec<Vec<(f64, f64)>> = states.iter().map(|state| network.errors(state)).collect();
         let mut rounding = Rounding {
             normwise: Vec::new(),
             per_output: Vec::new(),

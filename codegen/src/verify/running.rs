@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::{Divide, Scalar};
 
+use crate::function::Argument;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
 use crate::program::{AngleSum, Input, Library, Program, ScalarType};
@@ -137,8 +138,16 @@ fn errors_in<T: Machine>(
     }
     let input = |input: &Input| match *input {
         Input::Entry(argument, joint) => {
-            let entry = state.entry(argument, joint);
-            Some(Bounded::exact(T::literal(entry)))
+            let value = T::literal(state.entry(argument, joint));
+            Some(match argument {
+                // Rounded from exact numbers, and once more to the scalar.
+                Argument::Load => Bounded {
+                    value,
+                    error: 2.0 * T::SCALAR.unit_roundoff() * value.to_f64().abs()
+                        + least(T::SCALAR),
+                },
+                _ => Bounded::exact(value),
+            })
         }
         Input::Sin(_) | Input::Cos(_) => trig.get(input).copied(),
     };

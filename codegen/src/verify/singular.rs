@@ -14,11 +14,12 @@ use dalembert_model::scalar::residue::Residue;
 
 use super::challenge::{Point, Transcript};
 use super::exact::{MAX_DRAWS, PRIMES, WRITTEN_LIMIT};
+use crate::function::Function;
 use crate::scene::Setting;
 
 /// The joint nearest to the hand that moves no inertia in any state; none if
 /// D has an inverse almost everywhere.
-pub fn without_inertia(setting: &Setting) -> Option<usize> {
+pub fn without_inertia(setting: &Setting, function: Function) -> Option<usize> {
     let mut transcript = Transcript::new("inertia");
     transcript.setting(setting);
     let challenge = transcript.seal();
@@ -27,7 +28,7 @@ pub fn without_inertia(setting: &Setting) -> Option<usize> {
     let mut seen = 0;
     while seen < PRIMES {
         // An unfit prime tells nothing; without fit ones the proof will say so.
-        match zero_pivot(setting, &drawn.next()?) {
+        match zero_pivot(setting, function, &drawn.next()?) {
             None => continue,
             Some(None) => return None,
             Some(joint) => found = joint,
@@ -38,7 +39,7 @@ pub fn without_inertia(setting: &Setting) -> Option<usize> {
 }
 
 /// The first zero pivot's joint, if there is one; nothing at an unfit point.
-fn zero_pivot(setting: &Setting, point: &Point) -> Option<Option<usize>> {
+fn zero_pivot(setting: &Setting, function: Function, point: &Point) -> Option<Option<usize>> {
     let lost = std::cell::Cell::new(false);
     let constant = |value: &Exact| {
         point.constant(value).unwrap_or_else(|| {
@@ -47,13 +48,14 @@ fn zero_pivot(setting: &Setting, point: &Point) -> Option<Option<usize>> {
         })
     };
     let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let motion = setting.motion(|input| point.input(input), constant);
+    let posed = setting.posed(function, arm, |input| point.input(input), constant);
+    let (arm, motion) = (&posed.arm, &posed.motion);
     let formulation = match arm.links.len() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
         false => Formulation::NewtonEulerLink,
     };
     let free = free(&motion.moves);
-    let d = formulation.inertia(&arm, &arm.at(&motion.q));
+    let d = formulation.inertia(arm, &arm.at(&motion.q));
     if lost.get() {
         return None;
     }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{Columns, Vector, plus};
+use super::matrix::{Columns, Vector, plus, zero_vector};
 use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::{Scalar, SinCosPair};
 
@@ -86,6 +86,49 @@ impl<S: Scalar> Arm<S> {
                 },
             })
             .collect()
+    }
+}
+
+impl<S: Scalar> Arm<S> {
+    /// The same arm where gravity is this, in base axes.
+    #[must_use]
+    pub fn with_gravity(mut self, gravity: &Vector<S>) -> Arm<S> {
+        self.gravity = match &self.base {
+            None => gravity.clone(),
+            Some(base) => base.rotate_back(gravity),
+        };
+        self
+    }
+
+    /// The same arm with a link behind the last one.
+    #[must_use]
+    pub fn with_link(mut self, link: Link<S>) -> Arm<S> {
+        self.links.push(link);
+        self
+    }
+}
+
+impl<S: Scalar> Link<S> {
+    /// A link without mass on a slide whose frame, at position zero, is the one
+    /// before.
+    pub fn still() -> Link<S> {
+        let straight = || SinCosPair {
+            sin: S::zero(),
+            cos: S::one(),
+        };
+        Link {
+            kind: JointKind::Prismatic,
+            alpha: straight(),
+            beta: None,
+            theta: straight(),
+            a: S::zero(),
+            d: S::zero(),
+            mass: S::zero(),
+            com: zero_vector(),
+            inertia: Inertia::symmetric(|_, _| S::zero()),
+            viscous: S::zero(),
+            armature: S::zero(),
+        }
     }
 }
 

@@ -16,6 +16,7 @@
 //! | [`Formulation`] | every output from every formulation, by name |
 //! | [`Arm::from_robot`], [`pose_of`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
 //! | [`regressor`] | Y in τ = Y π of every formulation, the parameters that its columns are of |
+//! | [`load`] | what a payload adds to regrouped parameters |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i in every form: armature is part of
@@ -41,6 +42,7 @@ mod from_robot;
 pub mod from_torques;
 pub mod kinematics;
 pub mod lagrange_euler;
+pub mod load;
 pub mod matrix;
 pub mod newton_euler;
 pub mod regressor;

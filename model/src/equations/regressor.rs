@@ -84,9 +84,13 @@ impl LinkParameter {
 
     /// Its value for a link.
     pub fn of<S: Scalar>(self, link: &Link<S>) -> S {
-        let body = Body::of(link);
+        self.of_body(&Body::of(link))
+    }
+
+    /// Its value for a body.
+    pub fn of_body<S: Scalar>(self, body: &Body<S>) -> S {
         match self {
-            LinkParameter::Mass => body.mass,
+            LinkParameter::Mass => body.mass.clone(),
             LinkParameter::First(axis) => body.first[axis].clone(),
             LinkParameter::Tensor(row, column) => {
                 let tensor = body.tensor();

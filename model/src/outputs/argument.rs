@@ -1,8 +1,11 @@
-//! The joint vectors that functions read, as a table.
+//! What functions read, as a table: joint vectors, and parameters that are
+//! arguments where somebody asks for that.
 
+use super::Sizes;
+use crate::equations::load::PAYLOAD;
 use crate::robot::Field;
 
-/// An argument of a generated function: an array with an entry a joint.
+/// An argument of a generated function: an array, of most with an entry a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Argument {
     /// q
@@ -17,6 +20,23 @@ pub enum Argument {
     ReferenceVelocity,
     /// An acceleration a that a controller wishes for.
     ReferenceAcceleration,
+    /// The acceleration of gravity, where it is an argument.
+    Gravity,
+    /// The regrouped parameters that a payload changes.
+    Load,
+    /// A payload's mass, centre of mass and inertia.
+    Payload,
+}
+
+/// How many entries an argument has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Length {
+    /// One a joint.
+    Joints,
+    /// So many, whatever the arm.
+    Fixed(usize),
+    /// As many as the arm has regrouped parameters that a payload changes.
+    Load,
 }
 
 /// What there is to say of an argument.
@@ -26,7 +46,8 @@ struct Facts {
     noun: &'static str,
     given: Option<&'static str>,
     meaning: &'static str,
-    limit: Field,
+    length: Length,
+    limit: Option<Field>,
     reach: f64,
 }
 
@@ -38,7 +59,8 @@ const TABLE: [Facts; Argument::COUNT] = [
         noun: "position",
         given: Some("q"),
         meaning: "Positions, rad or m.",
-        limit: Field::Position,
+        length: Length::Joints,
+        limit: Some(Field::Position),
         reach: 1.0,
     },
     Facts {
@@ -47,7 +69,8 @@ const TABLE: [Facts; Argument::COUNT] = [
         noun: "velocity",
         given: Some("qd"),
         meaning: "Velocities, rad/s or m/s.",
-        limit: Field::Velocity,
+        length: Length::Joints,
+        limit: Some(Field::Velocity),
         reach: 3.0,
     },
     Facts {
@@ -56,7 +79,8 @@ const TABLE: [Facts; Argument::COUNT] = [
         noun: "acceleration",
         given: Some("qdd"),
         meaning: "Accelerations, rad/s² or m/s².",
-        limit: Field::Acceleration,
+        length: Length::Joints,
+        limit: Some(Field::Acceleration),
         reach: 10.0,
     },
     Facts {
@@ -65,7 +89,8 @@ const TABLE: [Facts; Argument::COUNT] = [
         noun: "torque",
         given: Some("torque"),
         meaning: "Torques, N·m or N.",
-        limit: Field::Torque,
+        length: Length::Joints,
+        limit: Some(Field::Torque),
         reach: 100.0,
     },
     Facts {
@@ -74,7 +99,8 @@ const TABLE: [Facts; Argument::COUNT] = [
         noun: "reference velocity",
         given: None,
         meaning: "Velocities wished for, rad/s or m/s.",
-        limit: Field::Velocity,
+        length: Length::Joints,
+        limit: Some(Field::Velocity),
         reach: 3.0,
     },
     Facts {
@@ -83,17 +109,61 @@ const TABLE: [Facts; Argument::COUNT] = [
         noun: "reference acceleration",
         given: None,
         meaning: "Accelerations wished for, rad/s² or m/s².",
-        limit: Field::Acceleration,
+        length: Length::Joints,
+        limit: Some(Field::Acceleration),
         reach: 10.0,
+    },
+    Facts {
+        name: "g",
+        symbol: "g",
+        noun: "gravity",
+        given: None,
+        meaning: "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base.",
+        length: Length::Fixed(3),
+        limit: None,
+        reach: 9.81,
+    },
+    Facts {
+        name: "load",
+        symbol: "load",
+        noun: "load",
+        given: None,
+        meaning: "What `load` returns of what the hand carries.",
+        length: Length::Load,
+        limit: None,
+        reach: 1.0,
+    },
+    Facts {
+        name: "payload",
+        symbol: "payload",
+        noun: "payload",
+        given: None,
+        meaning: "Mass, centre of mass and inertia of what the hand carries.",
+        length: Length::Fixed(PAYLOAD),
+        limit: None,
+        reach: 1.0,
     },
 ];
 
 impl Argument {
     /// How many there are.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 9;
 
     /// Every argument, in the order of signatures.
     pub const ALL: [Argument; Argument::COUNT] = [
+        Argument::Position,
+        Argument::Velocity,
+        Argument::Acceleration,
+        Argument::Torque,
+        Argument::ReferenceVelocity,
+        Argument::ReferenceAcceleration,
+        Argument::Gravity,
+        Argument::Load,
+        Argument::Payload,
+    ];
+
+    /// Those with an entry a joint, which a motion is made of.
+    pub const JOINTS: [Argument; 6] = [
         Argument::Position,
         Argument::Velocity,
         Argument::Acceleration,
@@ -148,8 +218,23 @@ impl Argument {
         self.facts().meaning
     }
 
-    /// The limit of a joint that says how far its entries reach.
-    pub fn limit(self) -> Field {
+    /// How many entries it has.
+    pub fn length(self, sizes: Sizes) -> usize {
+        match self.facts().length {
+            Length::Joints => sizes.joints,
+            Length::Fixed(length) => length,
+            Length::Load => sizes.load,
+        }
+    }
+
+    /// Whether it has an entry a joint.
+    pub fn is_of_joints(self) -> bool {
+        self.facts().length == Length::Joints
+    }
+
+    /// The limit of a joint that says how far its entries reach; none where
+    /// they are no joint's.
+    pub fn limit(self) -> Option<Field> {
         self.facts().limit
     }
 
@@ -170,6 +255,8 @@ mod tests {
             assert_eq!(argument.index(), index);
             assert_eq!(Argument::from_name(argument.name()), Some(argument));
         }
+        let of_joints = Argument::ALL.into_iter().filter(|a| a.is_of_joints());
+        assert!(of_joints.eq(Argument::JOINTS));
         assert_eq!(Argument::from_name("t"), None);
     }
 }

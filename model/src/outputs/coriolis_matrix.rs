@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -39,6 +39,7 @@ impl Formula for CoriolisMatrix {
             travel: false,
         }),
         by_differences: true,
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 

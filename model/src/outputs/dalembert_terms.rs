@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Facts, kilograms, load, turns};
-use super::{Argument, ErrorScale, Quantity, Shape, Written};
+use super::{Argument, Burden, ErrorScale, Quantity, Shape, Written};
 use crate::equations::dalembert::Part;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -37,6 +37,7 @@ impl Formula for RotationInertia {
         shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
+        burden: Burden::More,
         ..Facts::PLAIN
     };
 
@@ -68,6 +69,7 @@ impl Formula for TranslationInertia {
         shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
+        burden: Burden::More,
         ..Facts::PLAIN
     };
 
@@ -101,6 +103,7 @@ impl Formula for RotationCoriolis {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
+        burden: Burden::More,
         ..Facts::PLAIN
     };
 
@@ -132,6 +135,7 @@ impl Formula for TranslationCoriolis {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
+        burden: Burden::More,
         ..Facts::PLAIN
     };
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -37,6 +37,7 @@ impl Formula for Christoffel {
             travel: false,
         }),
         by_differences: true,
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 

@@ -6,10 +6,11 @@ use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
+use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
-use crate::scalar::Divide;
+use crate::scalar::{Divide, Scalar};
 
 /// A quantity: what it is, and its formulas, each over any scalar.
 pub(super) trait Formula {
@@ -59,6 +60,8 @@ pub struct Motion<S> {
     pub a: Vec<S>,
     /// Whether each joint moves; one that does not is held where it is.
     pub moves: Vec<bool>,
+    /// What the hand carries, where that is an argument.
+    pub loading: Option<Loading<S>>,
 }
 
 impl<S> Motion<S> {
@@ -72,13 +75,15 @@ impl<S> Motion<S> {
             tau: entries(Argument::Torque),
             v: entries(Argument::ReferenceVelocity),
             a: entries(Argument::ReferenceAcceleration),
+            loading: None,
         }
     }
 
-    /// The entries of an argument; of the positions none.
+    /// The entries of an argument; of the positions none, and of what is no
+    /// joint vector.
     pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
         match argument {
-            Argument::Position => None,
+            Argument::Position | Argument::Gravity | Argument::Load | Argument::Payload => None,
             Argument::Velocity => Some(&mut self.qd),
             Argument::Acceleration => Some(&mut self.qdd),
             Argument::Torque => Some(&mut self.tau),
@@ -101,7 +106,23 @@ impl<S: Clone> Motion<S> {
             v: pick(&self.v),
             a: pick(&self.a),
             moves: joints.iter().map(|&joint| self.moves[joint]).collect(),
+            loading: self.loading.clone(),
         }
+    }
+}
+
+impl<S: Scalar> Motion<S> {
+    /// The motion of an arm with one more link, that does not move.
+    #[must_use]
+    pub fn with_still_link(mut self) -> Motion<S> {
+        self.q.push(JointPosition::Prismatic(S::zero()));
+        self.moves.push(false);
+        for argument in Argument::JOINTS {
+            if let Some(entries) = self.of_mut(argument) {
+                entries.push(S::zero());
+            }
+        }
+        self
     }
 }
 

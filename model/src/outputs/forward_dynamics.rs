@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::equations::forward::solved;
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -40,6 +40,8 @@ impl Formula for Acceleration {
             recursion: true,
             travel: true,
         }),
+        burden: Burden::Load,
+        gravity: true,
         ..Facts::PLAIN
     };
 

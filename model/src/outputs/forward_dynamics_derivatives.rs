@@ -10,7 +10,7 @@ use super::function::Definition;
 use super::inertia_inverse::InertiaInverse;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, Index};
-use super::{Argument, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::equations::forward::{against, free, inverted, solved};
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -96,6 +96,8 @@ impl Formula for AccelerationByPosition {
         },
         given: Some("dqdd_dq"),
         choices: CHOICES,
+        burden: Burden::Load,
+        gravity: true,
         ..Facts::PLAIN
     };
 
@@ -141,6 +143,7 @@ impl Formula for AccelerationByVelocity {
             _ => "1/s",
         },
         given: Some("dqdd_dqd"),
+        gravity: false,
         ..AccelerationByPosition::FACTS
     };
 

@@ -34,6 +34,7 @@ impl Formula for LinkRegressor {
         choices: CHOICES,
         // What it shares with what the chain formulas give saves a few.
         starts_from_recursion: true,
+        gravity: true,
         ..Facts::PLAIN
     };
 

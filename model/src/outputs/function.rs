@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Argument, Axis, Function, Motion, Quantity, Sizes, Written};
+use super::{Argument, Axis, Burden, Function, Motion, Quantity, RuntimeParameter, Sizes, Written};
 use crate::equations::chain::Form;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
@@ -63,6 +63,24 @@ impl Function {
             results.any(|quantity| quantity.arguments().contains(argument))
         };
         Argument::ALL.into_iter().filter(read).collect()
+    }
+
+    /// What it has to do with a payload: as much as any of its results.
+    pub fn burden(self) -> Burden {
+        let has = |burden| self.quantities().iter().any(|q| q.burden() == burden);
+        match (has(Burden::More), has(Burden::Load)) {
+            (true, _) => Burden::More,
+            (false, true) => Burden::Load,
+            (false, false) => Burden::None,
+        }
+    }
+
+    /// Whether it depends on a parameter that can be an argument.
+    pub fn feels(self, parameter: RuntimeParameter) -> bool {
+        match parameter {
+            RuntimeParameter::Payload => self.burden() == Burden::Load,
+            RuntimeParameter::Gravity => self.quantities().iter().any(|q| q.feels_gravity()),
+        }
     }
 
     /// What it returns.

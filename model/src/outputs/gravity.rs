@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -35,6 +35,8 @@ impl Formula for Gravity {
             recursion: false,
             travel: true,
         }),
+        burden: Burden::Load,
+        gravity: true,
         ..Facts::PLAIN
     };
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -36,6 +36,7 @@ impl Formula for Inertia {
             travel: true,
         }),
         definite: true,
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
-use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{plus, times};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::{Divide, Scalar};
@@ -59,6 +59,8 @@ impl Formula for Torque {
             travel: false,
         }),
         starts_from_recursion: true,
+        burden: Burden::Load,
+        gravity: true,
         ..Facts::PLAIN
     };
 

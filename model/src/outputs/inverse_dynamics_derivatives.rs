@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -46,6 +46,8 @@ impl Formula for TorqueByPosition {
             recursion: false,
             travel: true,
         }),
+        burden: Burden::Load,
+        gravity: true,
         ..Facts::PLAIN
     };
 
@@ -94,6 +96,7 @@ impl Formula for TorqueByVelocity {
             recursion: false,
             travel: true,
         }),
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts};
-use super::{Argument, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::matrix::{halved, times, total};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -37,6 +37,7 @@ impl Formula for KineticEnergy {
             recursion: false,
             travel: true,
         }),
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 

@@ -4,7 +4,8 @@
 //! - `function`: what a generated function is: its name, arguments and results
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
-//! - `argument`: the joint vectors that functions read
+//! - `argument`: what functions read
+//! - `runtime`: parameters of the arm that are arguments on request
 //! - `formula`: what a quantity's file says, and what its formulas are given
 //! - the others: an output each
 //!
@@ -19,6 +20,7 @@ mod function;
 mod quantity;
 #[macro_use]
 mod registry;
+mod runtime;
 mod shape;
 
 mod coriolis;
@@ -38,6 +40,7 @@ mod jacobian;
 mod jacobian_rate;
 mod kinetic_energy;
 mod link_poses;
+mod load;
 mod manipulator_equation;
 mod momentum;
 mod passivity;
@@ -49,6 +52,7 @@ pub use argument::Argument;
 pub use formula::{Motion, Regrouped, Written};
 pub use function::Columns;
 pub use quantity::{ErrorScale, Index};
+pub use runtime::{Burden, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};
 
 registry! {
@@ -104,4 +108,9 @@ registry! {
     regressor: Regressor { BaseRegressor }
     /// Y over all inertial parameters of all links.
     full_regressor: FullRegressor { LinkRegressor }
+
+    ; beside them:
+
+    /// The regrouped parameters of the arm with a payload.
+    load: Load { Load }
 }

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load, turns};
-use super::{Argument, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -37,6 +37,7 @@ impl Formula for Momentum {
             recursion: false,
             travel: false,
         }),
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 
@@ -73,6 +74,7 @@ impl Formula for MomentumSlope {
             recursion: false,
             travel: false,
         }),
+        burden: Burden::Load,
         ..Facts::PLAIN
     };
 

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, Quantity, Shape, Written};
+use super::{Argument, Burden, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -32,6 +32,8 @@ impl Formula for PotentialEnergy {
         unit: |_| "J",
         given: Some("potential"),
         feels_base: true,
+        burden: Burden::More,
+        gravity: true,
         ..Facts::PLAIN
     };
 

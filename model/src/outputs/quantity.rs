@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Argument, Axis, Quantity, Shape, Sizes};
+use super::{Argument, Axis, Burden, Quantity, Shape, Sizes};
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
@@ -46,6 +46,10 @@ pub(super) struct Facts {
     /// Whether it depends on lengths that no torque depends on: where the
     /// first joints stand.
     pub feels_base: bool,
+    /// What it has to do with a payload.
+    pub burden: Burden,
+    /// Whether it depends on gravity.
+    pub gravity: bool,
 }
 
 impl Facts {
@@ -66,6 +70,8 @@ impl Facts {
         by_differences: false,
         definite: false,
         feels_base: false,
+        burden: Burden::None,
+        gravity: false,
     };
 }
 
@@ -182,13 +188,23 @@ impl Quantity {
         self.facts().feels_base
     }
 
+    /// What it has to do with a payload.
+    pub fn burden(self) -> Burden {
+        self.facts().burden
+    }
+
+    /// Whether it depends on gravity.
+    pub fn feels_gravity(self) -> bool {
+        self.facts().gravity
+    }
+
     /// The joints of an entry over these rows, one for each axis over joints.
     pub fn joints(self, index: usize, rows: &[usize], sizes: Sizes) -> impl Iterator<Item = usize> {
         let places = self.shape().places(index, sizes.over(rows.len()));
         let axes = self.shape().0.iter().zip(places);
         let of = |(axis, place): (&Axis, usize)| match axis {
             Axis::Joints => rows.get(place).copied(),
-            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters => None,
+            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters | Axis::Load => None,
         };
         axes.filter_map(of).collect::<Vec<_>>().into_iter()
     }
@@ -208,7 +224,7 @@ impl Quantity {
             Axis::LinkParameters => {
                 Index::Parameter(LinkParameter::ALL[place % LinkParameter::COUNT])
             }
-            Axis::BaseParameters => Index::Base,
+            Axis::BaseParameters | Axis::Load => Index::Base,
         });
         (self.facts().unit)(&indices.collect::<Vec<_>>())
     }
@@ -227,7 +243,9 @@ impl Quantity {
         let places = self.shape().places(index, sizes);
         let digit = |(axis, place): (&Axis, usize)| match axis {
             Axis::Joints => rows.get(place).map_or(0, |joint| joint + 1).to_string(),
-            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters => (place + 1).to_string(),
+            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters | Axis::Load => {
+                (place + 1).to_string()
+            }
         };
         let is_long = sizes.joints > 9 || self.shape().lengths(sizes).any(|length| length > 9);
         let digits: Vec<String> = self.shape().0.iter().zip(places).map(digit).collect();

@@ -1,14 +1,20 @@
 //! The macro behind the list of outputs: two enumerations and the one place
-//! where their members are told apart.
+//! where their members are told apart. What comes along with others, and is not
+//! asked for by itself, stands behind `beside them`.
 
 /// A line an output: its documentation, its file, its name in Rust, and the
 /// quantities that its file defines.
 macro_rules! registry {
-    ($($(#[$doc:meta])* $file:ident: $function:ident { $($quantity:ident),* })*) => {
+    (
+        $($(#[$doc:meta])* $file:ident: $function:ident { $($quantity:ident),* })*
+        ; beside them:
+        $($(#[$along_doc:meta])* $along_file:ident: $along:ident { $($part:ident),* })*
+    ) => {
         /// A function that can be generated.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Function {
             $($(#[$doc])* $function,)*
+            $($(#[$along_doc])* $along,)*
         }
 
         /// A quantity that a function returns.
@@ -18,26 +24,32 @@ macro_rules! registry {
                 #[doc = concat!("Of [`Function::", stringify!($function), "`].")]
                 $quantity,
             )*)*
+            $($(
+                #[doc = concat!("Of [`Function::", stringify!($along), "`].")]
+                $part,
+            )*)*
         }
 
         impl Function {
-            /// Every function, in the order of generated files.
+            /// Every function that can be asked for, in the order of generated files.
             pub const ALL: [Function; [$(Function::$function),*].len()] = [$(Function::$function),*];
 
             pub(in crate::outputs) fn definition(self) -> &'static function::Definition {
                 match self {
                     $(Function::$function => &$file::FUNCTION,)*
+                    $(Function::$along => &$along_file::FUNCTION,)*
                 }
             }
         }
 
         impl Quantity {
-            /// Every quantity, in the order of the functions that define them.
+            /// Every quantity of a function that can be asked for, in the order of these.
             pub const ALL: &[Quantity] = &[$($(Quantity::$quantity,)*)*];
 
             pub(in crate::outputs) fn facts(self) -> &'static quantity::Facts {
                 match self {
                     $($(Quantity::$quantity => &<$file::$quantity as formula::Formula>::FACTS,)*)*
+                    $($(Quantity::$part => &<$along_file::$part as formula::Formula>::FACTS,)*)*
                 }
             }
 
@@ -45,6 +57,7 @@ macro_rules! registry {
             pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)*)*
+                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::written(at),)*)*
                 }
             }
 
@@ -56,6 +69,7 @@ macro_rules! registry {
             ) -> ::core::option::Option<::alloc::vec::Vec<S>> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::regrouped(at),)*)*
+                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::regrouped(at),)*)*
                 }
             }
 
@@ -63,6 +77,7 @@ macro_rules! registry {
             pub fn inverts_inertia(self) -> bool {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)*)*
+                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::INVERTS_INERTIA,)*)*
                 }
             }
 
@@ -75,6 +90,7 @@ macro_rules! registry {
             ) -> ::alloc::vec::Vec<S> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)*)*
+                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::residual(at, values),)*)*
                 }
             }
 
@@ -89,6 +105,7 @@ macro_rules! registry {
             ) -> ::core::result::Result<::alloc::vec::Vec<T>, $crate::reference::WrongLength> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::runtime(runtime, at),)*)*
+                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::runtime(runtime, at),)*)*
                 }
             }
         }

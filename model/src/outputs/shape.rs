@@ -16,6 +16,8 @@ pub enum Axis {
     /// An entry a base parameter: how many there are, the arm says, and the
     /// scene.
     BaseParameters,
+    /// An entry a regrouped parameter that a payload changes.
+    Load,
 }
 
 /// What the lengths of axes follow from.
@@ -27,6 +29,9 @@ pub struct Sizes {
     pub joints: usize,
     /// The base parameters; zero where nothing is over these.
     pub base: usize,
+    /// The regrouped parameters that a payload changes; zero where there is none
+    /// at run time.
+    pub load: usize,
 }
 
 impl Sizes {
@@ -36,6 +41,7 @@ impl Sizes {
             rows: joints,
             joints,
             base: 0,
+            load: 0,
         }
     }
 
@@ -95,6 +101,7 @@ impl Axis {
             Axis::Fixed(length) => length,
             Axis::LinkParameters => LinkParameter::COUNT * sizes.joints,
             Axis::BaseParameters => sizes.base,
+            Axis::Load => sizes.load,
         }
     }
 }
@@ -127,6 +134,7 @@ mod tests {
             rows: 2,
             joints: 6,
             base: 36,
+            load: 0,
         };
         assert_eq!(base.places(37, sizes), [1, 1]);
     }

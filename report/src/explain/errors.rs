@@ -12,7 +12,7 @@ use crate::stress::truth::Truth;
 use dalembert_codegen::function::{Function, Sizes};
 use dalembert_codegen::program::{Input, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::states::{JointState, seeded};
+use dalembert_codegen::states::JointState;
 
 /// The most states that are measured.
 pub const MAX_STATES: usize = 10_000;
@@ -35,7 +35,7 @@ pub struct Errors {
 pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
     let (setting, function) = (&explanation.setting, explanation.function);
     let robot = setting.robot();
-    let drawn = seeded(robot, states.min(MAX_STATES), SEED);
+    let drawn = setting.states(states.min(MAX_STATES), SEED);
     let truth = Truth::in_setting(setting);
     let runs = at(&truth, function, drawn.iter().cloned());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
@@ -79,7 +79,7 @@ pub fn of_program(
 ) -> Vec<Errors> {
     let function = program.function;
     let setting = truth.setting();
-    let drawn = seeded(setting.robot(), states.min(MAX_STATES), SEED);
+    let drawn = setting.states(states.min(MAX_STATES), SEED);
     let sizes = setting.sizes(function);
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {
@@ -135,10 +135,8 @@ fn formula(
         Input::Cos(angle) => pair(angle).1,
         Input::Entry(argument, joint) => state.entry(argument, joint),
     };
-    let motion = setting.motion(input, f64::nearest);
-    let columns = setting.columns(function, f64::nearest);
-    let results = function.evaluate(formulation, arm, &motion, &columns);
-    setting.select(function, setting.joints(), results)
+    let posed = setting.posed(function, arm.clone(), input, f64::nearest);
+    posed.results(setting, function, formulation)
 }
 
 fn worst(

@@ -78,11 +78,8 @@ impl Truth {
             Input::Entry(argument, joint) => finite(state.entry(argument, joint)),
         };
         let setting = &self.setting;
-        let motion = setting.motion(input, number);
-        let recursion = Formulation::NewtonEulerLink;
-        let columns = setting.columns(function, number);
-        let results = function.evaluate(recursion, &self.arm, &motion, &columns);
-        Some(setting.select(function, setting.joints(), results))
+        let posed = setting.posed(function, self.arm.clone(), input, number);
+        Some(posed.results(setting, function, Formulation::NewtonEulerLink))
     }
 }
 

@@ -64,11 +64,12 @@ fn doc(text: &mut String, program: &Program) {
 
 /// The arguments and the two arrays; what is not read has a `_` before its name.
 fn parameters(program: &Program, around: &Around<'_>) -> Vec<String> {
-    let (scalar, n, count) = (around.scalar, program.joints, around.angles.count());
+    let (scalar, count) = (around.scalar, around.angles.count());
     let mark = |read: bool| if read { "" } else { "_" };
     let arguments = program.arguments.iter().map(|&argument| {
         let mark = mark(reads(program, argument));
-        format!("{mark}{}: &[{scalar}; {n}]", argument.name())
+        let kind = function::argument_type(program, argument, scalar);
+        format!("{mark}{}: &{kind}", argument.name())
     });
     let (sin, cos) = (
         program.trig.iter().any(|trig| trig.sin),

@@ -20,7 +20,7 @@
 
 use std::fmt::Write;
 
-use super::{Around, arguments, places};
+use super::{Around, places};
 use crate::backend::place::Place;
 use crate::backend::{result, trig};
 use crate::program::{Program, Trig};
@@ -33,12 +33,12 @@ pub(super) fn write(
     around: &Around<'_>,
     sines: &[AngleKernel],
 ) {
-    let (name, n, scalar) = (program.function.name(), program.joints, around.scalar);
+    let (name, scalar, sizes) = (program.function.name(), around.scalar, program.sizes());
     structure(text, program, around);
-    let arguments = arguments(program);
-    let parameters = arguments
-        .iter()
-        .map(|name| format!("{name}: &[[{scalar}; L]; {n}]"));
+    let parameters = program.arguments.iter().map(|argument| {
+        let (name, length) = (argument.name(), argument.length(sizes));
+        format!("{name}: &[[{scalar}; L]; {length}]")
+    });
     let parameters: Vec<String> = parameters.collect();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -55,8 +55,9 @@ pub(super) fn write(
     let entry = |letter: char, taken: bool, trig: &Trig| {
         taken.then(|| format!("{letter}{}[l]", trig.angle))
     };
-    let columns = arguments.iter().map(|argument| {
-        let entries: Vec<String> = (0..n).map(|i| format!("{argument}[{i}][l]")).collect();
+    let columns = program.arguments.iter().map(|argument| {
+        let (name, length) = (argument.name(), argument.length(sizes));
+        let entries: Vec<String> = (0..length).map(|i| format!("{name}[{i}][l]")).collect();
         format!("&[{}], ", entries.join(", "))
     });
     let columns: String = columns.collect();

@@ -22,11 +22,12 @@ pub(super) fn write(
     sines: &[AngleKernel],
     doc: &[String],
 ) {
-    let (name, n, scalar) = (program.function.name(), program.joints, around.scalar);
+    let (name, scalar) = (program.function.name(), around.scalar);
     let arguments = arguments(program);
-    let parameters = arguments
-        .iter()
-        .map(|name| format!("{name}: &[{scalar}; {n}]"));
+    let parameters = program.arguments.iter().map(|&argument| {
+        let kind = function::argument_type(program, argument, scalar);
+        format!("{}: &{kind}", argument.name())
+    });
     let parameters: Vec<String> = parameters.collect();
     let result = function::result_type(program, scalar);
     function::write_doc(text, doc);

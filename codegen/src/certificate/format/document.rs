@@ -207,6 +207,7 @@ impl Document {
                 .iter()
                 .map(argument)
                 .collect::<Result<_, _>>()?,
+            load: 0,
             trig: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),

@@ -4,21 +4,24 @@ use std::fmt::Write;
 
 use dalembert_model::outputs::Axis;
 
+use super::arguments;
 use crate::backend::Entries;
 use crate::clauses::module::BATCH;
-use crate::function::{Function, Quantity};
+use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
 
 /// What a module has of a function beside itself. Lengths that are not known are
 /// whatever the caller has.
 pub(super) fn write(
     function: Function,
+    given: &[Argument],
     joints: Option<usize>,
     scalar: ScalarType,
     entries: Entries,
 ) -> String {
     let own = Stub {
         function,
+        given,
         joints,
         scalar,
     };
@@ -47,13 +50,14 @@ pub(super) fn angles(joints: Option<usize>, scalar: ScalarType) -> String {
     )
 }
 
-struct Stub {
+struct Stub<'a> {
     function: Function,
+    given: &'a [Argument],
     joints: Option<usize>,
     scalar: ScalarType,
 }
 
-impl Stub {
+impl Stub<'_> {
     /// The number of joints, or the name that stands for it.
     fn length(&self) -> String {
         self.joints.map_or("J".to_owned(), |n| n.to_string())
@@ -71,11 +75,19 @@ impl Stub {
         }
     }
 
-    /// The arguments, each of this type.
-    fn arguments(&self, kind: &str) -> String {
-        let arguments = self.function.arguments().into_iter();
-        arguments
-            .map(|argument| format!("_{}: {kind}, ", argument.name()))
+    /// The arguments, each an array of these.
+    fn arguments(&self, entry: &str) -> String {
+        let argument = |&argument: &Argument| {
+            let kind = arguments::array(argument, entry, &self.length());
+            format!("_{}: &{kind}, ", argument.name())
+        };
+        self.given.iter().map(argument).collect()
+    }
+
+    /// The arguments of many states, each of this type.
+    fn states(&self, kind: &str) -> String {
+        let each = self.given.iter();
+        each.map(|argument| format!("_{}: {kind}, ", argument.name()))
             .collect()
     }
 
@@ -85,7 +97,9 @@ impl Stub {
             Axis::Joints => format!("[{inner}; {}]", self.length()),
             Axis::Fixed(length) => format!("[{inner}; {length}]"),
             // As many as the robot would have said.
-            Axis::LinkParameters | Axis::BaseParameters => format!("&'static [{inner}]"),
+            Axis::LinkParameters | Axis::BaseParameters | Axis::Load => {
+                format!("&'static [{inner}]")
+            }
         })
     }
 
@@ -106,20 +120,20 @@ impl Stub {
     }
 
     fn with_sincos(&self, text: &mut String) {
-        let (name, scalar, length) = (self.function.name(), self.scalar, self.length());
+        let (name, scalar) = (self.function.name(), self.scalar);
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "pub fn {name}_with_sincos{}({}_sin: &[{scalar}; A], _cos: &[{scalar}; A]) -> {} \
              {{ ::core::unreachable!() }}",
             self.generic(&["A"]),
-            self.arguments(&format!("&[{scalar}; {length}]")),
+            self.arguments(scalar.name()),
             self.result(scalar.name(), "", &[])
         );
     }
 
     fn lanes(&self, text: &mut String) {
-        let (name, length) = (self.function.name(), self.length());
+        let name = self.function.name();
         let entry = format!("[{}; L]", self.scalar);
         if let Some(structure) = self.function.structure() {
             let quantities = self.function.quantities().iter();
@@ -138,7 +152,7 @@ impl Stub {
             text,
             "pub fn {name}_lanes{}({}) -> {} {{ ::core::unreachable!() }}",
             self.generic(&["L"]),
-            self.arguments(&format!("&[{entry}; {length}]")),
+            self.arguments(&entry),
             self.result(&entry, "Lanes", &["L"])
         );
     }
@@ -152,10 +166,10 @@ impl Stub {
              pub fn {name}_columns{}({}_results: &mut [&mut [{scalar}]; M]) -> \
              Result<(), {BATCH}::Unequal> {{ ::core::unreachable!() }}",
             self.generic(&[]),
-            self.arguments(&format!("&[[{scalar}; {length}]]")),
+            self.states(&format!("&[[{scalar}; {length}]]")),
             self.result(scalar.name(), "", &[]),
             self.generic(&["M"]),
-            self.arguments(&format!("&[&[{scalar}]; {length}]")),
+            self.states(&format!("&[&[{scalar}]; {length}]")),
         );
     }
 }

@@ -1,12 +1,14 @@
 //! What stands for the modules after an error: the same functions without
 //! bodies, so that only the error is reported and not every call as well.
 //!
+//! - `arguments`: those that are no joint vectors
 //! - `entries`: more ways to call them
 
 use std::fmt::Write;
 
-use dalembert_model::outputs::Axis;
+use dalembert_model::outputs::{Axis, RuntimeParameter};
 
+mod arguments;
 mod entries;
 
 use crate::backend::Entries;
@@ -43,9 +45,12 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
         if invocation.entries > Entries::Single {
             text += &entries::angles(joints, scalar);
         }
+        let taken: Vec<RuntimeParameter> = invocation.parameters.iter().map(|(p, _)| *p).collect();
+        text += &arguments::types(&taken, scalar);
         for &function in functions {
-            text += &self::function(function, joints, scalar);
-            text += &entries::write(function, joints, scalar, invocation.entries);
+            let given = arguments::of(function, &taken);
+            text += &self::function(function, &given, joints, scalar);
+            text += &entries::write(function, &given, joints, scalar, invocation.entries);
         }
         if functions.iter().any(|f| f.columns() == Columns::Base) {
             let _ = writeln!(text, "pub const BASE_PARAMETERS: &[{scalar}] = &[];");
@@ -99,7 +104,12 @@ fn state_box(arguments: &[Argument], joints: Option<usize>, scalar: ScalarType) 
     text
 }
 
-fn function(function: Function, joints: Option<usize>, scalar: ScalarType) -> String {
+fn function(
+    function: Function,
+    given: &[Argument],
+    joints: Option<usize>,
+    scalar: ScalarType,
+) -> String {
     let (length, generic, argument) = match joints {
         Some(n) => (n.to_string(), "", ""),
         None => ("L".to_owned(), "<const L: usize>", "<L>"),
@@ -110,14 +120,16 @@ fn function(function: Function, joints: Option<usize>, scalar: ScalarType) -> St
             Axis::Joints => format!("[{inner}; {length}]"),
             Axis::Fixed(length) => format!("[{inner}; {length}]"),
             // As many as the robot would have said.
-            Axis::LinkParameters | Axis::BaseParameters => format!("&'static [{inner}]"),
+            Axis::LinkParameters | Axis::BaseParameters | Axis::Load => {
+                format!("&'static [{inner}]")
+            }
         })
     };
-    let arguments: Vec<String> = function
-        .arguments()
-        .iter()
-        .map(|argument| format!("_{}: &[{scalar}; {length}]", argument.name()))
-        .collect();
+    let arguments = given.iter().map(|&argument| {
+        let kind = arguments::array(argument, scalar.name(), &length);
+        format!("_{}: &{kind}", argument.name())
+    });
+    let arguments: Vec<String> = arguments.collect();
     let mut text = String::new();
     let result = match function.structure() {
         None => array(function.quantities()[0]),

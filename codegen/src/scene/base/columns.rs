@@ -5,6 +5,7 @@ use std::cell::{Cell, RefCell};
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scalar::field::{Field, Points};
 
 use crate::program::Input;
@@ -52,6 +53,10 @@ pub(super) fn values(setting: &Setting, columns: &[Column<Exact>]) -> Option<Vec
             Input::Entry(..) => points.borrow_mut().field(),
         };
         let motion = setting.motion(input, constant);
+        let arm = match setting.has(RuntimeParameter::Gravity) {
+            true => (arm.clone()).with_gravity(&[(); 3].map(|()| points.borrow_mut().field())),
+            false => arm.clone(),
+        };
         let (at, recursion) = (arm.at(&motion.q), Formulation::NewtonEulerLink);
         let rows = recursion.regressor(&arm, &at, &motion.qd, &motion.qdd, &columns);
         for &row in setting.rows() {

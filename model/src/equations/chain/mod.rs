@@ -12,6 +12,7 @@
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
+//! - `load`: bodies by parameters that an argument brings
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
@@ -21,6 +22,7 @@ pub mod body;
 pub mod composite;
 pub mod derivatives;
 mod form;
+mod load;
 mod momentum;
 mod passivity;
 pub mod pose;

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use super::call::{Call, expect, parameters};
 use super::{Reader, Text, TextError};
+use crate::function::Argument;
 use crate::program::Lowered;
 
 /// The lines of a function, from the one after its head.
@@ -74,10 +75,9 @@ pub(super) fn check(
         return Err(lines.error(format!("the results expected, not `{line}`")));
     }
     lines.expect("for l in 0..L {")?;
-    // As many entries as `angles` gives for q alone: the joints.
-    let joints = joints(text)?;
     let columns = arguments.iter().map(|argument| {
-        let entries: Vec<String> = (0..joints).map(|i| format!("{argument}[{i}][l]")).collect();
+        let length = Argument::from_name(argument).map_or(0, |known| known.length(text.sizes));
+        let entries: Vec<String> = (0..length).map(|i| format!("{argument}[{i}][l]")).collect();
         format!("&[{}]", entries.join(", "))
     });
     let call = Call {
@@ -107,19 +107,6 @@ pub(super) fn check(
     lines.expect("}")?;
     lines.expect("results")?;
     lines.expect("}")
-}
-
-/// The number of joints, from the type of an argument.
-fn joints(text: &Text<'_>) -> Result<usize, TextError> {
-    let (first, head, _) = text.function(text.function.name())?;
-    let length = head
-        .split_once("; ")
-        .and_then(|(_, rest)| rest.split_once(']'));
-    let joints = length.and_then(|(joints, _)| joints.parse().ok());
-    joints.ok_or_else(|| TextError {
-        line: first + 1,
-        message: "no argument of so many joints".into(),
-    })
 }
 
 /// What is computed before the arithmetic.

@@ -1,0 +1,128 @@
+//! Which parameters can be arguments, and of what.
+
+use std::fmt;
+
+use dalembert_model::outputs::{Burden, RuntimeParameter};
+
+use super::request::Request;
+use crate::approximate::choose::Unbounded;
+use crate::backend::Entries;
+use crate::function::{Argument, Function};
+use crate::portfolio::Start;
+use crate::scene::Setting;
+use crate::scene::base::NoBase;
+
+/// Why a parameter cannot be an argument.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ParameterError {
+    /// The function depends on more of a payload than joints feel.
+    Unregrouped(Function),
+    /// A textbook's formulation has no regrouped parameters.
+    Formulation(Start),
+    /// Batches have arguments with an entry a joint.
+    Batch(RuntimeParameter),
+    /// The scene says what gravity is.
+    Gravity {
+        /// The scene's name.
+        scene: String,
+    },
+    /// The regrouped parameters cannot be written down.
+    Load(NoBase),
+    /// The scene has a tolerance, and no box bounds the argument.
+    Tolerance(Function, Argument),
+    /// No joint feels what the last link carries.
+    Unfelt,
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ParameterError::Unregrouped(function) => write!(
+                f,
+                "`{function}` depends on more of a payload than joints feel, and `load` has no \
+                 more: leave it out here, or give the payload in a scene"
+            ),
+            ParameterError::Formulation(start) => write!(
+                f,
+                "the formulation `{}` has no regrouped parameters, and a payload is an argument \
+                 by these: leave `formulation` out, or give the payload in a scene",
+                start.name()
+            ),
+            ParameterError::Batch(parameter) => write!(
+                f,
+                "batches take arguments with an entry a joint, and {} is none: ask for the \
+                 entries `lanes`",
+                parameter.name()
+            ),
+            ParameterError::Gravity { scene } => write!(
+                f,
+                "the scene `{scene}` says what gravity is, so it is no argument: leave it out of \
+                 the scene or of the parameters"
+            ),
+            ParameterError::Load(NoBase::Large { joint }) => write!(
+                f,
+                "a payload changes regrouped parameters of joint {} that have too many products \
+                 of sines and cosines of the table's angles: give angles that are multiples of \
+                 pi/2 as such, or the payload in a scene",
+                joint + 1
+            ),
+            ParameterError::Load(NoBase::Irrational) => f.write_str(
+                "one of the regrouped parameters depends on the others by a number that is no \
+                 short fraction, as odd angles between slides and the first axis give: give the \
+                 payload in a scene",
+            ),
+            ParameterError::Load(NoBase::Unfit) => f.write_str(
+                "a parameter is divisible by 2^61 - 1, modulo which regrouped parameters are \
+                 compared: change its last digit, or give the payload in a scene",
+            ),
+            ParameterError::Tolerance(function, argument) => {
+                write!(f, "`{function}`: {}", Unbounded::Reads(*argument))
+            }
+            ParameterError::Unfelt => {
+                f.write_str("no joint that moves feels a payload: leave it out of the parameters")
+            }
+        }
+    }
+}
+
+/// Refuses, before anything is searched for, what cannot be.
+pub(super) fn check(request: &Request, setting: &Setting) -> Result<(), ParameterError> {
+    let Some(&first) = request.parameters.first() else {
+        return Ok(());
+    };
+    let scene = request.scene.as_ref();
+    if scene.is_some_and(|scene| scene.tolerance.is_some()) {
+        let mut functions = request.functions.iter();
+        let taking = functions.find_map(|&function| {
+            let mut taken = request.parameters.iter();
+            let parameter = taken.find(|&&parameter| function.feels(parameter))?;
+            Some((function, parameter.argument()))
+        });
+        if let Some((function, argument)) = taking {
+            return Err(ParameterError::Tolerance(function, argument));
+        }
+    }
+    if request.entries == Entries::Batch {
+        return Err(ParameterError::Batch(first));
+    }
+    let given = scene.filter(|scene| scene.gravity.is_some());
+    if let (true, Some(scene)) = (setting.has(RuntimeParameter::Gravity), given) {
+        let scene = scene.name.clone();
+        return Err(ParameterError::Gravity { scene });
+    }
+    if !setting.has(RuntimeParameter::Payload) {
+        return Ok(());
+    }
+    if let Start::Only(_) = request.start {
+        return Err(ParameterError::Formulation(request.start));
+    }
+    let mut functions = request.functions.iter();
+    if let Some(&function) = functions.find(|function| function.burden() == Burden::More) {
+        return Err(ParameterError::Unregrouped(function));
+    }
+    match setting.load() {
+        Err(why) => Err(ParameterError::Load(why)),
+        Ok(load) if load.rows.is_empty() => Err(ParameterError::Unfelt),
+        Ok(_) => Ok(()),
+    }
+}

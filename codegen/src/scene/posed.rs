@@ -1,0 +1,111 @@
+//! An arm and its motion as a function of a setting takes them, in the scalar of
+//! a computation.
+
+use dalembert_model::equations::load::{Loading, carried};
+use dalembert_model::equations::regressor::Column;
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::{Motion, RuntimeParameter};
+use dalembert_model::scalar::{Divide, Scalar};
+
+use super::Setting;
+use crate::function::{Argument, Function};
+use crate::program::Input;
+
+/// What a formula of a function is evaluated with.
+#[derive(Clone, Debug)]
+pub struct Posed<S> {
+    /// The arm, gravity as the argument says and the payload on the last link,
+    /// where the function takes them.
+    pub arm: Arm<S>,
+    /// Its motion.
+    pub motion: Motion<S>,
+    /// What the columns of a regressor are.
+    pub columns: Vec<Column<S>>,
+    /// The joints that results are over before rows are selected: with a payload
+    /// one more, behind the last, which does not move.
+    joints: Vec<usize>,
+}
+
+impl Setting {
+    /// The setting's arm, given in the scalar, and its motion from the values of a
+    /// program's inputs and of constants.
+    pub fn posed<S: Scalar>(
+        &self,
+        function: Function,
+        mut arm: Arm<S>,
+        mut input: impl FnMut(Input) -> S,
+        mut constant: impl FnMut(&Exact) -> S,
+    ) -> Posed<S> {
+        let mut motion = self.motion(&mut input, &mut constant);
+        let mut joints = self.joints().to_vec();
+        if self.takes(function, RuntimeParameter::Gravity) {
+            let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
+            arm = arm.with_gravity(&[0, 1, 2].map(entry));
+        }
+        if self.takes(function, RuntimeParameter::Payload) || function == Function::Load {
+            let payload = self.payload(&mut input);
+            if function == Function::Load {
+                let rows = self.load().map_or(&[][..], |load| &load.rows);
+                let rows = rows.iter().map(|row| row.map(&mut constant));
+                motion.loading = Some(Loading {
+                    rows: rows.collect(),
+                    payload,
+                });
+            } else {
+                arm = arm.with_link(carried(&payload));
+                motion = motion.with_still_link();
+                joints.push(joints.len());
+            }
+        }
+        Posed {
+            arm,
+            motion,
+            columns: self.columns(function, constant),
+            joints,
+        }
+    }
+
+    /// The numbers of a payload.
+    fn payload<S>(&self, mut input: impl FnMut(Input) -> S) -> Vec<S> {
+        let length = Argument::Payload.length(self.sizes(Function::Load));
+        let entry = |index| input(Input::Entry(Argument::Payload, index));
+        (0..length).map(entry).collect()
+    }
+
+    /// The numbers of the load that a payload is.
+    pub fn load_of<S: Scalar>(
+        &self,
+        input: impl FnMut(Input) -> S,
+        mut constant: impl FnMut(&Exact) -> S,
+    ) -> Vec<S> {
+        let rows = self.load().map_or(&[][..], |load| &load.rows);
+        let loading = Loading {
+            payload: self.payload(input),
+            rows: rows.iter().map(|row| row.map(&mut constant)).collect(),
+        };
+        loading.load()
+    }
+}
+
+impl<S: Divide> Posed<S> {
+    /// The results over all joints there are.
+    pub fn all(&self, function: Function, formulation: Formulation) -> Vec<S> {
+        function.evaluate(formulation, &self.arm, &self.motion, &self.columns)
+    }
+
+    /// The results over the setting's rows, from those over all.
+    pub fn select(&self, setting: &Setting, function: Function, all: Vec<S>) -> Vec<S> {
+        setting.select(function, &self.joints, all)
+    }
+
+    /// The results over the setting's rows.
+    pub fn results(
+        &self,
+        setting: &Setting,
+        function: Function,
+        formulation: Formulation,
+    ) -> Vec<S> {
+        self.select(setting, function, self.all(function, formulation))
+    }
+}

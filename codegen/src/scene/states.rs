@@ -1,0 +1,86 @@
+//! Seeded states of a setting: those of its robot, and the parameters that are
+//! arguments.
+
+use dalembert_model::number::{Exact, Rational, Rounded};
+use dalembert_model::outputs::RuntimeParameter;
+use num_traits::Zero;
+
+use super::Setting;
+use crate::function::Argument;
+use crate::program::Input;
+use crate::random::Random;
+use crate::states::{JointState, seeded};
+
+/// What the seed of the parameters differs by: they do not move the states.
+const PARAMETERS: u64 = 0x7061_7261;
+
+impl Setting {
+    /// States inside the limits of the setting's robot, the same on every machine;
+    /// with gravity in any direction and a body in the hand where these are
+    /// arguments.
+    pub fn states(&self, count: usize, seed: u64) -> Vec<JointState> {
+        let mut states = seeded(self.robot(), count, seed);
+        let mut random = Random::new(seed ^ PARAMETERS);
+        // Numbers that both scalars hold, so that both are of one payload.
+        let mut draw = |most: f64| f64::from((most * (2.0 * random.unit() - 1.0)) as f32);
+        let (mass, length) = (self.heaviest(), self.longest());
+        for state in &mut states {
+            if self.has(RuntimeParameter::Gravity) {
+                state.g = (0..3).map(|_| draw(Argument::Gravity.reach())).collect();
+            }
+            if self.has(RuntimeParameter::Payload) {
+                state.payload = body(&mut draw, mass, length);
+                state.load = self.load_at(&state.payload);
+            }
+        }
+        states
+    }
+
+    /// The load that a payload is, each number rounded once.
+    pub fn load_at(&self, payload: &[f64]) -> Vec<f64> {
+        let entry = |input| match input {
+            Input::Entry(_, index) => {
+                let number = payload.get(index).and_then(|x| Rational::from_float(*x));
+                Exact::from(number.unwrap_or_else(Rational::zero))
+            }
+            Input::Sin(_) | Input::Cos(_) => Exact::from(Rational::zero()),
+        };
+        let load = self.load_of(entry, Exact::clone);
+        load.iter().map(f64::nearest).collect()
+    }
+
+    /// The largest mass of a link, or a kilogram.
+    fn heaviest(&self) -> f64 {
+        let masses = self.robot().joints.iter();
+        let masses = masses.map(|joint| f64::nearest_rational(&joint.mass));
+        positive(masses.fold(0.0, f64::max))
+    }
+
+    /// The largest length of the table, or a metre.
+    fn longest(&self) -> f64 {
+        let joints = self.robot().joints.iter();
+        let lengths = joints.flat_map(|joint| [&joint.a, &joint.d]);
+        let lengths = lengths.map(|x| f64::nearest_rational(x).abs());
+        positive(lengths.fold(0.0, f64::max))
+    }
+}
+
+fn positive(x: f64) -> f64 {
+    if x > 0.0 { x } else { 1.0 }
+}
+
+/// A body of at most this mass, a quarter of the length away at most. Moments of
+/// which the least is at least half the largest, and products of inertia of a
+/// tenth of that, are those of a body.
+fn body(draw: &mut impl FnMut(f64) -> f64, mass: f64, length: f64) -> Vec<f64> {
+    let mass = draw(mass).abs();
+    let centre = [(); 3].map(|()| draw(length / 4.0));
+    let size = mass * length * length / 64.0;
+    let moments = [(); 3].map(|()| f64::from((size * 0.75 + draw(size / 4.0)) as f32));
+    let products = [(); 3].map(|()| draw(size / 20.0));
+    let mut payload = vec![mass];
+    payload.extend(centre);
+    payload.extend(moments);
+    payload.extend(products);
+    payload
+}

@@ -1,0 +1,448 @@
+//! Parameters of the robot that are arguments: a payload by its load, gravity. What
+//! is generated gives what the robot file with that payload, or that gravity, gives.
+
+mod support;
+
+use std::path::Path;
+
+use dalembert_codegen::backend::Entries;
+use dalembert_codegen::clauses::expand;
+use dalembert_codegen::function::{Argument, Function, RuntimeParameter};
+use dalembert_codegen::generate::keep::keep;
+use dalembert_codegen::generate::{Generated, Request};
+use dalembert_codegen::plan::Plan;
+use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
+use dalembert_codegen::states::JointState;
+use dalembert_codegen::verify::exact::prove;
+use dalembert_codegen::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_model::equations::Formulation;
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{Inertia, Placement, Position, Robot};
+use dalembert_model::scene::{Payload, Scene};
+
+const PAYLOAD: &[RuntimeParameter] = &[RuntimeParameter::Payload];
+const GRAVITY: &[RuntimeParameter] = &[RuntimeParameter::Gravity];
+const BOTH: &[RuntimeParameter] = &RuntimeParameter::ALL;
+
+/// Every function that a payload has to do with.
+const LOADED: [Function; 13] = [
+    Function::InverseDynamics,
+    Function::Gravity,
+    Function::Inertia,
+    Function::Coriolis,
+    Function::ManipulatorEquation,
+    Function::DynamicCoefficients,
+    Function::KineticEnergy,
+    Function::Momentum,
+    Function::CoriolisMatrix,
+    Function::InverseDynamicsDerivatives,
+    Function::Passivity,
+    Function::ForwardDynamics,
+    Function::InertiaInverse,
+];
+
+fn request(functions: &[Function], parameters: &[RuntimeParameter]) -> Request {
+    Request {
+        functions: functions.to_vec(),
+        parameters: parameters.to_vec(),
+        ..Request::default()
+    }
+}
+
+fn generate(robot: &Robot, request: &Request) -> Generated {
+    dalembert_codegen::generate(robot, request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn number(x: f64) -> Rational {
+    Rational::from_float(x).unwrap()
+}
+
+/// The robot of a file in which the last link carries the payload, merged exactly,
+/// and gravity is as the state says where it says anything.
+fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
+    let mut scene = Scene {
+        name: "carrying".to_owned(),
+        ..Scene::default()
+    };
+    if let [mass, x, y, z, inertia @ ..] = state.payload.as_slice() {
+        let &[xx, yy, zz, xy, yz, xz] = inertia else {
+            panic!("a payload has ten numbers");
+        };
+        let [xx, yy, zz, xy, yz, xz] = [xx, yy, zz, xy, yz, xz].map(number);
+        scene.payload = Some(Payload {
+            mass: number(*mass),
+            com: [*x, *y, *z].map(number),
+            inertia: Inertia {
+                xx,
+                yy,
+                zz,
+                xy,
+                yz,
+                xz,
+            },
+        });
+    }
+    if let &[x, y, z] = state.g.as_slice() {
+        scene.gravity = Some([x, y, z].map(number));
+    }
+    scene.apply(robot)
+}
+
+/// The emitted code at a state, the load as the emitted `load` gives it.
+fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
+    let mut state = state.clone();
+    let mut all = generated.emitted.iter();
+    let load = all.find(|e| e.function == Function::Load && e.scalar == emitted.scalar);
+    if let Some(load) = load {
+        state.load = load.run(&state);
+    }
+    emitted.run(&state)
+}
+
+/// Emitted code against the runtime of the robot with all that in its file, by the
+/// rule of every function: 100 u of a vector's largest entry, or of a sixteenth of
+/// the largest met.
+fn check(robot: &Robot, request: &Request, states: usize) {
+    let generated = generate(robot, request);
+    let setting = request.setting(robot).unwrap();
+    let states = setting.states(states, 0x6c6f_6164);
+    let own = Runtime::in_setting(setting);
+    for emitted in &generated.emitted {
+        let name = (&robot.name, emitted.function, emitted.scalar);
+        // What verifies the functions of a command.
+        for measure in emitted.against_runtime(&own, &states) {
+            assert!(measure.in_units() < BOUND, "{name:?}: {measure:?}");
+        }
+        if emitted.function == Function::Load {
+            continue;
+        }
+        let cases = states.iter().map(|state| {
+            let state = match emitted.scalar {
+                ScalarType::F64 => state.clone(),
+                ScalarType::F32 => state.in_single(),
+            };
+            let runtime = Runtime::new(&in_the_file(robot, &state));
+            let granted = runtime.granted(emitted.function, &state);
+            let expected = runtime.run(emitted.function, &state);
+            (run(&generated, emitted, &state), expected, granted)
+        });
+        let cases: Vec<(Vec<f64>, Vec<f64>, f64)> = cases.collect();
+        let mut start = 0;
+        for quantity in emitted.function.quantities() {
+            let range = start..start + quantity.len(emitted.sizes);
+            start = range.end;
+            let size = |values: &[f64]| values.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            let sizes = cases.iter().map(|(_, b, _)| size(&b[range.clone()]));
+            let least = sizes.fold(0.0, f64::max) / 16.0;
+            for (found, expected, granted) in &cases {
+                let (found, expected) = (&found[range.clone()], &expected[range.clone()]);
+                let unit = emitted.scalar.unit_roundoff();
+                let most = BOUND * unit * granted * size(expected).max(least);
+                for (a, b) in found.iter().zip(expected) {
+                    assert!((a - b).abs() <= most, "{name:?} {quantity:?}: {a} {b}");
+                }
+            }
+        }
+    }
+}
+
+/// Of every function that takes a load, and with gravity of both arguments.
+#[test]
+fn a_load_is_the_payload_in_the_robot_file() {
+    check(&support::robot("planar3r"), &request(&LOADED, BOTH), 20);
+    let few = [Function::InverseDynamics, Function::ForwardDynamics];
+    for name in ["puma560", "stanford"] {
+        check(&support::robot(name), &request(&few, PAYLOAD), 10);
+    }
+}
+
+/// All zero, the payload is none.
+#[test]
+fn a_load_of_nothing_is_the_robot() {
+    let robot = support::robot("planar2r");
+    let request = request(&[Function::InverseDynamics], PAYLOAD);
+    let generated = generate(&robot, &request);
+    let runtime = Runtime::new(&robot);
+    for mut state in request.setting(&robot).unwrap().states(20, 5) {
+        state.payload.fill(0.0);
+        let [_, emitted] = [0, 1].map(|place| &generated.emitted[place]);
+        let found = run(&generated, emitted, &state);
+        for (a, b) in found.iter().zip(runtime.run(emitted.function, &state)) {
+            assert!((a - b).abs() <= 1e-13 * b.abs().max(1.0), "{a} {b}");
+        }
+    }
+}
+
+/// Gravity is in base axes, wherever frame 0 stands; and the robot file's own
+/// gravity is as good as any.
+#[test]
+fn gravity_is_that_of_the_robot_file() {
+    let functions = [
+        Function::InverseDynamics,
+        Function::Gravity,
+        Function::PotentialEnergy,
+        Function::ForwardDynamics,
+        Function::FullRegressor,
+    ];
+    for name in ["planar2r", "stanford"] {
+        let mut robot = support::robot(name);
+        check(&robot, &request(&functions, GRAVITY), 10);
+        robot.base = Some(Placement {
+            xyz: [1, 2, 3].map(|x| Rational::from_integer(x.into())),
+            rpy: [1, -1, 2].map(|x| Angle::Radians(Rational::new(x.into(), 3.into()))),
+        });
+        check(&robot, &request(&functions[..4], GRAVITY), 10);
+    }
+    // What reads no gravity has no argument for it.
+    let generated = generate(
+        &support::robot("planar2r"),
+        &request(&[Function::Inertia, Function::Jacobian], GRAVITY),
+    );
+    assert!(!generated.text.contains("g: &["));
+}
+
+/// Base parameters are fewer where gravity has one direction than where it may have
+/// any: those of the argument are for all of these.
+#[test]
+fn a_regressor_is_over_what_any_gravity_shows() {
+    let robot = support::robot("puma560");
+    let columns = |parameters: &[RuntimeParameter]| {
+        let generated = generate(&robot, &request(&[Function::Regressor], parameters));
+        generated.functions[0].program.sizes().base
+    };
+    let [fixed, any] = [&[][..], GRAVITY].map(columns);
+    assert!(any > fixed, "{any} {fixed}");
+}
+
+/// A locked wrist carries the payload too, and rates that are zero take nothing
+/// from what D needs.
+#[test]
+fn loads_in_scenes() {
+    let robot = support::robot("puma560");
+    let zero = || Position::Angle(Angle::right_angles(0));
+    let scene = Scene {
+        name: "still".to_owned(),
+        lock: vec![(3, zero()), (4, zero()), (5, zero())],
+        velocity_zero: true,
+        ..Scene::default()
+    };
+    let functions = [Function::InverseDynamics, Function::Inertia];
+    let request = Request {
+        scene: Some(scene.clone()),
+        ..request(&functions, PAYLOAD)
+    };
+    let generated = generate(&robot, &request);
+    let setting = request.setting(&robot).unwrap();
+    for state in setting.states(10, 9) {
+        let carrying = Scene {
+            payload: None,
+            ..scene.clone()
+        };
+        let merged = in_the_file(&robot, &state);
+        let expected = Request {
+            scene: Some(carrying),
+            ..Request::default()
+        };
+        let runtime = Runtime::in_setting(expected.setting(&merged).unwrap());
+        for emitted in &generated.emitted {
+            if emitted.function == Function::Load || emitted.scalar == ScalarType::F32 {
+                continue;
+            }
+            let expected = runtime.run(emitted.function, &state);
+            let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            for (a, b) in run(&generated, emitted, &state).iter().zip(&expected) {
+                assert!((a - b).abs() <= 1e-12 * size, "{a} {b}");
+            }
+        }
+    }
+}
+
+/// A program that reads another number of the load, or of gravity, is refused; so
+/// is a load that is another.
+#[test]
+fn wrong_entries_are_disproved() {
+    let robot = support::robot("planar3r");
+    let request = request(&[Function::InverseDynamics], BOTH);
+    let setting = request.setting(&robot).unwrap();
+    let generated = generate(&robot, &request);
+    let mut planted = 0;
+    for function in &generated.functions {
+        let program = &function.program;
+        assert!(prove(&setting, program).is_ok());
+        for argument in [Argument::Load, Argument::Gravity, Argument::Payload] {
+            let length = argument.length(program.sizes());
+            for entry in 0..length {
+                let other = |input: Input| match input {
+                    Input::Entry(own, index) if (own, index) == (argument, entry) => {
+                        Input::Entry(own, (index + 1) % length)
+                    }
+                    input => input,
+                };
+                let wrong = with_inputs(program, other);
+                if wrong != *program {
+                    assert!(prove(&setting, &wrong).is_err(), "{argument:?} {entry}");
+                    planted += 1;
+                }
+            }
+        }
+        let mut swapped = program.clone();
+        swapped.outputs.swap(0, 1);
+        assert!(prove(&setting, &swapped).is_err());
+    }
+    assert!(planted > 10, "{planted}");
+}
+
+/// The program with other inputs.
+fn with_inputs(program: &Program, other: impl Fn(Input) -> Input) -> Program {
+    let mut program = program.clone();
+    let change = |operand: &mut Operand| {
+        if let Operand::Input(input) = operand {
+            *input = other(*input);
+        }
+    };
+    for step in &mut program.steps {
+        change(&mut step.left);
+        change(&mut step.right);
+    }
+    program
+        .outputs
+        .iter_mut()
+        .for_each(|o| change(&mut o.value));
+    program
+}
+
+/// What cannot be is refused, by name and with what to do.
+#[test]
+fn refusals() {
+    let robot = support::robot("planar2r");
+    let torques = request(&[Function::InverseDynamics], PAYLOAD);
+    let gravity_in_scene = Scene {
+        name: "moon".to_owned(),
+        gravity: Some([0, -2, 0].map(|x| Rational::from_integer(x.into()))),
+        ..Scene::default()
+    };
+    let cases = [
+        (
+            request(&[Function::ReactionWrenches], PAYLOAD),
+            "`reaction_wrenches` depends on more of a payload than joints feel",
+        ),
+        (
+            Request {
+                start: Start::Only(Formulation::LagrangeEuler),
+                ..torques.clone()
+            },
+            "the formulation `lagrange_euler` has no regrouped parameters",
+        ),
+        (
+            Request {
+                entries: Entries::Batch,
+                ..torques.clone()
+            },
+            "batches take arguments with an entry a joint, and payload is none",
+        ),
+        (
+            Request {
+                scene: Some(gravity_in_scene),
+                ..request(&[Function::Gravity], GRAVITY)
+            },
+            "the scene `moon` says what gravity is",
+        ),
+    ];
+    for (request, expected) in cases {
+        let error = dalembert_codegen::generate(&robot, &request).unwrap_err();
+        assert!(error.to_string().starts_with(expected), "{error}");
+    }
+    let reading = support::reading_with(
+        "planar2r",
+        "[scene.rough]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n\
+         box = { position = [[-1, 1], [-1, 1]], velocity = [1, 1], acceleration = [1, 1] }\n",
+    );
+    for (parameters, argument) in [(PAYLOAD, "load"), (GRAVITY, "g")] {
+        let request = Request {
+            scene: reading.scenes.first().cloned(),
+            ..request(&[Function::InverseDynamics], parameters)
+        };
+        let error = dalembert_codegen::generate(&robot, &request).unwrap_err();
+        let expected = format!("no box bounds its argument `{argument}`");
+        assert!(error.to_string().contains(&expected), "{error}");
+    }
+}
+
+/// A plan has the robot's own parameters: its programs are not taken for others,
+/// and others are not kept in it.
+#[test]
+fn plans_keep_programs_of_constants() {
+    let robot = support::robot("planar2r");
+    let plain = request(&[Function::Gravity, Function::Jacobian], &[]);
+    let plan: Plan = keep(&robot, &plain, &generate(&robot, &plain), None).plan;
+    let taking = Request {
+        plan: Some(plan.clone()),
+        parameters: BOTH.to_vec(),
+        ..plain
+    };
+    let generated = generate(&robot, &taking);
+    let planned: Vec<bool> = generated.functions.iter().map(|f| f.planned).collect();
+    assert_eq!(planned, [false, false, true], "load, gravity, jacobian");
+    let kept = keep(&robot, &taking, &generated, Some(plan.clone()));
+    assert_eq!(kept.plan, plan);
+}
+
+/// Other ways to call, in both scalars, are read back like others.
+#[test]
+fn entries_have_the_arguments() {
+    let request = Request {
+        entries: Entries::Lanes,
+        ..request(&[Function::InverseDynamics, Function::Gravity], BOTH)
+    };
+    let text = generate(&support::robot("planar2r"), &request).text;
+    for expected in [
+        "pub type Payload = [f64; 10];",
+        "pub fn load(payload: &Payload) -> Load {",
+        "pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2], g: &[f64; 3], load: &Load) -> [f64; 2] {",
+        "pub fn gravity_lanes<const L: usize>(q: &[[f64; L]; 2], g: &[[f64; L]; 3], load: &[[f64; L]; ",
+        "pub fn gravity(q: &[f32; 2], g: &[f32; 3], load: &Load) -> [f32; 2] {",
+    ] {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+}
+
+/// The macro's clause, and what it says of a slip.
+#[test]
+fn the_clause() {
+    let expanded = |clauses: &str| {
+        let tokens =
+            format!("pub mod arm = \"planar2r.toml\"; outputs: inverse_dynamics; {clauses}");
+        let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+        expand(tokens.parse().unwrap(), &base).to_string()
+    };
+    let good = expanded("parameters: payload, gravity;");
+    assert!(good.contains("pub fn load (payload : & Payload) -> Load"));
+    assert!(good.contains("g : & [f64 ; 3] , load : & Load") && !good.contains("compile_error"));
+    let slip = expanded("parameters: paylod;");
+    assert!(slip.contains("did you mean `payload`?") && slip.contains("load : & Load"));
+    let twice = expanded("parameters: payload, payload;");
+    assert!(twice.contains("compile_error"));
+}
+
+/// Operations only go down: with any payload, `load` beside them; and gravity.
+#[test]
+fn counts() {
+    let bars = [
+        ("planar3r", 15, 53, 50),
+        ("puma560", 41, 357, 287),
+        ("stanford", 28, 297, 227),
+        ("ur10", 45, 355, 285),
+    ];
+    for (name, load, torques, with_gravity) in bars {
+        let robot = support::robot(name);
+        let count = |parameters: &[RuntimeParameter]| -> Vec<usize> {
+            let mut request = request(&[Function::InverseDynamics], parameters);
+            request.scalars = vec![ScalarType::F64];
+            let functions = generate(&robot, &request).functions;
+            functions.iter().map(|f| f.counts.operations()).collect()
+        };
+        assert_eq!(count(PAYLOAD), [load, torques], "{name}: update the bar");
+        assert_eq!(count(GRAVITY), [with_gravity], "{name}: update the bar");
+    }
+}
