@@ -127,6 +127,38 @@ class Arm:
             self.armature.append(get("armature"))
         self.n = len(self.mass)
 
+    def about_origins(self):
+        """Of each link: mass, first moments, inertia about the joint's origin."""
+        result = []
+        for m, c, i in zip(self.mass, self.com, self.inertia):
+            result.append([m, m * c, i + m * (c @ c * np.eye(3) - np.outer(c, c))])
+        return result
+
+    def regrouped(self):
+        """The same torques from fewer numbers, as Gautier and Khalil regroup them.
+
+        What a joint cannot tell from the link before it is moved there: about an
+        axis that turns, the mass, its moment along the axis and an inertia that is
+        round about it; along one that slides, the whole inertia.
+        """
+        links = self.about_origins()
+        for k in reversed(range(self.n)):
+            m, mc, i = links[k]
+            if self.prismatic[k]:
+                moved = [0.0, np.zeros(3), i]
+            else:
+                moved = [m, np.array([0, 0, mc[2]]), np.diag([i[1, 1], i[1, 1], 0])]
+            links[k] = [m - moved[0], mc - moved[1], i - moved[2]]
+            if k:
+                (r, p), (m, mc, i) = self.place[k], moved
+                turned = r @ mc
+                other = np.outer(turned, p) + np.outer(p, turned)
+                about = r @ i @ r.T + 2 * (turned @ p) * np.eye(3) - other
+                about = about + m * (p @ p * np.eye(3) - np.outer(p, p))
+                before = links[k - 1]
+                links[k - 1] = [before[0] + m, before[1] + turned + m * p, before[2] + about]
+        return links
+
     def pinocchio(self):
         """The same arm for Pinocchio; friction and armature are added outside."""
         import pinocchio as pin

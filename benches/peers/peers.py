@@ -166,6 +166,7 @@ def run(work, binary):
 
 
 def write(rows, about):
+    rows = sorted(rows, key=lambda row: TIMED.index(row["function"]))
     libraries = list(dict.fromkeys(x for row in rows for x in row["ns"]))
     text = [
         "# Times beside the peers'",

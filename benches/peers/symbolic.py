@@ -1,7 +1,7 @@
 """The algorithms of the peers over CasADi's SX, as a careful user writes them.
 
-Newton–Euler recursion about the centre of mass and about the joint's origin,
-articulated bodies, composite bodies; derivatives by CasADi's own differentiation.
+Newton–Euler recursion about the centre of mass and about the joint's origin, there
+with regrouped parameters too; articulated bodies, composite bodies; derivatives by CasADi's own differentiation.
 Of several ways to one function the one of fewest operations is kept, after
 CasADi's `cse`: what is reported is the best that these tools give.
 """
@@ -81,8 +81,9 @@ class Chain:
     def friction(self, i):
         return self.arm.viscous[i] * self.qd[i]
 
-    def newton_euler(self, qd, qdd, gravity, about_com):
-        """Inverse dynamics; moments about centres of mass, or about joints' origins."""
+    def newton_euler(self, qd, qdd, gravity, links):
+        """Inverse dynamics; moments about joints' origins, of these links, or about the
+        centres of mass."""
         w, dw, a = ca.SX.zeros(3), ca.SX.zeros(3), const(-gravity)
         forces = []
         for i in range(self.n):
@@ -95,15 +96,13 @@ class Chain:
             else:
                 dw = dw + zd + cross(w, z)
                 w = w + z
-            m, c, about = self.arm.mass[i], self.arm.com[i], self.arm.inertia[i]
-            if about_com:
-                c = const(c)
+            if links is None:
+                m, c = self.arm.mass[i], const(self.arm.com[i])
                 f = m * (a + cross(dw, c) + cross(w, cross(w, c)))
-                about = const(about)
+                about = const(self.arm.inertia[i])
                 k = about @ dw + cross(w, about @ w) + cross(c, f)
             else:
-                about = const(about + m * (c @ c * np.eye(3) - np.outer(c, c)))
-                mc = const(m * c)
+                m, mc, about = (const(x) for x in links[i])
                 f = m * a + cross(dw, mc) + cross(w, cross(w, mc))
                 k = about @ dw + cross(w, about @ w) + cross(mc, a)
             forces.append((f, k))
@@ -122,22 +121,20 @@ class Chain:
     def damped(self, tau):
         return tau + ca.vertcat(*(self.friction(i) for i in range(self.n)))
 
-    def potential_energy(self):
+    def potential_energy(self, links):
         """−gᵀ Σ m p, from the last link to the base."""
         m, mc = 0, ca.SX(3, 1)
         for i in reversed(range(self.n)):
-            m, mc = m + self.arm.mass[i], mc + const(self.arm.mass[i] * self.arm.com[i])
+            m, mc = m + links[i][0], mc + const(links[i][1])
             mc = self.rotation[i] @ mc + m * self.offset[i]
         return -ca.dot(const(self.arm.gravity), mc)
 
-    def composite(self):
+    def composite(self, links):
         """The inertia matrix, by composite bodies."""
         d = ca.SX.zeros(self.n, self.n)
         m, mc, about = 0, ca.SX.zeros(3), ca.SX.zeros(3, 3)
         for i in reversed(range(self.n)):
-            own, c = self.arm.mass[i], self.arm.com[i]
-            m, mc = m + own, mc + const(own * c)
-            about = about + const(self.arm.inertia[i] + own * (c @ c * np.eye(3) - np.outer(c, c)))
+            m, mc, about = m + links[i][0], mc + const(links[i][1]), about + const(links[i][2])
             if self.arm.prismatic[i]:
                 f, k = ca.vertcat(0, 0, m), ca.vertcat(mc[1], -mc[0], 0)
             else:
@@ -231,16 +228,16 @@ class Chain:
         """name → function, its inputs in the order of ours."""
         q, qd, qdd, tau = self.q, self.qd, self.qdd, self.tau
         zero, g = ca.SX(self.n, 1), self.arm.gravity
-        both = (True, False)
-        torque = [self.damped(self.newton_euler(qd, qdd, g, way)) for way in both]
+        ways = (None, self.arm.about_origins(), self.arm.regrouped())
+        torque = [self.damped(self.newton_euler(qd, qdd, g, way)) for way in ways]
         state = [q, qd, qdd]
         result = {"inverse_dynamics": best(*(made("inverse_dynamics", state, t) for t in torque))}
-        still = [self.newton_euler(zero, zero, g, way) for way in both]
-        still.append(ca.gradient(self.potential_energy(), q))
+        still = [self.newton_euler(zero, zero, g, way) for way in ways]
+        still += [ca.gradient(self.potential_energy(way), q) for way in ways[1:]]
         result["gravity"] = best(*(made("gravity", [q], c) for c in still))
-        matrices = [self.composite()] + [ca.jacobian(t, qdd) for t in torque]
+        matrices = [self.composite(way) for way in ways[1:]] + [ca.jacobian(t, qdd) for t in torque]
         result["inertia"] = best(*(made("inertia", [q], d) for d in matrices))
-        load = [self.damped(self.newton_euler(qd, zero, g, way)) for way in both]
+        load = [self.damped(self.newton_euler(qd, zero, g, way)) for way in ways]
         solved = [self.factored(d, tau - b) for d in matrices for b in load] + [self.articulated()]
         given = [q, qd, tau]
         forward = [made("forward_dynamics", given, x) for x in solved]
@@ -257,12 +254,12 @@ class Chain:
         short = solved[min(range(len(solved)), key=lambda i: sum(counts(forward[i])[:3]))]
         # By differentiation of the whole, and from −D⁻¹ ∂τ/∂x at the solution.
         name = "forward_dynamics_derivatives"
-        ways = [made(name, given, *(ca.jacobian(short, x) for x in (q, qd, tau)))]
+        tries = [made(name, given, *(ca.jacobian(short, x) for x in (q, qd, tau)))]
         unit = ca.SX.eye(self.n)
-        solve = [self.factored(matrices[0], unit[:, k]) for k in range(self.n)]
+        solve = [self.factored(matrices[1], unit[:, k]) for k in range(self.n)]
         inverse = ca.horzcat(*solve)
         for t in torque:
             slopes = [ca.substitute(ca.jacobian(t, x), qdd, short) for x in (q, qd)]
-            ways.append(made(name, given, *(-(inverse @ s) for s in slopes), inverse))
-        result[name] = best(*ways)
+            tries.append(made(name, given, *(-(inverse @ s) for s in slopes), inverse))
+        result[name] = best(*tries)
         return result

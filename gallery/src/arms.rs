@@ -19,8 +19,8 @@ pub struct Arm {
     pub licence: &'static str,
     /// Where the joints are in the picture; at zero if empty.
     pub at: &'static [f64],
-    /// Multiplications/additions of the best peer for τ, c and D, where known.
-    pub peer: Option<[&'static str; 3]>,
+    /// Multiplications/additions of the best peer for τ, c and D.
+    pub peer: [&'static str; 3],
 }
 
 /// What an arm is made from.
@@ -105,7 +105,7 @@ pub const ARMS: [Arm; 25] = [
         from: "qarm_description of Quanser, as in github.com/Daniella1/urdf_files_dataset at 81f4cdac42",
         licence: "BSD-3-Clause, Copyright 2020 Quanser Inc",
         at: &[0.0, 0.4, -0.8, 0.0],
-        peer: None,
+        peer: ["225/163", "44/22", "129/108"],
     },
     Arm {
         name: "open_manipulator",
@@ -120,7 +120,7 @@ pub const ARMS: [Arm; 25] = [
         from: "open_manipulator_description of ROBOTIS, as in github.com/Daniella1/urdf_files_dataset at 81f4cdac42",
         licence: "Apache-2.0, ROBOTIS",
         at: &[0.0, -0.6, 0.4, 0.7],
-        peer: None,
+        peer: ["187/137", "16/9", "79/72"],
     },
     Arm {
         name: "scara",
@@ -129,7 +129,7 @@ pub const ARMS: [Arm; 25] = [
         from: "this project: no real arm, everything in general position",
         licence: OWN,
         at: &[0.4, -0.9, 0.3, 0.1],
-        peer: None,
+        peer: ["64/43", "0/0", "15/20"],
     },
     Arm {
         name: "so101",
@@ -144,7 +144,7 @@ pub const ARMS: [Arm; 25] = [
         from: "github.com/TheRobotStudio/SO-ARM100, as in the Python package example-robot-data 6.0.0",
         licence: "Apache-2.0, TheRobotStudio",
         at: &[],
-        peer: None,
+        peer: ["309/232", "42/22", "169/146"],
     },
     Arm {
         name: "puma560",
@@ -153,7 +153,7 @@ pub const ARMS: [Arm; 25] = [
         from: "measurements of Armstrong, Khatib and Burdick 1986, as its robot file says",
         licence: OWN,
         at: &[0.0, 0.6, -0.4, 0.0, 0.5, 0.0],
-        peer: Some(["195/143", "28/12", "129/95"]),
+        peer: ["195/143", "28/12", "124/93"],
     },
     Arm {
         name: "stanford",
@@ -162,7 +162,7 @@ pub const ARMS: [Arm; 25] = [
         from: "Paul 1981, as its robot file says",
         licence: OWN,
         at: &[0.3, 0.8, 0.5, 0.0, 0.4, 0.0],
-        peer: Some(["162/120", "27/12", "85/64"]),
+        peer: ["162/120", "20/6", "85/64"],
     },
     Arm {
         name: "gantry",
@@ -171,7 +171,7 @@ pub const ARMS: [Arm; 25] = [
         from: "this project: no real arm, everything in general position",
         licence: OWN,
         at: &[0.5, 0.4, 0.3, 0.2, 0.5, 0.0],
-        peer: None,
+        peer: ["179/129", "28/16", "79/59"],
     },
     Arm {
         name: "ur3",
@@ -180,7 +180,7 @@ pub const ARMS: [Arm; 25] = [
         from: UR,
         licence: "BSD, as the description's package.xml says",
         at: &[0.0, -1.0, 1.2, -1.5, -1.57, 0.0],
-        peer: None,
+        peer: ["200/137", "11/5", "123/85"],
     },
     Arm {
         name: "ur5",
@@ -189,7 +189,7 @@ pub const ARMS: [Arm; 25] = [
         from: UR,
         licence: "BSD, as the description's package.xml says",
         at: &[0.0, -1.0, 1.2, -1.5, -1.57, 0.0],
-        peer: None,
+        peer: ["200/137", "11/5", "123/85"],
     },
     Arm {
         name: "ur10",
@@ -198,7 +198,7 @@ pub const ARMS: [Arm; 25] = [
         from: "Robotics Toolbox (roboticstoolbox-python 1.5.0, models.DH.UR10), as its robot file says",
         licence: OWN,
         at: &[0.0, -1.0, 1.2, -1.5, -1.57, 0.0],
-        peer: Some(["209/154", "28/12", "138/104"]),
+        peer: ["209/154", "28/12", "138/103"],
     },
     Arm {
         name: "gen3_lite",
@@ -207,7 +207,7 @@ pub const ARMS: [Arm; 25] = [
         from: KORTEX,
         licence: "BSD-3-Clause, Copyright 2018 Kinova inc",
         at: &[0.0, 0.4, 1.2, 0.0, 0.5, 0.0],
-        peer: None,
+        peer: ["287/214", "37/20", "149/131"],
     },
     Arm {
         name: "tm5_900",
@@ -216,7 +216,7 @@ pub const ARMS: [Arm; 25] = [
         from: TECHMAN,
         licence: "BSD-3-Clause, Copyright 2019-2024 Techman Robot Inc",
         at: &[0.0, 0.4, 1.0, 0.2, 1.57, 0.0],
-        peer: None,
+        peer: ["201/139", "28/12", "135/93"],
     },
     Arm {
         name: "tm14",
@@ -225,7 +225,7 @@ pub const ARMS: [Arm; 25] = [
         from: TECHMAN,
         licence: "BSD-3-Clause, Copyright 2019-2024 Techman Robot Inc",
         at: &[0.0, 0.4, 1.0, 0.2, 1.57, 0.0],
-        peer: None,
+        peer: ["201/139", "28/12", "135/93"],
     },
     Arm {
         name: "m1013",
@@ -234,7 +234,7 @@ pub const ARMS: [Arm; 25] = [
         from: DOOSAN,
         licence: "BSD-3-Clause, Copyright 2019 Doosan Robotics Inc",
         at: &[0.0, 0.3, 1.2, 0.0, 1.0, 0.0],
-        peer: None,
+        peer: ["431/313", "96/57", "377/288"],
     },
     Arm {
         name: "e0509",
@@ -243,7 +243,7 @@ pub const ARMS: [Arm; 25] = [
         from: DOOSAN,
         licence: "BSD-3-Clause, Copyright 2019 Doosan Robotics Inc",
         at: &[0.0, 0.3, 1.2, 0.0, 1.0, 0.0],
-        peer: None,
+        peer: ["310/232", "49/27", "178/148"],
     },
     Arm {
         name: "elfin5",
@@ -252,7 +252,7 @@ pub const ARMS: [Arm; 25] = [
         from: "github.com/hans-robot/elfin_robot at 4f4ba13a26, its xacro expanded by xacro 2.1",
         licence: "BSD-3-Clause, Copyright 2017 Han's Robot Co., Ltd",
         at: &[0.0, 0.5, 1.0, 0.0, 0.6, 0.0],
-        peer: None,
+        peer: ["393/298", "60/34", "264/232"],
     },
     Arm {
         name: "panda",
@@ -261,7 +261,7 @@ pub const ARMS: [Arm; 25] = [
         from: "Robotics Toolbox (roboticstoolbox-python 1.5.0, models.DH.Panda), as its robot file says",
         licence: OWN,
         at: &[0.0, -0.6, 0.0, -2.0, 0.0, 1.6, 0.8],
-        peer: Some(["365/293", "64/38", "289/228"]),
+        peer: ["365/293", "64/37", "275/232"],
     },
     Arm {
         name: "fr3",
@@ -270,7 +270,7 @@ pub const ARMS: [Arm; 25] = [
         from: "github.com/frankarobotics/franka_description at 566ba44abc, its xacro expanded by xacro 2.1 with hand:=false",
         licence: "Apache-2.0, Franka Robotics GmbH",
         at: &[0.0, -0.6, 0.0, -2.0, 0.0, 1.6, 0.8],
-        peer: None,
+        peer: ["396/300", "64/37", "271/226"],
     },
     Arm {
         name: "iiwa14",
@@ -279,7 +279,7 @@ pub const ARMS: [Arm; 25] = [
         from: "iiwa_description of github.com/RobotLocomotion/models at 4723170e1c, after iiwa_stack",
         licence: "BSD-2-Clause, Copyright 2015 Robert Krug and Todor Stoyanov; BSD-3-Clause, Copyright 2016 Salvatore Virga and Marco Esposito",
         at: &[0.0, 0.5, 0.0, -1.4, 0.0, 0.8, 0.0],
-        peer: None,
+        peer: ["295/216", "42/22", "198/158"],
     },
     Arm {
         name: "gen3",
@@ -288,7 +288,7 @@ pub const ARMS: [Arm; 25] = [
         from: KORTEX,
         licence: "BSD-3-Clause, Copyright 2018 Kinova inc",
         at: &[0.0, 0.5, 0.0, 1.6, 0.0, 0.8, 0.0],
-        peer: None,
+        peer: ["455/347", "62/38", "323/294"],
     },
     Arm {
         name: "j2s7s300",
@@ -297,7 +297,7 @@ pub const ARMS: [Arm; 25] = [
         from: "jaco_description of github.com/RobotLocomotion/models at 4723170e1c",
         licence: "BSD-3-Clause, Copyright 2015-2016 Kinova Robotics, 2017-2020 Toyota Research Institute",
         at: &[0.0, 3.7, 0.0, 1.6, 0.0, 3.9, 0.0],
-        peer: None,
+        peer: ["277/193", "39/19", "219/166"],
     },
     Arm {
         name: "xarm7",
@@ -306,7 +306,7 @@ pub const ARMS: [Arm; 25] = [
         from: "xarm_description of UFACTORY, as in the Python package example-robot-data 6.0.0",
         licence: "BSD-3-Clause, Copyright 2018 UFACTORY Inc",
         at: &[0.0, -0.4, 0.0, 1.2, 0.0, 0.8, 0.0],
-        peer: None,
+        peer: ["386/291", "58/34", "257/211"],
     },
     Arm {
         name: "sawyer",
@@ -315,7 +315,7 @@ pub const ARMS: [Arm; 25] = [
         from: "github.com/RethinkRobotics/sawyer_robot at d1ef3d0ca8, its xacro expanded by xacro 2.1",
         licence: "Apache-2.0, Rethink Robotics",
         at: &[0.0, -0.7, 0.0, 1.4, 0.0, 0.8, 0.0],
-        peer: None,
+        peer: ["469/358", "70/42", "356/310"],
     },
     Arm {
         name: "baxter",
@@ -330,7 +330,7 @@ pub const ARMS: [Arm; 25] = [
         from: "baxter_description of github.com/RethinkRobotics/baxter_common, as in the Python package example-robot-data 6.0.0",
         licence: "BSD-3-Clause, Copyright 2013-2015 Rethink Robotics",
         at: &[0.0, -0.5, 0.0, 1.2, 0.0, 0.6, 0.0],
-        peer: None,
+        peer: ["428/325", "64/37", "288/248"],
     },
     Arm {
         name: "g1_left_arm",
@@ -339,6 +339,6 @@ pub const ARMS: [Arm; 25] = [
         from: "github.com/unitreerobotics/unitree_ros at d6f13aad60",
         licence: "BSD-3-Clause, Copyright 2016-2022 HangZhou YuShu Technology Co., Ltd (Unitree Robotics)",
         at: &[0.4, 0.2, 0.0, 0.6, 0.0, 0.0, 0.0],
-        peer: None,
+        peer: ["453/345", "84/52", "328/292"],
     },
 ];

@@ -19,9 +19,11 @@ elsewhere in the workspace; a test compares it byte for byte. Where the URDFs co
 under which licence stands at the head of every robot file and in [`LICENCES.md`](LICENCES.md).
 
 Multiplications/additions in f64, sines and cosines not counted, by the quick search, which takes
-a second or two an arm; `--effort thorough` finds a few less. *Peer*: the best figure among
-OpenSYMORO, SymPyBotics, Pinocchio with CasADi or CppADCodeGen for the same model, where one was
-measured. Every function is proved before it is counted.
+a second or two an arm; `--effort thorough` finds a few less. *Peer*: Newton-Euler,
+composite bodies and the potential energy's gradient by CasADi with common subexpressions merged,
+parameters regrouped as Gautier and Khalil do, the best of these (`benches/peers/peers.py counts`);
+for the PUMA, Stanford, UR10 and Panda arms OpenSYMORO, SymPyBotics and CppADCodeGen were measured
+too. Every function is proved before it is counted.
 
 Compare arms with care: what an arm costs is decided by how its maker wrote it down. Doosan's M1013
 says 1.571 where a right angle is meant, which is off by 2e-4 rad, more than `dalembert import` takes
@@ -44,7 +46,7 @@ pub fn text(rows: &[(Made, Vec<Counts>)]) -> String {
             joints(&made.robot)
         );
         for (i, counts) in counts.iter().enumerate() {
-            let peer = arm.peer.map_or("–", |peers| peers[i]);
+            let peer = arm.peer[i];
             text += &format!(" {}/{} | {peer} |", counts.mul, counts.add);
         }
         text.push('\n');
@@ -75,7 +77,7 @@ pub fn row(made: &Made, counts: &[Counts]) -> String {
         joints(&made.robot)
     );
     for (i, counts) in counts.iter().enumerate() {
-        let peer = arm.peer.map_or("–", |peers| peers[i]);
+        let peer = arm.peer[i];
         text += &format!(" {}/{} | {peer} |", counts.mul, counts.add);
     }
     text + "\n"
