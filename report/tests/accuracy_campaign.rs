@@ -1,0 +1,152 @@
+//! Every output of robots that nobody chose stays below 100 u, f64 and f32, of the
+//! truth in 134 digits; what inverts D below 100 u times D's condition.
+//!
+//! An error is that of a quantity's entries against its largest entry, or a sixteenth
+//! of the largest met where that is more. The whole campaign is for releases: `cargo
+//! test --release -p dalembert-report --test accuracy_campaign -- --include-ignored
+//! --nocapture` prints the worst of each quantity.
+
+#[path = "../../codegen/tests/support/draw.rs"]
+mod draw;
+
+use std::collections::BTreeMap;
+
+use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::generate::{GenerateError, Request, generate};
+use dalembert_codegen::program::{Literal, Operand, ScalarType};
+use dalembert_codegen::states::{SEED, seeded};
+use dalembert_codegen::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+use dalembert_report::stress::truth::Truth;
+use draw::robots;
+
+/// States a robot.
+const STATES: usize = 30;
+
+/// A state counts relative to at least this part of the largest that is met.
+const LEAST_PART: f64 = 1.0 / 16.0;
+
+/// The worst error of a quantity in units of u, and how many robots had it.
+type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
+
+/// So many outputs a robot, in turn, that each is met by robots of every length.
+fn campaign(count: usize, each: usize, longest: usize) -> Worst {
+    let mut worst = Worst::new();
+    // A load is of functions that take it.
+    let all = Function::ALL.into_iter();
+    let outputs: Vec<Function> = all.filter(|f| *f != Function::Load).collect();
+    let mut next = 0;
+    for (seed, robot, _) in robots(count, 0xacc0) {
+        let n = robot.joints.len();
+        if n > longest {
+            continue;
+        }
+        let (truth, runtime) = (Truth::new(&robot), Runtime::new(&robot));
+        for _ in 0..each {
+            let function = outputs[next % outputs.len()];
+            next += 1;
+            let request = Request {
+                functions: vec![function],
+                ..Request::default()
+            };
+            let what = format!("seed {seed}, {n} joints, {function}");
+            let generated = match generate(&robot, &request) {
+                Ok(generated) => generated,
+                // An arm whose D is singular in every state, or whose base parameters
+                // cannot be written down: refused by name, which other tests are about.
+                Err(GenerateError::Singular { .. } | GenerateError::Base(..)) => continue,
+                Err(error) => panic!("{what}: {error}"),
+            };
+            for emitted in &generated.emitted {
+                let scalar = emitted.scalar;
+                let states = seeded(&robot, STATES, SEED ^ seed);
+                let states = states.into_iter().map(|state| match scalar {
+                    ScalarType::F64 => state,
+                    ScalarType::F32 => state.in_single(),
+                });
+                let cases = states.map(|state| Case {
+                    found: emitted.run(&state),
+                    truth: exactly(emitted, truth.run(function, &state)),
+                    granted: runtime.granted(function, &state),
+                });
+                for (quantity, error) in errors(emitted, &cases.collect::<Vec<_>>()) {
+                    assert!(
+                        error <= BOUND,
+                        "{what}, {quantity:?} in {scalar}: {error} u"
+                    );
+                    let (most, robots) = worst.entry((quantity, scalar)).or_default();
+                    *most = most.max(error);
+                    *robots += 1;
+                }
+            }
+        }
+    }
+    worst
+}
+
+/// What was computed at a state, what is true, and the condition that excuses it.
+struct Case {
+    found: Vec<f64>,
+    truth: Vec<Big>,
+    granted: f64,
+}
+
+/// The truth at a finite state. What was proved to vanish does so, and not within
+/// 134 digits only.
+fn exactly(emitted: &Emitted, truth: Option<Vec<Big>>) -> Vec<Big> {
+    let truth = truth.expect("a finite state").into_iter();
+    let entries = truth.zip(&emitted.text.outputs);
+    let exact = entries.map(|(value, output)| match output.value {
+        Operand::Constant(Literal(0.0)) => Big::zero(),
+        _ => value,
+    });
+    exact.collect()
+}
+
+/// The worst error of each quantity, in units of u.
+fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
+    let mut start = 0;
+    let quantities = emitted.function.quantities().iter();
+    let each = quantities.map(|&quantity| {
+        let range = start..start + quantity.len(emitted.sizes);
+        start = range.end;
+        let size = |case: &Case| {
+            let entries = case.truth[range.clone()].iter();
+            entries.map(|x| x.abs().to_f64()).fold(0.0, f64::max)
+        };
+        let least = LEAST_PART * cases.iter().map(size).fold(0.0, f64::max);
+        let error = |case: &Case| {
+            let pairs = case.found[range.clone()]
+                .iter()
+                .zip(&case.truth[range.clone()]);
+            let off = |(found, truth): (&f64, &Big)| match Big::from_f64(*found) {
+                Some(found) => found.sub(truth).abs().to_f64(),
+                None => f64::INFINITY,
+            };
+            match pairs.map(off).fold(0.0, f64::max) {
+                0.0 => 0.0,
+                off => off / (size(case).max(least) * case.granted),
+            }
+        };
+        let worst = cases.iter().map(error).fold(0.0, f64::max);
+        (quantity, worst / emitted.scalar.unit_roundoff())
+    });
+    each.collect()
+}
+
+#[test]
+fn short_arms_are_accurate() {
+    let worst = campaign(24, 6, 3);
+    assert!(worst.len() > 40, "{}", worst.len());
+}
+
+#[test]
+#[ignore = "an hour in release mode"]
+fn two_hundred_robots_are_accurate() {
+    let worst = campaign(200, 4, 7);
+    for ((quantity, scalar), (error, robots)) in &worst {
+        println!("{quantity:?} {scalar}: {error:.1} u, {robots} robots");
+    }
+    assert!(worst.len() > 60, "{}", worst.len());
+}
