@@ -136,6 +136,7 @@ fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "a minute: in release mode")]
 fn short_arms_are_accurate() {
     let worst = campaign(24, 6, 3);
     assert!(worst.len() > 40, "{}", worst.len());
