@@ -259,6 +259,25 @@ fn no_explanation_is_made_up() {
 
     let diagnosis = diagnose(&own, &states(&own));
     assert!(diagnosis.agrees && diagnosis.help().contains("generated code is wrong"));
+
+    // Whichever quantity is given: what the runtime does not compute either is no
+    // defect of the generated code.
+    let mut given = states(&own);
+    for given in &mut given {
+        let qdd = given.state.qdd.clone();
+        given.state.tau = given.known[&Quantity::Torque].clone();
+        given.known = [(Quantity::Acceleration, qdd)].into();
+    }
+    assert!(diagnose(&own, &given).agrees);
+    for given in &mut given {
+        let qdd = given.known.get_mut(&Quantity::Acceleration).unwrap();
+        qdd.iter_mut().for_each(|x| *x += 0.01 * (1.0 + x.abs()));
+    }
+    let diagnosis = diagnose(&own, &given);
+    assert!(
+        !diagnosis.agrees && diagnosis.explained_by.is_empty(),
+        "{diagnosis:?}"
+    );
 }
 
 #[test]

@@ -1,10 +1,14 @@
 //! A robot and states that may be changed on trial, and how far they are apart.
 
-use dalembert_codegen::function::{Function, Quantity};
+use dalembert_codegen::function::{Columns, Function, Quantity, Sizes};
+use dalembert_codegen::states::JointState;
 use dalembert_codegen::verify::floating::Runtime;
 use dalembert_model::robot::Robot;
 
 use super::{GivenState, float, worst};
+
+/// The most that the condition of D excuses.
+const MAX_CONDITION: f64 = 1e4;
 
 /// What is compared on trial.
 #[derive(Clone)]
@@ -43,10 +47,6 @@ impl Case {
         let mut most = 0.0f64;
         for (quantity, known) in known {
             let values = match quantity {
-                Quantity::Torque => run(Function::InverseDynamics),
-                Quantity::Inertia => run(Function::Inertia),
-                Quantity::Gravity => run(Function::Gravity),
-                Quantity::LinkRegressor => run(Function::FullRegressor),
                 Quantity::Coriolis => {
                     let mut load = run(Function::Coriolis);
                     if self.load.gravity {
@@ -60,11 +60,37 @@ impl Case {
                     }
                     load
                 }
-                // No cause that is tried concerns the others.
-                _ => continue,
+                other => match by_its_function(runtime, *other, state) {
+                    Some(values) => values,
+                    None => continue,
+                },
             };
-            most = most.max(worst(&values, known).1);
+            most = most.max(worst(&values, known).1 / granted(runtime, *quantity, state));
         }
         most
     }
+}
+
+/// The function that defines a quantity; none of those whose columns are the robot's.
+fn function(quantity: Quantity) -> Option<Function> {
+    let mut all = Function::ALL.into_iter();
+    let function = all.find(|function| function.quantities().contains(&quantity))?;
+    (function != Function::Load && function.columns() != Columns::Base).then_some(function)
+}
+
+/// A quantity as its own function returns it.
+fn by_its_function(runtime: &Runtime, quantity: Quantity, state: &JointState) -> Option<Vec<f64>> {
+    let function = function(quantity)?;
+    let sizes = Sizes::whole(state.q.len());
+    let before = function.quantities().iter().take_while(|q| **q != quantity);
+    let start: usize = before.map(|q| q.len(sizes)).sum();
+    let values = runtime.run(function, state);
+    Some(values.get(start..start + quantity.len(sizes))?.to_vec())
+}
+
+/// How many times more than others a quantity may be off at a state. A change on trial
+/// that makes D singular must not excuse everything.
+fn granted(runtime: &Runtime, quantity: Quantity, state: &JointState) -> f64 {
+    let condition = function(quantity).map_or(1.0, |function| runtime.granted(function, state));
+    condition.min(MAX_CONDITION)
 }
