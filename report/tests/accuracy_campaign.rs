@@ -143,11 +143,11 @@ fn short_arms_are_accurate() {
 }
 
 #[test]
-#[ignore = "an hour in release mode"]
+#[ignore = "a quarter of an hour in release mode"]
 fn two_hundred_robots_are_accurate() {
     let worst = campaign(200, 4, 7);
     for ((quantity, scalar), (error, robots)) in &worst {
         println!("{quantity:?} {scalar}: {error:.1} u, {robots} robots");
     }
-    assert!(worst.len() > 60, "{}", worst.len());
+    assert!(worst.len() > 50, "{}", worst.len());
 }
