@@ -1,22 +1,22 @@
 //! The arm is held by a model that is right, and only by that.
 
+use std::path::Path;
 use std::process::Command;
 
 use computed_torque::plant::Plant;
-use computed_torque::simulate;
+use computed_torque::{chart, simulate};
 
 #[test]
-fn the_right_model_holds_the_arm() {
-    let errors = simulate(Plant::Nominal, 0.2, 2.0);
-    assert!(errors.holding < 1e-9, "{errors:?}");
-    assert!(errors.tracking < 1e-4, "{errors:?}");
-}
-
-#[test]
-fn the_wrong_model_does_not() {
-    let errors = simulate(Plant::Loaded, 0.2, 2.0);
-    assert!(errors.holding > 1e-2, "{errors:?}");
-    assert!(errors.tracking > 1e-2, "{errors:?}");
+fn the_right_model_holds_the_arm_and_the_wrong_one_does_not() {
+    let right = simulate(Plant::Nominal, 0.2, 2.0);
+    assert!(right.holding < 1e-9, "{}", right.holding);
+    assert!(right.tracking() < 1e-4, "{}", right.tracking());
+    let wrong = simulate(Plant::Loaded, 0.2, 2.0);
+    assert!(wrong.holding > 1e-2, "{}", wrong.holding);
+    assert!(wrong.tracking() > 1e-2, "{}", wrong.tracking());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/computed_torque.svg");
+    let same = example_shared::checked_in::is(&path, &chart::svg(&right, &wrong)).unwrap();
+    assert!(same, "written anew, look at it: {path:?}");
 }
 
 #[test]
