@@ -1,6 +1,6 @@
 //! The controller on the arm that carries what it does not know.
 
-use example_shared::integrate::distance;
+use example_shared::integrate::{distance, largest};
 
 use crate::control::{Controller, GAIN, Wish};
 use crate::trajectory::{self, Target};
@@ -34,12 +34,7 @@ impl Run {
     /// The largest of something in the last second.
     pub fn at_last(&self, of: fn(&Sample) -> f64) -> f64 {
         let second = (1.0 / PERIOD) as usize;
-        self.samples
-            .iter()
-            .rev()
-            .take(second)
-            .map(of)
-            .fold(0.0, f64::max)
+        largest(self.samples.iter().rev().take(second).map(of))
     }
 }
 

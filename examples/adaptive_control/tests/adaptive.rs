@@ -1,11 +1,11 @@
 //! What the theory says of the controller, and what comes of it.
 
-use std::path::Path;
 use std::process::Command;
 
 use adaptive_control::control::{Controller, DAMPING, Wish};
 use adaptive_control::run::{energy, moved};
 use adaptive_control::{Joints, Parameters, State, arm, chart, loaded, run, trajectory};
+use example_shared::checked_in;
 use example_shared::integrate::distance;
 
 #[test]
@@ -18,8 +18,8 @@ fn what_is_learned_is_what_the_arm_carries() {
     let torque = |run: &adaptive_control::Run| run.at_last(|sample| sample.torque_error);
     assert!(error(&adaptive) < error(&fixed) / 10.0);
     assert!(torque(&adaptive) < torque(&fixed) / 10.0);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/adaptive_control.svg");
-    let same = example_shared::checked_in::is(&path, &chart::svg(&adaptive, &fixed)).unwrap();
+    let path = checked_in::guide("adaptive_control.svg");
+    let same = checked_in::is(&path, &chart::svg(&adaptive, &fixed)).unwrap();
     assert!(same, "written anew, look at it: {path:?}");
 }
 
@@ -27,7 +27,7 @@ fn what_is_learned_is_what_the_arm_carries() {
 #[test]
 fn the_energy_of_the_error_falls_as_it_should() {
     for step in 0..200 {
-        let off = rate_is_off(step, |q, qd, v, a| arm::passivity_regressor(q, qd, v, a));
+        let off = rate_is_off(step, arm::passivity_regressor);
         assert!(off < 1e-4, "{off}");
     }
 }
@@ -93,9 +93,14 @@ fn the_regressor_is_that_of_the_passivity_form() {
 }
 
 #[test]
-fn the_example_says_so() {
+fn the_example_prints_what_the_guide_shows() {
     let run = Command::new(env!("CARGO_BIN_EXE_adaptive_control")).output();
     let output = run.unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{text}");
+    let guide = std::fs::read_to_string(checked_in::guide("adaptive.md")).unwrap();
+    assert!(
+        guide.contains(&*text),
+        "the guide shows something else:\n{text}"
+    );
 }

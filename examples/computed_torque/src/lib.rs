@@ -17,7 +17,7 @@ pub mod control;
 pub mod plant;
 pub mod trajectory;
 
-use example_shared::integrate::distance;
+use example_shared::integrate::{distance, largest};
 use plant::{Plant, State};
 
 dalembert::dynamics! {
@@ -57,8 +57,7 @@ pub struct Run {
 impl Run {
     /// Largest distance of a joint while it followed the trajectory, rad.
     pub fn tracking(&self) -> f64 {
-        let distances = self.tracking.iter().map(|[_, distance]| *distance);
-        distances.fold(0.0, f64::max)
+        largest(self.tracking.iter().map(|[_, distance]| *distance))
     }
 }
 
@@ -76,7 +75,7 @@ pub fn simulate(plant: Plant, hold: f64, motion: f64) -> Run {
     for _ in 0..steps(hold) {
         let tau = control::hold(&state, &start.q);
         state = plant.step(&state, &tau, PERIOD);
-        run.holding = run.holding.max(distance(&state.q, &start.q));
+        run.holding = largest([run.holding, distance(&state.q, &start.q)].into_iter());
     }
     for step in 0..steps(motion) {
         let time = step as f64 * PERIOD;

@@ -1,8 +1,15 @@
-//! Whether a chart is what is checked in.
+//! Whether a chart is what is checked in, and what an example prints what the guide shows.
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// A file of the guide in `docs/src`.
+pub fn guide(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs/src")
+        .join(name)
+}
 
 /// Whether a file holds this text. If not, it is written: so a test that fails has
 /// mended the file, and who looks at the difference says whether that is right.

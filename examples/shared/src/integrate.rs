@@ -43,13 +43,24 @@ impl<const N: usize> State<N> {
 
 /// The largest distance of a joint.
 pub fn distance<const N: usize>(left: &[f64; N], right: &[f64; N]) -> f64 {
-    let differences = left.iter().zip(right).map(|(l, r)| (l - r).abs());
-    differences.fold(0.0, f64::max)
+    largest(left.iter().zip(right).map(|(l, r)| (l - r).abs()))
+}
+
+/// The largest of magnitudes; NaN if one is, so that a motion that blew up is not taken
+/// for a good one.
+pub fn largest(magnitudes: impl Iterator<Item = f64>) -> f64 {
+    magnitudes.fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_blew_up_is_no_small_distance() {
+        assert!(distance(&[1.0, f64::NAN, 2.0], &[0.0; 3]).is_nan());
+        assert_eq!(distance(&[1.0, -3.0, 2.0], &[0.0; 3]), 3.0);
+    }
 
     /// Of the fourth order: half the step, a sixteenth of the error.
     #[test]

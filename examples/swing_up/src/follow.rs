@@ -1,5 +1,7 @@
 //! The plan on the arm.
 
+use example_shared::integrate::largest;
+
 use crate::model::{State, UPRIGHT, step};
 use crate::plan::{self, Plan};
 use crate::{limited, model};
@@ -19,7 +21,7 @@ pub struct Run {
 impl Run {
     /// How far it ended from upright at rest.
     pub fn off(&self) -> f64 {
-        (self.end - UPRIGHT).abs().max()
+        largest((self.end - UPRIGHT).abs().iter().copied())
     }
 }
 

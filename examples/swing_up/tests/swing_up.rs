@@ -1,8 +1,8 @@
 //! The arm comes up and stays up, and only by what it was planned with.
 
-use std::path::Path;
 use std::process::Command;
 
+use example_shared::checked_in;
 use swing_up::model::{HANGING, State, slopes, step};
 use swing_up::plan::plan;
 use swing_up::{LIMIT, chart, follow};
@@ -21,8 +21,8 @@ fn the_arm_swings_up_and_stays() {
     let mut deaf = plan.clone();
     deaf.gains.fill(State::zeros());
     assert!(follow(&deaf, 0.0, 0.05).off() > 0.1);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/swing_up.svg");
-    let same = example_shared::checked_in::is(&path, &chart::svg(&run)).unwrap();
+    let path = checked_in::guide("swing_up.svg");
+    let same = checked_in::is(&path, &chart::svg(&run)).unwrap();
     assert!(same, "written anew, look at it: {path:?}");
 }
 
@@ -45,9 +45,14 @@ fn slopes_are_those_of_the_step() {
 }
 
 #[test]
-fn the_example_says_so() {
+fn the_example_prints_what_the_guide_shows() {
     let run = Command::new(env!("CARGO_BIN_EXE_swing_up")).output();
     let output = run.unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{text}");
+    let guide = std::fs::read_to_string(checked_in::guide("swing-up.md")).unwrap();
+    assert!(
+        guide.contains(&*text),
+        "the guide shows something else:\n{text}"
+    );
 }
