@@ -40,7 +40,8 @@
 //! - a component of an axis within 1e-9 of 0, 1 or −1;
 //! - a product of inertia below 1e-9 of the largest moment: 0.
 //!
-//! What all of them together change in the torques is bounded ([`Change`]).
+//! What all of them together change in the torques and in where the hand is, is
+//! bounded ([`Change`]).
 //! [`Options::exact`] takes the digits as they stand; the reader of robot files still
 //! takes the double next to a multiple of π/2 for it.
 #![forbid(unsafe_code)]
@@ -58,7 +59,7 @@ mod write;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
-pub use change::{Change, Motion};
+pub use change::{Change, Displacement, Motion};
 pub use snap::Snap;
 
 /// The largest URDF that is read, in bytes: meshes are not in it.
