@@ -7,9 +7,10 @@
 //! apart by its length times the distance of the turns. So every position of the
 //! joints is covered, and with upward rounding the result is a bound, not a
 //! measurement. The triangle inequality makes it fifty to a hundred and fifty times
-//! what 25 states of real arms show. The hand's pose is bounded by the same sizes, along
-//! the chain. What is computed for the file, bodies that are
-//! merged and rows that are derived, is rounded to 20 digits beside it.
+//! what 25 states of real arms show. The hand's pose is bounded by the same sizes along
+//! the chain, which makes two to three times what those states show. What is computed
+//! for the file, bodies that are merged and rows that are derived, is rounded to 20
+//! digits beside it.
 
 mod pair;
 
