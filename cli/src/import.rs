@@ -67,7 +67,12 @@ fn json(imported: &Imported, name: &str, source: &str) -> Value {
                 "acceleration": limits.acceleration[i],
             })
         });
-        json!({ "of_efforts": change.of_efforts(), "joints": joints.collect::<Vec<_>>() })
+        let hand = change.hand(limits);
+        json!({
+            "of_efforts": change.of_efforts(),
+            "joints": joints.collect::<Vec<_>>(),
+            "hand": { "position": hand.position, "angle": hand.angle },
+        })
     });
     let joints = robot.joints.iter().map(|joint| &joint.name);
     json!({
@@ -108,6 +113,12 @@ fn report(imported: &Imported, name: &str, source: &str) {
                 limits.acceleration[i]
             ));
         }
+        let hand = change.hand(limits);
+        output::note(&format!(
+            "  the hand: ≤ {} m and ≤ {} rad from where it was",
+            Change::in_digits(hand.position),
+            Change::in_digits(hand.angle)
+        ));
         output::note("  --exact takes every digit as it stands");
     }
 }

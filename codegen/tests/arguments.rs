@@ -207,12 +207,14 @@ fn gravity_is_that_of_the_robot_file() {
 #[test]
 fn a_regressor_is_over_what_any_gravity_shows() {
     let robot = support::robot("puma560");
-    let columns = |parameters: &[RuntimeParameter]| {
-        let generated = generate(&robot, &request(&[Function::Regressor], parameters));
-        generated.functions[0].program.sizes().base
-    };
-    let [fixed, any] = [&[][..], GRAVITY].map(columns);
-    assert!(any > fixed, "{any} {fixed}");
+    for function in [Function::Regressor, Function::PassivityRegressor] {
+        let columns = |parameters: &[RuntimeParameter]| {
+            let generated = generate(&robot, &request(&[function], parameters));
+            generated.functions[0].program.sizes().base
+        };
+        let [fixed, any] = [&[][..], GRAVITY].map(columns);
+        assert!(any > fixed, "{function}: {any} {fixed}");
+    }
 }
 
 /// A locked wrist carries the payload too, and rates that are zero take nothing

@@ -1,12 +1,12 @@
-//! τ = Y π: of every arm, in both scalars, in scenes, with as few columns as there
-//! can be; and what a wrong combination is refused with.
+//! τ = Y π and D a + C v + c + b∘v = Y π: of every arm, in both scalars, in scenes, with
+//! as few columns as there can be; and what a wrong combination is refused with.
 
 mod support;
 
 use std::path::Path;
 
 use dalembert_codegen::clauses::expand;
-use dalembert_codegen::function::Function;
+use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, ToleranceError, Unbounded};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::scene::Setting;
@@ -25,18 +25,44 @@ const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
 ];
 
-fn generate(robot: &Robot, scene: Option<&Scene>) -> Generated {
+/// A function that is linear in the parameters.
+#[derive(Clone, Copy)]
+struct Linear {
+    regressor: Function,
+    quantity: Quantity,
+    /// The constant with π.
+    constant: &'static str,
+    /// Y π
+    sum: Function,
+}
+
+const TORQUES: Linear = Linear {
+    regressor: Function::Regressor,
+    quantity: Quantity::BaseRegressor,
+    constant: "BASE_PARAMETERS",
+    sum: Function::InverseDynamics,
+};
+
+const PASSIVITY: Linear = Linear {
+    regressor: Function::PassivityRegressor,
+    quantity: Quantity::PassivityRegressor,
+    constant: "PASSIVITY_PARAMETERS",
+    sum: Function::Passivity,
+};
+
+fn generate(linear: Linear, robot: &Robot, scene: Option<&Scene>) -> Generated {
     let request = Request {
-        functions: vec![Function::Regressor],
+        functions: vec![linear.regressor],
         scene: scene.cloned(),
         ..Request::default()
     };
     dalembert_codegen::generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The constants `BASE_PARAMETERS` of the text, a module each.
-fn printed(text: &str) -> Vec<Vec<f64>> {
-    let constants = text.split("pub const BASE_PARAMETERS: [").skip(1);
+/// The constants with π of the text, a module each.
+fn printed(linear: Linear, text: &str) -> Vec<Vec<f64>> {
+    let declared = format!("pub const {}: [", linear.constant);
+    let constants = text.split(&declared).skip(1);
     let constants = constants.map(|rest| {
         let (_, rest) = rest.split_once("= [\n").unwrap();
         let (values, _) = rest.split_once("];").unwrap();
@@ -100,12 +126,19 @@ fn rank(runtime: &Runtime, setting: &Setting) -> usize {
 
 /// The emitted Y times the printed π against the runtime's torques, relative to
 /// what the sums are made of; and as many columns as the rank.
-fn check(robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
-    let generated = generate(robot, scene);
+fn check(linear: Linear, robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
     let setting = Setting::of(robot, scene).unwrap();
     let runtime = Runtime::in_setting(setting.clone());
-    let parameters = printed(&generated.text);
     let base = rank(&runtime, &setting) + drives;
+    with_columns(linear, robot, scene, base)
+}
+
+/// The same with so many columns.
+fn with_columns(linear: Linear, robot: &Robot, scene: Option<&Scene>, base: usize) -> Generated {
+    let generated = generate(linear, robot, scene);
+    let setting = Setting::of(robot, scene).unwrap();
+    let runtime = Runtime::in_setting(setting.clone());
+    let parameters = printed(linear, &generated.text);
     assert_eq!(generated.emitted.len(), 2);
     for (emitted, pi) in generated.emitted.iter().zip(&parameters) {
         assert_eq!(pi.len(), base, "{}", robot.name);
@@ -115,7 +148,7 @@ fn check(robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
                 ScalarType::F64 => state,
                 ScalarType::F32 => state.in_single(),
             };
-            let tau = runtime.run(Function::InverseDynamics, &state);
+            let tau = runtime.run(linear.sum, &state);
             let y = emitted.run(&state);
             let u = emitted.scalar.unit_roundoff();
             assert_eq!(y.len(), tau.len() * base);
@@ -148,7 +181,7 @@ fn torques_of_the_checked_in_robots() {
     let most = [22, 49, 600, 529, 507, 978];
     let bases = [6, 9, 36, 33, 36, 43];
     for ((name, base), most) in ROBOTS.into_iter().zip(bases).zip(most) {
-        let generated = check(&support::robot(name), None, 0);
+        let generated = check(TORQUES, &support::robot(name), None, 0);
         assert_eq!(generated.emitted[0].sizes.base, base);
         let found = generated.functions[0].counts.operations();
         assert!(found <= most, "{name}: {found}");
@@ -159,7 +192,20 @@ fn torques_of_the_checked_in_robots() {
 #[test]
 fn torques_of_other_arms() {
     for name in ["scara", "gantry", "rprpr"] {
-        check(&support::read_robot(&support::arm_file(name)), None, 0);
+        let robot = support::read_robot(&support::arm_file(name));
+        check(TORQUES, &robot, None, 0);
+        check(PASSIVITY, &robot, None, 0);
+    }
+}
+
+/// What one velocity more costs; no more columns.
+#[test]
+fn passivity_of_the_checked_in_robots() {
+    let most = [23, 51, 669];
+    for (name, most) in ["planar2r", "planar3r", "puma560"].into_iter().zip(most) {
+        let generated = check(PASSIVITY, &support::robot(name), None, 0);
+        let found = generated.functions[0].counts.operations();
+        assert!(found <= most, "{name}: {found}");
     }
 }
 
@@ -172,9 +218,11 @@ fn drives_have_columns() {
         joint.armature = Rational::new(value.into(), 10.into());
         joint.viscous = Rational::new(value.into(), 7.into());
     }
-    let generated = check(&robot, None, 3);
-    for said in ["Izz1 + m2 + armature1 |", "| armature2 |", "| viscous1 |"] {
-        assert!(generated.text.contains(said), "{said}: {}", generated.text);
+    for linear in [TORQUES, PASSIVITY] {
+        let generated = check(linear, &robot, None, 3);
+        for said in ["Izz1 + m2 + armature1 |", "| armature2 |", "| viscous1 |"] {
+            assert!(generated.text.contains(said), "{said}: {}", generated.text);
+        }
     }
 }
 
@@ -205,8 +253,21 @@ fn torques_in_scenes() {
     let still = scene(|scene| (scene.velocity_zero, scene.acceleration_zero) = (true, true));
     let robot = support::robot("puma560");
     for scene in [plane, pick, held, still] {
-        check(&robot, Some(&scene), 0);
+        check(TORQUES, &robot, Some(&scene), 0);
     }
+}
+
+/// Rates that are zero are those of the arm, not those wished for: at rest friction and
+/// inertias have columns, which torques at rest have not.
+#[test]
+fn passivity_in_scenes() {
+    let mut robot = support::robot("planar2r");
+    robot.joints[1].viscous = Rational::new(1.into(), 7.into());
+    let still = scene(|scene| (scene.velocity_zero, scene.acceleration_zero) = (true, true));
+    with_columns(TORQUES, &robot, Some(&still), 4);
+    with_columns(PASSIVITY, &robot, Some(&still), 7);
+    let pick = scene(|scene| scene.joints = Some(vec![1]));
+    check(PASSIVITY, &robot, Some(&pick), 1);
 }
 
 /// π from the combinations is the torques' π exactly, and a combination that is
@@ -215,17 +276,19 @@ fn torques_in_scenes() {
 fn wrong_combinations_are_refused() {
     let robot = support::robot("puma560");
     let setting = Setting::whole(&robot);
-    let base = setting.base().unwrap();
-    assert_eq!(prove_base(&setting, base), Ok(()));
+    let base = setting.base(TORQUES.quantity).unwrap();
+    assert_eq!(prove_base(&setting, TORQUES.regressor, base), Ok(()));
     let arm = Arm::from_robot(&robot, &mut Exact::clone);
-    let printed = &printed(&generate(&robot, None).text)[0];
+    let printed = &printed(TORQUES, &generate(TORQUES, &robot, None).text)[0];
     let values: Vec<f64> = base.values(&arm).iter().map(f64::nearest).collect();
     assert_eq!(*printed, values);
 
     let refused = |wrong: &BaseParameters, parameter: Parameter| {
         let parameter = parameter.to_string();
         let expected = Err(Disproof::Dependence { parameter });
-        assert_eq!(prove_base(&setting, wrong), expected);
+        for linear in [TORQUES, PASSIVITY] {
+            assert_eq!(prove_base(&setting, linear.regressor, wrong), expected);
+        }
     };
     for column in [0, 8, 20, 35] {
         let mut wrong = base.clone();
@@ -245,7 +308,12 @@ fn wrong_combinations_are_refused() {
 fn tolerances_are_refused() {
     let source = "\n[scene.some]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
     let reading = support::reading_with("puma560", source);
-    for function in [Function::Regressor, Function::FullRegressor] {
+    let regressors = [
+        Function::Regressor,
+        Function::FullRegressor,
+        Function::PassivityRegressor,
+    ];
+    for function in regressors {
         let request = Request {
             functions: vec![function],
             scene: reading.scenes.first().cloned(),
@@ -263,7 +331,7 @@ fn tolerances_are_refused() {
 fn the_macro_gives_both() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
     let expanded = |file: &str| {
-        let outputs = "outputs: regressor, full_regressor; scalar: f64;";
+        let outputs = "outputs: regressor, full_regressor, passivity_regressor; scalar: f64;";
         let tokens = format!("pub mod arm = \"{file}\"; {outputs}")
             .parse()
             .unwrap();
@@ -277,6 +345,7 @@ fn the_macro_gives_both() {
         "pubconstBASE_PARAMETERS:[f64;6]=".to_owned(),
         format!("pubfnregressor{arguments}->[[f64;6];2]"),
         format!("pubfnfull_regressor{arguments}->[[f64;20];2]"),
+        "pubconstPASSIVITY_PARAMETERS:[f64;6]=".to_owned(),
     ] {
         assert!(text.contains(&said), "{said}: {text}");
     }
@@ -284,6 +353,7 @@ fn the_macro_gives_both() {
     for said in [
         "compile_error",
         "pubconstBASE_PARAMETERS:&[f64]",
+        "pubconstPASSIVITY_PARAMETERS:&[f64]",
         "pubfnregressor",
     ] {
         assert!(text.contains(said), "{said}: {text}");

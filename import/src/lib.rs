@@ -6,6 +6,8 @@
 //! - `urdf`: what a URDF says, each number with its digits and its place
 //! - `problems`: what is wrong or odd, at its place in the file
 //! - `tree`: the chain, and what hangs on its links
+//! - `meant`: the angle that digits were meant to be
+//! - `lock`: joints that stay where they are
 //! - `snap`: numbers that were meant to be others: 1.57079632679 is π/2
 //! - `merge`: links that are fixed to each other, as one body
 //! - `change`: what snapping changes, bounded
@@ -38,12 +40,15 @@
 //! - a component of an axis within 1e-9 of 0, 1 or −1;
 //! - a product of inertia below 1e-9 of the largest moment: 0.
 //!
-//! What all of them together change in the torques is bounded ([`Change`]).
+//! What all of them together change in the torques and in where the hand is, is
+//! bounded ([`Change`]).
 //! [`Options::exact`] takes the digits as they stand; the reader of robot files still
 //! takes the double next to a multiple of π/2 for it.
 #![forbid(unsafe_code)]
 
 mod change;
+mod lock;
+mod meant;
 mod merge;
 mod problems;
 mod snap;
@@ -54,7 +59,7 @@ mod write;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
-pub use change::{Change, Motion};
+pub use change::{Change, Displacement, Motion};
 pub use snap::Snap;
 
 /// The largest URDF that is read, in bytes: meshes are not in it.
@@ -68,8 +73,8 @@ pub struct Options {
     /// The link whose frame is the hand; without one, the only link there is at
     /// the end of the longest chain.
     pub tip: Option<String>,
-    /// Joints that stay where they are, each with its position: a number of the
-    /// URDF's units, `pi/2` or `90deg`.
+    /// Joints that stay where they are, each with its position, within the joint's
+    /// limits: a number of the URDF's units, `pi/2` or `90deg`.
     pub lock: Vec<(String, String)>,
     /// Links to leave away, with everything that hangs on them.
     pub without: Vec<String>,

@@ -2,11 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use dalembert_model::number::parse::parse_decimal;
-use dalembert_model::number::{Angle, Snap, Snapped};
 use dalembert_model::robot::Position;
 
 use crate::Options;
+use crate::lock;
 use crate::problems::{Problems, instead};
 use crate::urdf::{Joint, Kind, Urdf};
 
@@ -187,7 +186,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         let mut good = true;
         for (name, text) in &options.lock {
             let lock = self.joint(name).and_then(|joint| {
-                let at = self.position(joint, text)?;
+                let at = lock::position(&self.urdf.joints[joint], text, self.problems)?;
                 Some((joint, at))
             });
             good &= lock.is_some();
@@ -221,32 +220,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             self.problems.error(&self.urdf.span, message, &help);
         }
         found
-    }
-
-    /// Where a joint is locked.
-    fn position(&mut self, joint: usize, text: &str) -> Option<Position> {
-        let Joint {
-            name, span, kind, ..
-        } = &self.urdf.joints[joint];
-        let number = parse_decimal(text.trim());
-        let read = match kind {
-            Kind::Fixed | Kind::Planar | Kind::Floating => {
-                let message = format!("--lock {name}: a {} joint has no position", kind.word());
-                self.problems.error(span, message, "leave it out");
-                return None;
-            }
-            Kind::Prismatic => number.map(Position::Length),
-            Kind::Revolute | Kind::Continuous => number
-                .map(Angle::Radians)
-                .or_else(|_| Angle::parse(text))
-                .map(|angle| Position::Angle(right(angle))),
-        };
-        read.map_err(|error| {
-            let message = format!("--lock {name}: `{text}` is {error}");
-            let help = "write a number in rad or m, or an angle as pi/2 or 90deg";
-            self.problems.error(span, message, help);
-        })
-        .ok()
     }
 
     /// The only link that hangs on nothing.
@@ -304,8 +277,9 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         match mimic {
             Some((other, span)) if !self.locks.contains_key(&joint) => {
                 let message = format!("joint `{name}` of the chain mimics `{other}`");
+                let at = lock::advised(&self.urdf.joints[joint]);
                 let help =
-                    format!("each joint moves by itself: add --lock {name}=0, or end before it");
+                    format!("each joint moves by itself: add --lock {name}={at}, or end before it");
                 self.problems.error(span, message, &help);
                 false
             }
@@ -450,7 +424,10 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         );
         let help = match kind {
             Kind::Planar | Kind::Floating => format!("leave its link away: --without {child}"),
-            _ => format!("add --lock {name}=0, or leave its link away: --without {child}"),
+            _ => {
+                let at = lock::advised(&self.urdf.joints[joint]);
+                format!("add --lock {name}={at}, or leave its link away: --without {child}")
+            }
         };
         self.problems.error(span, message, &help);
     }
@@ -480,15 +457,5 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         let help = "a base that stands still feels nothing of it";
         self.problems
             .note(&self.urdf.joints[first].span, message, help);
-    }
-}
-
-/// 1.5707963267948966 is what other tools print for π/2.
-fn right(angle: Angle) -> Angle {
-    let Angle::Radians(value) = angle else {
-        return angle;
-    };
-    match Snap::RightAngles.apply(value) {
-        Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
     }
 }

@@ -1,5 +1,5 @@
 //! Real URDFs: torques, gravity loads and poses are those of an independent
-//! library; with snapping they are off by no more than the bound says.
+//! library; with snapping they are off by no more than the bounds say.
 
 mod support;
 
@@ -97,6 +97,39 @@ fn snapped_torques_stay_within_the_bound() {
     }
 }
 
+/// Where the hand is, and how it is turned, over the same motion.
+#[test]
+fn snapped_hands_stay_within_the_bound() {
+    for name in NAMES {
+        let golden = golden(name);
+        let imported = imported(name, &snapped(name));
+        let runtime = Reference::<f64>::from_robot(&imported.robot);
+        let n = golden.joints.len();
+        let most = |i: usize| golden.states.iter().map(move |s| s.q[i].abs());
+        let motion = Motion {
+            position: (0..n).map(|i| most(i).fold(0.0, f64::max)).collect(),
+            velocity: Vec::new(),
+            acceleration: Vec::new(),
+        };
+        let bound = imported.change.as_ref().map(|change| change.hand(&motion));
+        let (mut far, mut turned) = (0.0f64, 0.0f64);
+        for state in &golden.states {
+            let hand = runtime.hand(&DVector::from_vec(state.q.clone())).unwrap();
+            let off = |k: &usize| hand.rows()[*k] - state.pose[*k];
+            let square = |keys: &[usize]| keys.iter().map(|k| off(k) * off(k)).sum::<f64>();
+            far = far.max(square(&[3, 7, 11]).sqrt());
+            // |R − R'| over all entries is 2√2 sin(φ/2).
+            let chord = square(&[0, 1, 2, 4, 5, 6, 8, 9, 10]).sqrt();
+            turned = turned.max(2.0 * (chord / 8.0f64.sqrt()).asin());
+        }
+        println!("{name}: off by {far:.1e} m, {turned:.1e} rad, {bound:?}");
+        let [position, angle] = bound.map_or([0.0; 2], |b| [b.position, b.angle]);
+        assert!(far <= position + 1e-13, "{name}: {far:e} > {position:e}");
+        assert!(turned <= angle + 1e-13, "{name}: {turned:e} > {angle:e}");
+        assert!(position < 1e-3 && angle < 1e-3, "{name}: {bound:?}");
+    }
+}
+
 /// One joint whose bound can be worked out by hand: a bar of 2 kg, 0.5 m from an
 /// axis that 1.5708 tilts by δ = 3.7e-6 against gravity.
 #[test]
@@ -110,6 +143,9 @@ fn the_bound_is_the_size_of_the_change() {
       </joint>
       <link name="bar"> <inertial> <origin xyz="0.5 0 0"/> <mass value="2"/>
         <inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/> </inertial> </link>
+      <joint name="grip" type="fixed">
+        <parent link="bar"/> <child link="hand"/> <origin xyz="0 0.25 0"/> </joint>
+      <link name="hand"/>
     </robot>"#;
     let imported = dalembert_import::import(source, &dalembert_import::Options::default()).unwrap();
     let change = imported.change.unwrap();
@@ -129,6 +165,11 @@ fn the_bound_is_the_size_of_the_change() {
         (most..1.5 * most).contains(&bound),
         "{bound:e} against {most:e}"
     );
+    // So is the hand, a quarter of a metre from the axis.
+    let hand = change.hand(&still);
+    assert!((delta..1.5 * delta).contains(&hand.angle), "{hand:?}");
+    let quarter = 0.25 * delta..0.25 * 1.5 * delta;
+    assert!(quarter.contains(&hand.position), "{hand:?}");
     // Relative to 10 N·m, over accelerations too: 2 kg at 0.5 m hardly feel δ.
     let part = change.of_efforts().unwrap();
     assert!((bound / 10.0..2.0 * bound).contains(&part), "{part:e}");

@@ -126,6 +126,28 @@ fn what_is_locked_moves_with_the_link() {
     assert_eq!(taken(ARM, &short).robot.joints.len(), 1);
 }
 
+/// At a limit, and next to one by digits that were meant to be it.
+#[test]
+fn limits_are_where_a_joint_can_be() {
+    let source = ARM.replace(
+        "lower=\"-1\" upper=\"2\"",
+        "lower=\"-1.5707\" upper=\"1.57079\"",
+    );
+    for at in ["pi/2", "1.5708", "90deg", "-1.5707", "0"] {
+        let options = Options {
+            lock: vec![("turn".into(), at.into())],
+            ..at_the_hand()
+        };
+        assert_eq!(taken(&source, &options).robot.joints.len(), 1, "{at}");
+    }
+    let beyond = Options {
+        lock: vec![("turn".into(), "-pi/2".into())],
+        ..at_the_hand()
+    };
+    let text = refused(&source, &beyond);
+    assert!(text.contains("limits are -1.5707 to 1.57079"), "{text}");
+}
+
 #[test]
 fn refusals_name_the_joint_and_the_way_out() {
     let hand = at_the_hand();
@@ -155,6 +177,10 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.into(), with(|o| { o.base = Some("thumb".into()); o.without.clear(); }), &["link `hand` does not hang on link `thumb`"]),
         (ARM.into(), with(|o| o.lock = vec![("fingr".into(), "0".into())]), &["--lock: there is no joint `fingr`", "did you mean `finger`?"]),
         (ARM.into(), with(|o| o.lock = vec![("finger".into(), "90deg".into())]), &["--lock finger: `90deg` is not"]),
+        (ARM.into(), with(|o| o.lock = vec![("turn".into(), "90".into())]), &["arm.urdf:11:19", "--lock turn=90: the joint's limits are -1 to 2", "degrees are written as 90deg"]),
+        (ARM.into(), with(|o| o.lock = vec![("turn".into(), "-90deg".into())]), &["--lock turn=-90deg: the joint's limits are -1 to 2", "lock it where it can be"]),
+        (ARM.into(), with(|o| o.lock = vec![("reach".into(), "0.41".into())]), &["arm.urdf:20:19", "--lock reach=0.41: the joint's limits are 0 to 0.4"]),
+        (ARM.replacen("<limit effort=\"1\"", "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"", 1), open.clone(), &["add --lock finger=0.01, or"]),
         (ARM.into(), with(|o| o.lock = vec![("stand".into(), "0".into())]), &["a fixed joint has no position"]),
         (ARM.into(), with(|o| o.without = vec!["lower".into()]), &["--without lower: the chain passes through it"]),
         (ARM.replace("<mass value=\"2\"/>", ""), hand.clone(), &["arm.urdf:15:5", "the inertial of link `upper` has no <mass>"]),

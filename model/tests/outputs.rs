@@ -15,7 +15,7 @@ use equations_support::random::{Case, case, kinds, pair, pose};
 
 /// Every function with its arguments, and its results' axes for six joints and
 /// 36 base parameters.
-const GOLDEN: [&str; 23] = [
+const GOLDEN: [&str; 24] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -39,6 +39,7 @@ const GOLDEN: [&str; 23] = [
     "forward_dynamics_derivatives(q, qd, tau) -> dqdd_dq[6][6] dqdd_dqd[6][6] dqdd_dtau[6][6]",
     "regressor(q, qd, qdd) -> y[6][36]",
     "full_regressor(q, qd, qdd) -> y[6][60]",
+    "passivity_regressor(q, qd, v, a) -> y[6][36]",
 ];
 
 #[test]
@@ -163,28 +164,44 @@ fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
     columns
 }
 
-/// τ = Y π with π of the links, and what the drives add.
+/// τ = Y π and D a + C v + c + b∘v = Y π with π of the links, and what the drives add.
 #[test]
 fn regressors_give_the_torques() {
+    let mut points = Points::new(0x7265);
+    let (exact, recursion) = (Formulation::LagrangeEuler, Formulation::NewtonEulerLink);
     for case in cases() {
         let Case { arm, at, qd, qdd } = &case;
-        let n = arm.links.len();
-        let tau = Formulation::LagrangeEuler.inverse_dynamics(arm, at, qd, qdd);
-        let y = Formulation::NewtonEulerLink.regressor(arm, at, qd, qdd, &of_links(n));
-        let links = arm.links.iter();
-        let pi: Vec<Field> = links
-            .flat_map(|link| LinkParameter::ALL.map(|parameter| parameter.of(link)))
-            .collect();
-        for i in 0..n {
-            let products = y[i].iter().zip(&pi).map(|(y, pi)| y.mul(pi));
-            let links = products.fold(Field::ZERO, |sum, x| sum.add(&x));
-            let link = &arm.links[i];
-            let drive = link.viscous.mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
-            assert_eq!(links.add(&drive), tau[i]);
-        }
+        let columns = of_links(arm.links.len());
+        let tau = exact.inverse_dynamics(arm, at, qd, qdd);
+        let y = recursion.regressor(arm, at, qd, qdd, &columns);
+        assert_eq!(products(arm, &y, [qd, qdd]), tau);
+        let mut wished = || -> Vec<Field> { qd.iter().map(|_| points.field()).collect() };
+        let (v, a) = (wished(), wished());
+        let tau = exact.passivity(arm, at, qd, [&v, &a]);
+        let y = recursion.passivity_regressor(arm, at, qd, [&v, &a], &columns);
+        assert_eq!(products(arm, &y, [&v, &a]), tau);
     }
 }
 
+/// Y π of the links, and what friction and rotors take at these rates.
+fn products(
+    arm: &Arm<Field>,
+    y: &[Vec<Field>],
+    [rates, accelerations]: [&[Field]; 2],
+) -> Vec<Field> {
+    let links = arm.links.iter();
+    let pi: Vec<Field> = links
+        .flat_map(|link| LinkParameter::ALL.map(|parameter| parameter.of(link)))
+        .collect();
+    let sum = |(i, row): (usize, &Vec<Field>)| {
+        let products = row.iter().zip(&pi).map(|(y, pi)| y.mul(pi));
+        let links = products.fold(Field::ZERO, |sum, x| sum.add(&x));
+        let link = &arm.links[i];
+        let friction = link.viscous.mul(&rates[i]);
+        links.add(&friction.add(&link.armature.mul(&accelerations[i])))
+    };
+    y.iter().enumerate().map(sum).collect()
+}
 /// The arm and its position as they change at the case's velocities.
 fn moving(case: &Case) -> (Arm<Dual<Field>>, Vec<DhVariables<Dual<Field>>>) {
     let links = case.arm.links.iter().zip(&case.at).zip(&case.qd);

@@ -17,18 +17,17 @@ use crate::scene::base::{BaseParameters, Parameter};
 pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
     let mut lines = match function.columns() {
         Columns::None => return Vec::new(),
-        Columns::Links | Columns::Base => vec![String::new()],
+        Columns::Links | Columns::Base(_) => vec![String::new()],
     };
     let named = [
         "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to",
         "Ixz2 the entries of its tensor, all about the origin and in the axes of its DH frame.",
     ];
-    match (function.columns(), setting.base()) {
-        (Columns::Base, Ok(base)) => {
-            lines.push(
-                "τ = Y π, and `BASE_PARAMETERS` is this robot's π. No fewer columns give all"
-                    .into(),
-            );
+    match over_base(function, setting) {
+        Some(((sum, constant), base)) => {
+            lines.push(format!(
+                "{sum} = Y π, and `{constant}` is this robot's π. No fewer columns give all"
+            ));
             lines.push(
                 "torques; that these do was proved. Each is a combination of parameters:".into(),
             );
@@ -45,7 +44,7 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
                 lines.push("columns where the robot file has them.".into());
             }
         }
-        _ => {
+        None => {
             lines.push(
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of"
                     .into(),
@@ -60,7 +59,7 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
 /// The constant π; nothing of functions that are over no base parameters.
 pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType) -> String {
     let mut text = String::new();
-    let (Columns::Base, Ok(base)) = (function.columns(), setting.base()) else {
+    let Some(((_, name), base)) = over_base(function, setting) else {
         return text;
     };
     let arm = Arm::from_robot(setting.robot(), &mut Exact::clone);
@@ -69,7 +68,7 @@ pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType
     let _ = writeln!(
         text,
         "/// π of this robot: the values of the base parameters, a column of [`{function}`] each.\n\
-         pub const BASE_PARAMETERS: [{scalar}; {}] = [",
+         pub const {name}: [{scalar}; {}] = [",
         values.len()
     );
     for value in &values {
@@ -77,6 +76,18 @@ pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType
     }
     text.push_str("];\n\n");
     text
+}
+
+/// If a function is over base parameters: what its columns sum up to, the constant
+/// for their values, and what they are.
+fn over_base(
+    function: Function,
+    setting: &Setting,
+) -> Option<((&'static str, &'static str), &BaseParameters)> {
+    let Columns::Base(quantity) = function.columns() else {
+        return None;
+    };
+    Some((quantity.linear()?, setting.base(quantity).ok()?))
 }
 
 fn has_drives(base: &BaseParameters) -> bool {

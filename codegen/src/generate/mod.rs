@@ -189,7 +189,7 @@ fn one(
     request: &Request,
 ) -> Result<GeneratedFunction, GenerateError> {
     let base = match function.columns() {
-        Columns::Base => Some(setting.base()),
+        Columns::Base(quantity) => Some(setting.base(quantity)),
         Columns::Links | Columns::None => None,
     };
     let base = base.transpose();
@@ -199,7 +199,8 @@ fn one(
         return Err(GenerateError::TooLarge { function, outputs });
     }
     if let Some(base) = base {
-        prove_base(setting, base).map_err(|why| GenerateError::Disproved(function, why))?;
+        prove_base(setting, function, base)
+            .map_err(|why| GenerateError::Disproved(function, why))?;
     }
     if function.inverts_inertia()
         && let Some(joint) = without_inertia(setting, function)

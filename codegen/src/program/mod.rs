@@ -189,7 +189,7 @@ impl Program {
     pub fn sizes(&self) -> Sizes {
         let rows = self.rows.len();
         let base = match self.function.columns() {
-            Columns::Base => self.outputs.len() / rows.max(1),
+            Columns::Base(_) => self.outputs.len() / rows.max(1),
             Columns::None | Columns::Links => 0,
         };
         Sizes {

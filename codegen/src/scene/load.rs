@@ -15,6 +15,7 @@ use dalembert_model::scalar::Scalar;
 
 use super::Setting;
 use super::base::{BaseParameters, NoBase, Parameter};
+use crate::function::Quantity;
 
 /// The regrouped parameters of an arm with a payload.
 #[derive(Clone, Debug)]
@@ -36,7 +37,7 @@ impl LoadParameters {
     /// # Errors
     /// Why the parameters cannot be written down.
     pub(super) fn of(setting: &Setting) -> Result<LoadParameters, NoBase> {
-        let base = BaseParameters::of(&setting.in_full_motion())?;
+        let base = BaseParameters::of(&setting.in_full_motion(), Quantity::BaseRegressor)?;
         let arm = Arm::from_robot(setting.robot(), &mut Exact::clone);
         let last = arm.links.len().saturating_sub(1);
         let (mut loads, mut fixed) = (Vec::new(), Vec::new());

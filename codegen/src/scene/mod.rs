@@ -60,11 +60,14 @@ pub struct Setting {
     locks: Vec<Option<JointPosition<Exact>>>,
     /// What functions take as arguments that are constants otherwise.
     parameters: Vec<RuntimeParameter>,
-    /// Found where a function is over them.
-    base: OnceLock<Result<BaseParameters, NoBase>>,
+    /// Found where a quantity is over them.
+    base: Bases,
     /// Found where a payload is an argument.
     load: OnceLock<Result<LoadParameters, NoBase>>,
 }
+
+/// The base parameters, an entry a quantity: there where one is over them.
+type Bases = [OnceLock<Result<BaseParameters, NoBase>>; Quantity::ALL.len()];
 
 /// Why there is no such setting.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,7 +104,7 @@ impl Setting {
             joints,
             locks: vec![None; n],
             parameters: Vec::new(),
-            base: OnceLock::new(),
+            base: no_bases(),
             load: OnceLock::new(),
         }
     }
@@ -130,7 +133,7 @@ impl Setting {
             rows,
             locks,
             parameters: Vec::new(),
-            base: OnceLock::new(),
+            base: no_bases(),
             load: OnceLock::new(),
         })
     }
@@ -151,7 +154,7 @@ impl Setting {
     pub fn taking(self, parameters: &[RuntimeParameter]) -> Setting {
         Setting {
             parameters: parameters.to_vec(),
-            base: OnceLock::new(),
+            base: no_bases(),
             load: OnceLock::new(),
             ..self
         }
@@ -287,12 +290,14 @@ impl Setting {
         motion
     }
 
-    /// The base parameters.
+    /// The base parameters that a quantity is over, which are those of its own
+    /// equation: where a scene has rates that are zero, one may feel what another
+    /// does not. None of other quantities.
     ///
     /// # Errors
     /// Why there are none that could be written down.
-    pub fn base(&self) -> Result<&BaseParameters, NoBase> {
-        let found = self.base.get_or_init(|| BaseParameters::of(self));
+    pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, NoBase> {
+        let found = self.base[quantity as usize].get_or_init(|| BaseParameters::of(self, quantity));
         found.as_ref().map_err(|why| *why)
     }
 
@@ -315,8 +320,8 @@ impl Setting {
         match function.columns() {
             Columns::None => Vec::new(),
             Columns::Links => of_links(self.joints.len()),
-            Columns::Base => {
-                let columns = self.base().map_or(&[][..], |base| &base.columns);
+            Columns::Base(quantity) => {
+                let columns = self.base(quantity).map_or(&[][..], |base| &base.columns);
                 columns.iter().map(|c| c.map(&mut constant)).collect()
             }
         }
@@ -326,11 +331,16 @@ impl Setting {
     pub fn sizes(&self, function: Function) -> Sizes {
         let is_loaded =
             function == Function::Load || self.takes(function, RuntimeParameter::Payload);
-        self.sizes_of(function.columns() == Columns::Base, is_loaded)
+        let over_base = match function.columns() {
+            Columns::Base(quantity) => Some(quantity),
+            Columns::Links | Columns::None => None,
+        };
+        self.sizes_of(over_base, is_loaded)
     }
 
-    fn sizes_of(&self, is_over_base: bool, is_loaded: bool) -> Sizes {
-        let base = is_over_base.then(|| self.base().ok()).flatten();
+    /// With a quantity that is over base parameters, if there is one.
+    fn sizes_of(&self, over_base: Option<Quantity>, is_loaded: bool) -> Sizes {
+        let base = over_base.and_then(|quantity| self.base(quantity).ok());
         let is_loaded = is_loaded && self.has(RuntimeParameter::Payload);
         let load = is_loaded.then(|| self.load().ok()).flatten();
         Sizes {
@@ -375,7 +385,8 @@ impl Setting {
         let place = |row: &usize| joints.iter().position(|joint| joint == row);
         let places: Vec<usize> = self.rows.iter().filter_map(place).collect();
         let shape = quantity.shape();
-        let sizes = self.sizes_of(shape.is_over_base(), shape.0.contains(&Axis::Load));
+        let over_base = shape.is_over_base().then_some(quantity);
+        let sizes = self.sizes_of(over_base, shape.0.contains(&Axis::Load));
         let entry = |index: usize| {
             let axes = shape.0.iter().zip(shape.places(index, sizes));
             // The place of the entry among those over all joints.
@@ -387,6 +398,10 @@ impl Setting {
         };
         (0..shape.len(sizes)).map(entry).collect()
     }
+}
+
+fn no_bases() -> Bases {
+    [const { OnceLock::new() }; Quantity::ALL.len()]
 }
 
 fn position(at: &Position) -> JointPosition<Exact> {

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use dalembert_model::equations::regressor::{Column, of_drives, of_links};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
-use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::Divide;
 
 use super::challenge::{Point, Transcript};
 use super::exact::{Disproof, MAX_DRAWS, PRIMES, WRITTEN_LIMIT};
@@ -29,17 +29,22 @@ use crate::program::Input;
 use crate::scene::Setting;
 use crate::scene::base::{BaseParameters, Parameter};
 
-/// Proves the base parameters of a setting.
+/// Proves the base parameters of a setting that a function is over.
 ///
 /// # Errors
 /// A parameter whose torques they do not give, or too large a chance of a miss.
-pub fn prove_base(setting: &Setting, base: &BaseParameters) -> Result<(), Disproof> {
+pub fn prove_base(
+    setting: &Setting,
+    function: Function,
+    base: &BaseParameters,
+) -> Result<(), Disproof> {
     let formulation = match setting.joints().len() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
         false => Formulation::NewtonEulerLink,
     };
     let statement = Statement {
         setting,
+        function,
         base,
         formulation,
     };
@@ -65,6 +70,7 @@ pub fn prove_base(setting: &Setting, base: &BaseParameters) -> Result<(), Dispro
 
 struct Statement<'a> {
     setting: &'a Setting,
+    function: Function,
     base: &'a BaseParameters,
     formulation: Formulation,
 }
@@ -73,6 +79,7 @@ impl Statement<'_> {
     fn transcript(&self) -> Transcript {
         let mut transcript = Transcript::new("base parameters");
         transcript.setting(self.setting);
+        transcript.text(self.function.name());
         transcript.number(self.base.columns.len());
         for (column, terms) in self.base.columns.iter().zip(&self.base.combinations) {
             let place = match column {
@@ -109,7 +116,7 @@ impl Statement<'_> {
     }
 
     /// Y_full − Y B over the rows, row by row; `None` if a constant has no value.
-    fn differences<S: Scalar>(
+    fn differences<S: Divide>(
         &self,
         input: impl FnMut(Input) -> S,
         constant: impl Fn(&Exact) -> Option<S>,
@@ -123,17 +130,20 @@ impl Statement<'_> {
         };
         let setting = self.setting;
         let arm = Arm::from_robot(setting.robot(), &mut { constant });
-        let posed = setting.posed(Function::Regressor, arm, input, constant);
+        let posed = setting.posed(self.function, arm, input, constant);
         let (arm, motion) = (&posed.arm, &posed.motion);
-        let at = arm.at(&motion.q);
         let by = |columns: &[Column<S>]| {
-            self.formulation
-                .regressor(arm, &at, &motion.qd, &motion.qdd, columns)
+            let entries = self
+                .function
+                .evaluate(self.formulation, arm, motion, columns);
+            let rows = entries.chunks(columns.len().max(1));
+            rows.map(<[S]>::to_vec).collect::<Vec<_>>()
         };
         let mut all = of_links(setting.joints().len());
         all.extend(of_drives(setting.robot()));
         let whole = by(&all);
-        let own = by(&posed.columns);
+        let own: Vec<Column<S>> = self.base.columns.iter().map(|c| c.map(constant)).collect();
+        let own = by(&own);
         // Each base parameter's terms: the place of a parameter, and its factor.
         let places: BTreeMap<Parameter, usize> = (self.parameters().into_iter())
             .enumerate()

@@ -1,18 +1,23 @@
 //! A PUMA 560 held on a trajectory by its inverse dynamics.
 //!
 //! - [`control`]: gravity compensation and computed torque, from the model
-//! - [`plant`]: the arm that is moved, with or without a payload
+//! - [`plant`]: the arm that is moved, with or without a payload, by the forward
+//!   dynamics generated from its own robot file
 //! - [`trajectory`]: where it should be
 //! - [`simulate`]: the three together, at 1 kHz
+//! - [`chart`]: what came of it
 //!
 //! The controller knows the arm without payload. Its tracking error is tiny
 //! if that is the arm, and not if the hand holds as little as 50 g: so the
 //! check of the error can fail.
+#![forbid(unsafe_code)]
 
+pub mod chart;
 pub mod control;
 pub mod plant;
 pub mod trajectory;
 
+use example_shared::integrate::{distance, largest};
 use plant::{Plant, State};
 
 dalembert::dynamics! {
@@ -20,7 +25,7 @@ dalembert::dynamics! {
     // Its table leaves out moments that no torque depends on, which warns.
     #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
-    outputs: inverse_dynamics, manipulator_equation;
+    outputs: inverse_dynamics, forward_dynamics;
     scalar: f64;
 }
 
@@ -29,7 +34,7 @@ dalembert::dynamics! {
     // Its table leaves out moments that no torque depends on, which warns.
     #[allow(deprecated)]
     pub mod loaded = "robots/loaded.toml";
-    outputs: manipulator_equation;
+    outputs: forward_dynamics;
     scalar: f64;
 }
 
@@ -40,45 +45,49 @@ pub type Joints = [f64; puma560::N];
 pub const PERIOD: f64 = 1e-3;
 
 /// How far the arm was from where it should be.
-#[derive(Clone, Copy, Debug)]
-pub struct Errors {
+#[derive(Clone, Debug)]
+pub struct Run {
     /// Largest distance of a joint while gravity compensation held it, rad.
     pub holding: f64,
+    /// Largest distance of a joint at each period while it followed the
+    /// trajectory: s, rad.
+    pub tracking: Vec<[f64; 2]>,
+}
+
+impl Run {
     /// Largest distance of a joint while it followed the trajectory, rad.
-    pub tracking: f64,
+    pub fn tracking(&self) -> f64 {
+        largest(self.tracking.iter().map(|[_, distance]| *distance))
+    }
 }
 
 /// Holds the arm for `hold` seconds, then moves it for `motion` seconds.
-pub fn simulate(plant: Plant, hold: f64, motion: f64) -> Errors {
+pub fn simulate(plant: Plant, hold: f64, motion: f64) -> Run {
     let start = trajectory::at(0.0);
     let mut state = State {
         q: start.q,
         qd: [0.0; puma560::N],
     };
-    let mut errors = Errors {
+    let mut run = Run {
         holding: 0.0,
-        tracking: 0.0,
+        tracking: Vec::new(),
     };
     for _ in 0..steps(hold) {
         let tau = control::hold(&state, &start.q);
         state = plant.step(&state, &tau, PERIOD);
-        errors.holding = errors.holding.max(distance(&state.q, &start.q));
+        run.holding = largest([run.holding, distance(&state.q, &start.q)].into_iter());
     }
     for step in 0..steps(motion) {
         let time = step as f64 * PERIOD;
         let tau = control::computed_torque(&state, &trajectory::at(time));
         state = plant.step(&state, &tau, PERIOD);
         let target = trajectory::at(time + PERIOD);
-        errors.tracking = errors.tracking.max(distance(&state.q, &target.q));
+        let error = distance(&state.q, &target.q);
+        run.tracking.push([time + PERIOD, error]);
     }
-    errors
+    run
 }
 
 fn steps(duration: f64) -> u32 {
     (duration / PERIOD).round() as u32
-}
-
-fn distance(left: &Joints, right: &Joints) -> f64 {
-    let differences = left.iter().zip(right).map(|(l, r)| (l - r).abs());
-    differences.fold(0.0, f64::max)
 }

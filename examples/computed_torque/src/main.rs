@@ -12,12 +12,12 @@ const TOLERANCE: f64 = 1e-4;
 fn main() -> ExitCode {
     let mut good = true;
     for (plant, known) in [(Plant::Nominal, true), (Plant::Loaded, false)] {
-        let errors = simulate(plant, 0.5, 4.0);
-        let held = errors.tracking < TOLERANCE;
+        let run = simulate(plant, 0.5, 4.0);
+        let held = run.tracking() < TOLERANCE;
         println!(
             "{plant:?}: holding {:.1e} rad, tracking {:.1e} rad, {}",
-            errors.holding,
-            errors.tracking,
+            run.holding,
+            run.tracking(),
             if held { "held" } else { "not held" }
         );
         good &= held == known;

@@ -29,7 +29,7 @@ pub fn at(time: f64) -> Target {
     };
     for i in 0..puma560::N {
         let (half, frequency) = (SWING[i] / 2.0, FREQUENCY[i]);
-        let (sin, cos) = (frequency * time).sin_cos();
+        let (sin, cos) = libm::sincos(frequency * time);
         target.q[i] += half * (1.0 - cos);
         target.qd[i] = half * frequency * sin;
         target.qdd[i] = half * frequency * frequency * cos;

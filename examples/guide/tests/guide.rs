@@ -1,5 +1,5 @@
-//! Every block of Rust in the guide is a piece of this crate, and the crate does what
-//! the guide says.
+//! Every block of Rust in the guide is a piece of this crate or another example, and the
+//! crate does what the guide says.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,8 +26,10 @@ fn the_code_of_the_guide_is_this_crate() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let sources = files(&here.join("src"), "rs").into_iter();
     let mut sources: Vec<String> = sources.map(|f| fs::read_to_string(f).unwrap()).collect();
-    let manifest = fs::read_to_string(here.join("../bare_metal/src/main.rs")).unwrap();
-    sources.push(manifest);
+    for example in ["adaptive_control", "bare_metal", "swing_up"] {
+        let others = files(&here.join("..").join(example).join("src"), "rs").into_iter();
+        sources.extend(others.map(|f| fs::read_to_string(f).unwrap()));
+    }
     let script = fs::read_to_string(here.join("../with_build_script/build.rs")).unwrap();
     sources.push(script);
     let mut blocks = 0;

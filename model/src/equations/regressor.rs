@@ -153,6 +153,20 @@ impl Formulation {
             self.inverse_dynamics(arm, at, qd, qdd)
         })
     }
+
+    /// The same of D a + C v + c + b∘v.
+    pub fn passivity_regressor<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        [v, a]: [&[S]; 2],
+        columns: &[Column<S>],
+    ) -> Vec<Vec<S>> {
+        differences(arm, columns, v, a, |arm| {
+            self.passivity(arm, at, qd, [v, a])
+        })
+    }
 }
 
 /// The columns of a regressor from the torques of arms at one motion.

@@ -30,8 +30,8 @@ pub enum Columns {
     None,
     /// Every inertial parameter of every link.
     Links,
-    /// The base parameters.
-    Base,
+    /// The base parameters of this result.
+    Base(Quantity),
 }
 
 impl Function {
@@ -100,14 +100,14 @@ impl Function {
 
     /// The columns of a regressor that a result is over.
     pub fn columns(self) -> Columns {
-        let has = |axis| {
+        let over = |axis| {
             let mut results = self.quantities().iter();
-            results.any(|quantity| quantity.shape().0.contains(&axis))
+            results.find(|quantity| quantity.shape().0.contains(&axis))
         };
-        match (has(Axis::LinkParameters), has(Axis::BaseParameters)) {
-            (_, true) => Columns::Base,
-            (true, false) => Columns::Links,
-            (false, false) => Columns::None,
+        match (over(Axis::BaseParameters), over(Axis::LinkParameters)) {
+            (Some(&quantity), _) => Columns::Base(quantity),
+            (None, Some(_)) => Columns::Links,
+            (None, None) => Columns::None,
         }
     }
 

@@ -44,6 +44,7 @@ mod load;
 mod manipulator_equation;
 mod momentum;
 mod passivity;
+mod passivity_regressor;
 mod potential_energy;
 mod reaction_wrenches;
 mod regressor;
@@ -108,6 +109,8 @@ registry! {
     regressor: Regressor { BaseRegressor }
     /// Y over all inertial parameters of all links.
     full_regressor: FullRegressor { LinkRegressor }
+    /// Y over the base parameters: D a + C v + c + b∘v = Y π.
+    passivity_regressor: PassivityRegressor { PassivityRegressor }
 
     ; beside them:
 

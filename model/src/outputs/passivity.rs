@@ -18,6 +18,14 @@ pub(super) const FUNCTION: Definition = Definition {
     by_default: false,
 };
 
+/// What it and its regressor depend on.
+pub(super) const ARGUMENTS: &[Argument] = &[
+    Argument::Position,
+    Argument::Velocity,
+    Argument::ReferenceVelocity,
+    Argument::ReferenceAcceleration,
+];
+
 /// (D a + C v + c + b∘v)_i
 pub(super) struct Passivity;
 
@@ -27,12 +35,7 @@ impl Formula for Passivity {
         letter: "τ",
         symbol: "D a + C v + c + b∘v",
         summary: "Torques D a + C v + c + b∘v.",
-        arguments: &[
-            Argument::Position,
-            Argument::Velocity,
-            Argument::ReferenceVelocity,
-            Argument::ReferenceAcceleration,
-        ],
+        arguments: ARGUMENTS,
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,

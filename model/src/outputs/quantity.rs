@@ -25,6 +25,9 @@ pub(super) struct Facts {
     pub arguments: &'static [Argument],
     /// How its numbers are arranged.
     pub shape: Shape,
+    /// Of what is over base parameters: what it gives with their values, and the
+    /// constant of generated code that has these.
+    pub linear: Option<(&'static str, &'static str)>,
     /// The unit of an entry, given its place along each axis.
     pub unit: fn(&[Index]) -> &'static str,
     /// What an error is held against where actuators are the measure.
@@ -61,6 +64,7 @@ impl Facts {
         summary: "",
         arguments: &[],
         shape: Shape::SCALAR,
+        linear: None,
         unit: |_| "",
         scale: ErrorScale::None,
         given: None,
@@ -117,6 +121,12 @@ impl Quantity {
     /// How its numbers are arranged.
     pub fn shape(self) -> Shape {
         self.facts().shape
+    }
+
+    /// If it is over base parameters: what it gives with their values, and the
+    /// constant of generated code that has these.
+    pub fn linear(self) -> Option<(&'static str, &'static str)> {
+        self.facts().linear
     }
 
     /// How many numbers it has.

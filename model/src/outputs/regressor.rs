@@ -28,6 +28,7 @@ impl Formula for BaseRegressor {
         summary: "Regressor Y over the base parameters.",
         arguments: &MOTION,
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
+        linear: Some(("τ", "BASE_PARAMETERS")),
         unit: |_| "",
         choices: CHOICES,
         // What it shares with what the chain formulas give saves a few.

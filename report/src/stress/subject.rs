@@ -72,7 +72,9 @@ impl Code {
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<f64>> {
         match self {
             // Which parameters are base parameters, the runtime does not know.
-            Code::Double(_) | Code::Single(_) if function.columns() == Columns::Base => None,
+            Code::Double(_) | Code::Single(_) if matches!(function.columns(), Columns::Base(_)) => {
+                None
+            }
             Code::Double(runtime) => run(runtime, function, state, |x| x, |x| x).ok(),
             Code::Single(runtime) => run(runtime, function, state, |x| x as f32, f64::from).ok(),
             Code::Emitted(functions) => {

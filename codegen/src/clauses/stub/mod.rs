@@ -14,7 +14,7 @@ mod entries;
 use crate::backend::Entries;
 use crate::clauses::invocation::Invocation;
 use crate::emit::module;
-use crate::function::{Argument, Columns, Function, Quantity};
+use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
 
@@ -52,8 +52,9 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
             text += &self::function(function, &given, joints, scalar);
             text += &entries::write(function, &given, joints, scalar, invocation.entries);
         }
-        if functions.iter().any(|f| f.columns() == Columns::Base) {
-            let _ = writeln!(text, "pub const BASE_PARAMETERS: &[{scalar}] = &[];");
+        let results = functions.iter().flat_map(|f| f.quantities());
+        for (_, constant) in results.filter_map(|quantity| quantity.linear()) {
+            let _ = writeln!(text, "pub const {constant}: &[{scalar}] = &[];");
         }
         text += &state_box(&bounded(invocation, functions), joints, scalar);
         text += "}\n";

@@ -5,9 +5,10 @@ use std::cell::{Cell, RefCell};
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::{Angle, Exact, Rational};
-use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::outputs::{RuntimeParameter, Written};
 use dalembert_model::scalar::field::{Field, Points};
 
+use crate::function::Quantity;
 use crate::program::Input;
 use crate::scene::Setting;
 
@@ -16,7 +17,11 @@ const SEED: u64 = 0x6261_7365;
 
 /// Columns modulo the prime, each over the rows of so many random states that
 /// every dependence that is none shows; `None` if a constant has no value.
-pub(super) fn values(setting: &Setting, columns: &[Column<Exact>]) -> Option<Vec<Vec<Field>>> {
+pub(super) fn values(
+    setting: &Setting,
+    quantity: Quantity,
+    columns: &[Column<Exact>],
+) -> Option<Vec<Vec<Field>>> {
     let points = RefCell::new(Points::new(SEED));
     let circle = || {
         let (sin, cos) = points.borrow_mut().circle();
@@ -57,10 +62,16 @@ pub(super) fn values(setting: &Setting, columns: &[Column<Exact>]) -> Option<Vec
             true => (arm.clone()).with_gravity(&[(); 3].map(|()| points.borrow_mut().field())),
             false => arm.clone(),
         };
-        let (at, recursion) = (arm.at(&motion.q), Formulation::NewtonEulerLink);
-        let rows = recursion.regressor(&arm, &at, &motion.qd, &motion.qdd, &columns);
+        let entries = quantity.written(&Written {
+            formulation: Formulation::NewtonEulerLink,
+            arm: &arm,
+            at: &arm.at(&motion.q),
+            motion: &motion,
+            columns: &columns,
+        });
+        let rows: Vec<&[Field]> = entries.chunks(columns.len().max(1)).collect();
         for &row in setting.rows() {
-            for (column, entry) in found.iter_mut().zip(&rows[row]) {
+            for (column, entry) in found.iter_mut().zip(rows[row]) {
                 column.push(*entry);
             }
         }

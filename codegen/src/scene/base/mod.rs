@@ -1,5 +1,6 @@
 //! The base parameters of a setting: the fewest combinations of inertial
-//! parameters, and of what the drives have, that give every torque asked for.
+//! parameters, and of what the drives have, that give every torque asked for, be it
+//! that of inverse dynamics or another that is linear in them.
 //!
 //! What can move from a link to the one before without any torque noticing is
 //! known in closed form ([`dalembert_model::equations::chain::regrouping`]). From
@@ -32,6 +33,7 @@ use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
 use super::Setting;
+use crate::function::Quantity;
 use columns::values;
 use elimination::{fraction, reduced};
 use moments::{MAX_TERMS, Moment, kept, parts};
@@ -108,8 +110,8 @@ impl fmt::Display for NoBase {
 }
 
 impl BaseParameters {
-    /// Of a setting.
-    pub(super) fn of(setting: &Setting) -> Result<BaseParameters, NoBase> {
+    /// Of a setting, for a quantity that is over them.
+    pub(super) fn of(setting: &Setting, quantity: Quantity) -> Result<BaseParameters, NoBase> {
         let robot = setting.robot();
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
@@ -136,7 +138,7 @@ impl BaseParameters {
         let drives: Vec<Column<Exact>> = of_drives(robot);
         candidates.extend(drives.iter().cloned());
 
-        let columns = values(setting, &candidates).ok_or(NoBase::Unfit)?;
+        let columns = values(setting, quantity, &candidates).ok_or(NoBase::Unfit)?;
         let reduced = reduced(columns);
         let mut base = BaseParameters {
             columns: reduced

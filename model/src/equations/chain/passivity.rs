@@ -89,6 +89,22 @@ impl<S: Scalar> Mixed<S> {
 impl<S: Scalar> Chain<S> {
     /// D a + C v + c + b∘v, length n.
     pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
+        let motions = self.mixed_motions(at, qd, [v, a]);
+        let drive = |i: usize| {
+            let link = &self.links[i];
+            plus(&times(&link.armature, &a[i]), &times(&link.viscous, &v[i]))
+        };
+        self.torques(at, &motions, MomentForm::SecondMoments, drive)
+    }
+
+    /// How the links move with both velocities at once: U and v̇, bilinear in
+    /// them. Wrenches are linear in these, whatever the body.
+    pub(super) fn mixed_motions(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        [v, a]: [&[S]; 2],
+    ) -> Vec<Motion<S>> {
         let halves: Vec<S> = v.iter().map(halved).collect();
         let [rates, halves, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
         let mut before = Mixed::base(&self.gravity);
@@ -97,10 +113,6 @@ impl<S: Scalar> Chain<S> {
             before = before.next(link, &at[i], [&rates[i], &halves[i], &accelerations[i]]);
             motions.push(before.motion.clone());
         }
-        let drive = |i: usize| {
-            let link = &self.links[i];
-            plus(&times(&link.armature, &a[i]), &times(&link.viscous, &v[i]))
-        };
-        self.torques(at, &motions, MomentForm::SecondMoments, drive)
+        motions
     }
 }

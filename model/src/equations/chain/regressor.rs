@@ -1,5 +1,6 @@
 //! The columns of a regressor: what bodies that are fixed to the links take of
-//! torque, each by itself, at one motion.
+//! torque, each by itself, at one motion; of the torques of a passivity-based
+//! controller the same, at a motion with two velocities.
 //!
 //! ω, ω̇, U and v̇ of a link are the same for whatever is fixed to it, and so are
 //! the joints' twists Δ_k seen from its frame. With F = m v̇ + U s and
@@ -15,7 +16,7 @@ use alloc::vec::Vec;
 
 use super::composite::CompositeOrder;
 use super::probe::Probed;
-use super::recursion::{AccelerationForm, MomentForm};
+use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Chain, ChainLink, Displacement, unit_z};
 use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
@@ -40,6 +41,30 @@ impl<S: Scalar> Chain<S> {
         travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
         let motions = self.motions(at, qd, qdd, AccelerationForm::Column);
+        self.powers(at, &motions, [qd, qdd], travel)
+    }
+
+    /// The same of D a + C v + c + b∘v.
+    pub fn passivity_regressor(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        [v, a]: [&[S]; 2],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
+        let motions = self.mixed_motions(at, qd, [v, a]);
+        self.powers(at, &motions, [v, a], travel)
+    }
+
+    /// The powers of the probes' wrenches, at the motions of the links and with
+    /// what friction and rotors multiply.
+    fn powers(
+        &self,
+        at: &[Displacement<S>],
+        motions: &[Motion<S>],
+        [rates, accelerations]: [&[S]; 2],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
         let n = self.links.len();
         let mut rows: Vec<Vec<S>> = (0..n).map(|_| zeros(self.columns)).collect();
         // The joints' twists up to the link's own, seen from its frame.
@@ -58,11 +83,11 @@ impl<S: Scalar> Chain<S> {
             for probe in &link.probes {
                 let body = match &probe.of {
                     Probed::Armature => {
-                        rows[i][probe.column] = qdd[i].clone();
+                        rows[i][probe.column] = accelerations[i].clone();
                         continue;
                     }
                     Probed::Viscous => {
-                        rows[i][probe.column] = qd[i].clone();
+                        rows[i][probe.column] = rates[i].clone();
                         continue;
                     }
                     Probed::Body(body) => body,

@@ -1,4 +1,4 @@
-//! What snapping changes in the torques, bounded.
+//! What snapping changes in the torques and in where the hand is, bounded.
 //!
 //! The recursion of Newton and Euler over the joints' own frames, with sizes for
 //! vectors: the length that a vector has at most, of either arm, and how far the two
@@ -7,24 +7,30 @@
 //! apart by its length times the distance of the turns. So every position of the
 //! joints is covered, and with upward rounding the result is a bound, not a
 //! measurement. The triangle inequality makes it fifty to a hundred and fifty times
-//! what 25 states of real arms show. What is computed for the file, bodies that are
-//! merged and rows that are derived, is rounded to 20 digits beside it.
+//! what 25 states of real arms show. The hand's pose is bounded by the same sizes along
+//! the chain, which makes two to three times what those states show. What is computed
+//! for the file, bodies that are merged and rows that are derived, is rounded to 20
+//! digits beside it.
+
+mod pair;
 
 use std::fmt;
 
-use dalembert_model::equations::matrix::Vector;
 use dalembert_model::number::{Rational, Rounded, Wide};
-use dalembert_model::scalar::Scalar;
+use dalembert_model::placed::frame::pose;
 use num_traits::Signed;
 
 use crate::merge::{Arm, Link};
 use crate::tree::Chain;
 use crate::urdf::{Kind, Urdf};
+use pair::{NextUp, Pair, root_of_squares, upward, vectors};
 
-/// How far the torques of the snapped arm are from those of the URDF's digits.
+/// How far torques and pose of the snapped arm are from those of the URDF's digits.
 #[derive(Clone, Debug)]
 pub struct Change {
     links: Vec<Parts>,
+    /// From the last joint's frame to the hand: how far, and how it is turned.
+    tool: [Pair; 2],
     limits: Motion,
     /// The efforts of the joints, if each has one.
     efforts: Option<Vec<f64>>,
@@ -41,6 +47,15 @@ pub struct Motion {
     pub acceleration: Vec<f64>,
 }
 
+/// How far the hand of the snapped arm may be from that of the URDF's digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Displacement {
+    /// m
+    pub position: f64,
+    /// The angle by which it is turned, rad.
+    pub angle: f64,
+}
+
 /// What a joint's recursion is made of.
 #[derive(Clone, Debug)]
 struct Parts {
@@ -51,13 +66,6 @@ struct Parts {
     mass: Pair,
     com: Pair,
     inertia: Pair,
-}
-
-/// A length that neither arm exceeds, and how far both are apart.
-#[derive(Clone, Copy, Debug)]
-struct Pair {
-    size: f64,
-    off: f64,
 }
 
 impl Change {
@@ -79,10 +87,7 @@ impl Change {
         for (i, part) in self.links.iter().enumerate() {
             let [q, qd, qdd] = [&motion.position, &motion.velocity, &motion.acceleration]
                 .map(|values| value(values, i));
-            let lever = match part.slides {
-                true => part.lever + part.turn * part.axis * q,
-                false => part.lever,
-            };
+            let lever = part.lever_at(q);
             let carried = moving + turning * lever + omega * omega * lever;
             let (before, along) = (part.turn * omega, part.axis * qd);
             moving = part.turn * carried;
@@ -118,7 +123,22 @@ impl Change {
         torques
     }
 
-    /// The same as text, two digits, not below.
+    /// How far the hand may be off over a motion, in the base.
+    pub fn hand(&self, motion: &Motion) -> Displacement {
+        let (mut at, mut turn) = (Pair::ZERO, Pair::of(1.0));
+        for (i, part) in self.links.iter().enumerate() {
+            let q = motion.position.get(i).copied().unwrap_or(0.0).abs();
+            at = at + turn * part.lever_at(Pair::of(q));
+            turn = turn * part.turn;
+        }
+        let [lever, turned] = self.tool;
+        Displacement {
+            position: (at + turn * lever).off,
+            angle: angle((turn * turned).off),
+        }
+    }
+
+    /// A bound as text, two digits, not below.
     pub fn in_digits(bound: f64) -> String {
         upward(bound)
     }
@@ -150,13 +170,22 @@ impl fmt::Display for Change {
     }
 }
 
-/// Two digits, not below.
-fn upward(x: f64) -> String {
-    let text = format!("{x:.1e}");
-    match text.parse::<f64>() {
-        Ok(read) if read >= x => text,
-        // One unit of the second digit more.
-        _ => format!("{:.1e}", x * 1.06),
+impl Parts {
+    /// From the frame before to this one's origin, where the joint is at most so far out.
+    fn lever_at(&self, q: Pair) -> Pair {
+        match self.slides {
+            true => self.lever + self.turn * self.axis * q,
+            false => self.lever,
+        }
+    }
+}
+
+/// By how much two turns differ that move no unit vector further apart than this: that
+/// chord belongs to 2 asin(x/2), which is less than x + x³/20 up to one.
+fn angle(chord: f64) -> f64 {
+    match chord < 0.99 {
+        true => (chord * (1.0 + chord * chord / 20.0).next_up().next_up()).next_up_unless_zero(),
+        false => std::f64::consts::PI.next_up(),
     }
 }
 
@@ -192,8 +221,15 @@ pub(crate) fn bound(written: &Arm, snapped: &Arm, urdf: &Urdf, chain: &Chain) ->
             .filter(|effort| effort.value.is_positive());
         effort.map(least)
     });
+    let tools = [written, snapped].map(|arm| pose(&arm.tool));
+    let turned = [0, 1, 2].map(|k| vectors(&tools[0].axes[k], &tools[1].axes[k]).off);
+    let turned = Pair {
+        size: 1.0,
+        off: root_of_squares(&turned),
+    };
     Change {
         limits,
+        tool: [vectors(&tools[0].origin, &tools[1].origin), turned],
         efforts: efforts.collect(),
         links: links
             .map(|((one, other), joint)| parts(one, other, joint.kind == Kind::Prismatic))
@@ -239,86 +275,5 @@ fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
             size: root_of_squares(&rows.map(|row| row.size)),
             off: root_of_squares(&rows.map(|row| row.off)),
         },
-    }
-}
-
-/// Both lengths, and the distance.
-fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
-    let length = |v: &Vector<Wide>| root_of_squares(&v.each_ref().map(Wide::magnitude));
-    let off: Vector<Wide> = core::array::from_fn(|i| other[i].sub(&one[i]));
-    Pair {
-        size: length(one).max(length(other)),
-        off: length(&off),
-    }
-}
-
-/// √(a² + b² + c²), upward: of numbers whose squares may vanish, their sum.
-fn root_of_squares(values: &[f64; 3]) -> f64 {
-    let sum: f64 = values
-        .iter()
-        .fold(0.0, |sum, x| (sum + x.abs()).next_up_unless_zero());
-    let squares: f64 = values.iter().fold(0.0, |sum, x| {
-        (sum + (x * x).next_up_unless_zero()).next_up_unless_zero()
-    });
-    let root = squares.sqrt().next_up_unless_zero();
-    if sum < 1e-140 { sum } else { root.min(sum) }
-}
-
-/// Upward rounding that leaves an exact zero alone.
-trait NextUp {
-    fn next_up_unless_zero(self) -> f64;
-}
-
-impl NextUp for f64 {
-    fn next_up_unless_zero(self) -> f64 {
-        if self == 0.0 { 0.0 } else { self.next_up() }
-    }
-}
-
-impl Pair {
-    const ZERO: Pair = Pair {
-        size: 0.0,
-        off: 0.0,
-    };
-
-    /// The same of both.
-    fn of(size: f64) -> Pair {
-        Pair {
-            size: size.next_up_unless_zero(),
-            off: 0.0,
-        }
-    }
-}
-
-/// a + b, not below.
-fn upward_sum(a: f64, b: f64) -> f64 {
-    (a + b).next_up_unless_zero()
-}
-
-impl std::ops::Add for Pair {
-    type Output = Pair;
-
-    fn add(self, other: Pair) -> Pair {
-        Pair {
-            size: upward_sum(self.size, other.size),
-            off: upward_sum(self.off, other.off),
-        }
-    }
-}
-
-impl std::ops::Mul for Pair {
-    type Output = Pair;
-
-    fn mul(self, other: Pair) -> Pair {
-        let product = |a: f64, b: f64| match a == 0.0 || b == 0.0 {
-            true => 0.0,
-            // Never zero where neither factor is.
-            false => (a * b).next_up(),
-        };
-        let [of_other, of_own] = [product(self.size, other.off), product(self.off, other.size)];
-        Pair {
-            size: product(self.size, other.size),
-            off: upward_sum(of_other, of_own),
-        }
     }
 }

@@ -1,0 +1,57 @@
+//! An arm that learns what it carries while it moves: the adaptive controller of
+//! Slotine and Li (1987).
+//!
+//! With v = q̇_d − Λ(q − q_d), the velocity wished for, a = v̇ and s = q̇ − v, the law is
+//!
+//! ```text
+//! τ = Y π̂ − K s,    dπ̂/dt = −Γ Yᵀ s,    Y π = D a + C v + c + b∘v
+//! ```
+//!
+//! Y is `passivity_regressor(q, q̇, v, a)`. The arm moves by D q̈ + C q̇ + c + b∘q̇ = τ, so
+//! D ṡ + C s + b∘s = Y(π̂ − π) − K s, and the energy of the error,
+//! V = ½ sᵀD s + ½ (π̂ − π)ᵀ Γ⁻¹ (π̂ − π), falls:
+//!
+//! ```text
+//! dV/dt = −sᵀ(K + b) s + ½ sᵀ(Ḋ − 2C) s + (π̂ − π)ᵀ(Yᵀ s + Γ⁻¹ dπ̂/dt) = −sᵀ(K + b) s
+//! ```
+//!
+//! For that C has to be the matrix of the Christoffel symbols, of which Ḋ − 2C is skew.
+//! `regressor(q, q̇, q̈)` will not do: its C q̇ has one velocity, and Y(q, v, a) would have
+//! C(q, v) v in the place of C(q, q̇) v.
+//!
+//! - [`control`]: the law
+//! - [`trajectory`]: where the arm should be
+//! - [`run()`]: the controller at 1 kHz on the arm with its payload
+//! - [`chart`]: what came of it
+#![forbid(unsafe_code)]
+
+pub mod chart;
+pub mod control;
+pub mod run;
+pub mod trajectory;
+
+pub use run::{Run, Sample, run};
+
+dalembert::dynamics! {
+    /// The arm as the controller knows it: empty.
+    pub mod arm = "robots/arm.toml";
+    outputs: passivity_regressor;
+    scalar: f64;
+}
+
+dalembert::dynamics! {
+    /// The arm that is moved, with its payload. The controller does not see it.
+    pub mod loaded = "robots/arm.toml";
+    scene: loaded;
+    outputs: forward_dynamics, inertia, passivity, regressor, passivity_regressor;
+    scalar: f64;
+}
+
+/// A value for each joint.
+pub type Joints = [f64; arm::N];
+
+/// A value for each base parameter.
+pub type Parameters = [f64; arm::PASSIVITY_PARAMETERS.len()];
+
+/// Where the arm is and how fast it moves.
+pub type State = example_shared::integrate::State<{ arm::N }>;

@@ -1,0 +1,28 @@
+//! Whether a chart is what is checked in, and what an example prints what the guide shows.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A file of the guide in `docs/src`.
+pub fn guide(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs/src")
+        .join(name)
+}
+
+/// Whether a file holds this text. If not, it is written: so a test that fails has
+/// mended the file, and who looks at the difference says whether that is right.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn is(path: &Path, text: &str) -> io::Result<bool> {
+    if fs::read_to_string(path).is_ok_and(|known| known == text) {
+        return Ok(true);
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = path.with_file_name(format!(".{name}.{}", std::process::id()));
+    fs::write(&beside, text)?;
+    fs::rename(&beside, path)?;
+    Ok(false)
+}

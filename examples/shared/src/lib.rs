@@ -1,0 +1,10 @@
+//! What the examples share. A program of your own needs none of it.
+//!
+//! - [`integrate`]: an arm's motion under torques, from its forward dynamics
+//! - [`chart`]: lines over time as SVG
+//! - [`checked_in`]: whether a chart is what is checked in
+#![forbid(unsafe_code)]
+
+pub mod chart;
+pub mod checked_in;
+pub mod integrate;

@@ -1,0 +1,199 @@
+//! Torques that swing the arm up: differential dynamic programming (iLQR, the second
+//! derivatives of the dynamics left out), with the motor's limit as Tassa, Mansard and
+//! Todorov (2014) have it.
+//!
+//! Backward from the end, the cost to go is approximated by a parabola of the state, and
+//! the best change of each torque follows with a gain on the state. Forward, the changed
+//! torques are tried on the arm, in smaller and smaller parts until the cost falls.
+//! Nothing is drawn at random: the same plan on every machine.
+
+use crate::limited;
+use crate::model::{HANGING, Square, State, UPRIGHT, slopes, step};
+
+/// The period of the plan, s.
+pub const PERIOD: f64 = 0.02;
+/// How many periods it has.
+pub const STEPS: usize = 250;
+/// What a torque costs, per (N·m)² and s.
+const EFFORT: f64 = 0.1;
+/// What being elsewhere than upright at rest costs, per rad² and s, (rad/s)² and s.
+const ELSEWHERE: State = State::new(0.5, 0.5, 0.05, 0.05);
+/// The same at the end, per rad² and (rad/s)².
+const END: State = State::new(1000.0, 1000.0, 100.0, 100.0);
+/// A plan that gets no better than by this is done.
+const ENOUGH: f64 = 1e-4;
+/// The most rounds there may be.
+const ROUNDS: usize = 400;
+
+/// Torques, and the states that they lead through.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// A torque a period, N·m.
+    pub torques: Vec<f64>,
+    /// One more: that at the end.
+    pub states: Vec<State>,
+    /// How the torque answers to a state that is off, a row a period.
+    pub gains: Vec<State>,
+    /// The cost before each round, and at last.
+    pub costs: Vec<f64>,
+}
+
+/// Changes of the torques and gains on the states.
+type Changes = (Vec<f64>, Vec<State>);
+
+/// A plan from hanging at rest to upright at rest.
+pub fn plan() -> Plan {
+    let mut plan = Plan::of(vec![0.0; STEPS]);
+    // What a change of the next state costs besides: where parabolas mislead, little is
+    // changed.
+    let mut caution = 1e-6;
+    for _ in 0..ROUNDS {
+        let Some((changes, gains)) = plan.backward(caution) else {
+            caution *= 10.0;
+            continue;
+        };
+        plan.gains = gains;
+        let cost = plan.cost();
+        match plan.forward(&changes) {
+            Some((better, part)) => {
+                let gained = cost - better.cost();
+                plan = better;
+                caution = match part {
+                    1.0 => (caution / 3.0).max(1e-6),
+                    _ => caution,
+                };
+                if gained < ENOUGH {
+                    break;
+                }
+            }
+            None if caution > 1e6 => break,
+            None => caution *= 10.0,
+        }
+    }
+    plan
+}
+
+impl Plan {
+    /// What these torques do, without gains.
+    fn of(torques: Vec<f64>) -> Plan {
+        let mut states = vec![HANGING];
+        for (k, torque) in torques.iter().enumerate() {
+            states.push(step(&states[k], *torque, PERIOD));
+        }
+        let mut plan = Plan {
+            gains: vec![State::zeros(); torques.len()],
+            costs: Vec::new(),
+            torques,
+            states,
+        };
+        plan.costs.push(plan.cost());
+        plan
+    }
+
+    /// What it costs: ½∫ (r τ² + xᵀ Q x) dt + ½ xᵀ W x at the end, x how far it is from
+    /// upright at rest.
+    pub fn cost(&self) -> f64 {
+        let square = |off: &State, weights: &State| off.component_mul(weights).dot(off);
+        let each = self.torques.iter().zip(&self.states);
+        let each = each.map(|(torque, state)| {
+            EFFORT * torque * torque + square(&(state - UPRIGHT), &ELSEWHERE)
+        });
+        let along: f64 = each.sum();
+        (PERIOD * along + square(&self.off(), &END)) / 2.0
+    }
+
+    /// How far its end is from upright at rest.
+    pub fn off(&self) -> State {
+        self.states
+            .last()
+            .map_or(State::zeros(), |end| end - UPRIGHT)
+    }
+
+    /// The changes that parabolas advise; `None` where one has no lowest point.
+    fn backward(&self, caution: f64) -> Option<Changes> {
+        let mut slope = self.off().component_mul(&END);
+        let mut bend = Square::from_diagonal(&END);
+        let mut changes = vec![0.0; self.torques.len()];
+        let mut gains = vec![State::zeros(); self.torques.len()];
+        for k in (0..self.torques.len()).rev() {
+            let torque = self.torques[k];
+            let (by_state, by_torque) = slopes(&self.states[k], torque, PERIOD);
+            let carried = bend * by_torque;
+            let of_torque = EFFORT * PERIOD * torque + by_torque.dot(&slope);
+            let of_torques = EFFORT * PERIOD + by_torque.dot(&carried);
+            let mixed = by_state.transpose() * carried;
+            let wary = by_state.transpose() * by_torque * caution + mixed;
+            let lowest = of_torques + caution * by_torque.dot(&by_torque);
+            if lowest <= 0.0 {
+                return None;
+            }
+            let free = torque - of_torque / lowest;
+            // At its limit a torque does not answer.
+            let change = limited(free) - torque;
+            let gain = match limited(free) == free {
+                true => wary * (-1.0 / lowest),
+                false => State::zeros(),
+            };
+            let each = ELSEWHERE * PERIOD;
+            slope = (self.states[k] - UPRIGHT).component_mul(&each)
+                + by_state.transpose() * slope
+                + gain * (of_torques * change + of_torque)
+                + mixed * change;
+            bend = Square::from_diagonal(&each)
+                + by_state.transpose() * bend * by_state
+                + gain * gain.transpose() * of_torques
+                + gain * mixed.transpose()
+                + mixed * gain.transpose();
+            // What rounding leaves askew would grow, since upright the arm falls.
+            bend = (bend + bend.transpose()) / 2.0;
+            (changes[k], gains[k]) = (change, gain);
+        }
+        Some((changes, gains))
+    }
+
+    /// The plan with as much of the changes as makes it better, and how much that is.
+    fn forward(&self, changes: &[f64]) -> Option<(Plan, f64)> {
+        let cost = self.cost();
+        let mut part = 1.0;
+        while part > 1e-4 {
+            let mut tried = Plan {
+                torques: Vec::with_capacity(self.torques.len()),
+                states: vec![HANGING],
+                gains: self.gains.clone(),
+                costs: self.costs.clone(),
+            };
+            for (k, change) in changes.iter().enumerate() {
+                let off = tried.states[k] - self.states[k];
+                let torque = limited(self.torques[k] + part * change + self.gains[k].dot(&off));
+                tried.states.push(step(&tried.states[k], torque, PERIOD));
+                tried.torques.push(torque);
+            }
+            if tried.cost() < cost {
+                tried.costs.push(tried.cost());
+                return Some((tried, part));
+            }
+            part /= 2.0;
+        }
+        None
+    }
+}
+
+/// The gain that holds the arm upright: what the backward pass comes to, there, if it goes
+/// on for long.
+pub fn holding(period: f64) -> State {
+    let (by_state, by_torque) = slopes(&UPRIGHT, 0.0, period);
+    let each = Square::from_diagonal(&(ELSEWHERE * period));
+    let mut bend = each;
+    let mut gain = State::zeros();
+    for _ in 0..(20.0 / period) as usize {
+        let carried = bend * by_torque;
+        let mixed = by_state.transpose() * carried;
+        let of_torques = EFFORT * period + by_torque.dot(&carried);
+        gain = mixed * (-1.0 / of_torques);
+        // In this form it stays symmetric, and what is askew dies.
+        let closed = by_state + by_torque * gain.transpose();
+        bend =
+            each + closed.transpose() * bend * closed + gain * gain.transpose() * (EFFORT * period);
+    }
+    gain
+}

@@ -1,0 +1,103 @@
+//! Sizes and distances, rounded upward.
+
+use dalembert_model::equations::matrix::Vector;
+use dalembert_model::number::Wide;
+use dalembert_model::scalar::Scalar;
+
+/// A length that neither arm exceeds, and how far both are apart.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) size: f64,
+    pub(super) off: f64,
+}
+
+/// Both lengths, and the distance.
+pub(super) fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
+    let length = |v: &Vector<Wide>| root_of_squares(&v.each_ref().map(Wide::magnitude));
+    let off: Vector<Wide> = core::array::from_fn(|i| other[i].sub(&one[i]));
+    Pair {
+        size: length(one).max(length(other)),
+        off: length(&off),
+    }
+}
+
+/// √(a² + b² + c²), upward: of numbers whose squares may vanish, their sum.
+pub(super) fn root_of_squares(values: &[f64; 3]) -> f64 {
+    let sum: f64 = values
+        .iter()
+        .fold(0.0, |sum, x| (sum + x.abs()).next_up_unless_zero());
+    let squares: f64 = values.iter().fold(0.0, |sum, x| {
+        (sum + (x * x).next_up_unless_zero()).next_up_unless_zero()
+    });
+    let root = squares.sqrt().next_up_unless_zero();
+    if sum < 1e-140 { sum } else { root.min(sum) }
+}
+
+/// Upward rounding that leaves an exact zero alone.
+pub(super) trait NextUp {
+    fn next_up_unless_zero(self) -> f64;
+}
+
+impl NextUp for f64 {
+    fn next_up_unless_zero(self) -> f64 {
+        if self == 0.0 { 0.0 } else { self.next_up() }
+    }
+}
+
+impl Pair {
+    pub(super) const ZERO: Pair = Pair {
+        size: 0.0,
+        off: 0.0,
+    };
+
+    /// The same of both.
+    pub(super) fn of(size: f64) -> Pair {
+        Pair {
+            size: size.next_up_unless_zero(),
+            off: 0.0,
+        }
+    }
+}
+
+/// a + b, not below.
+fn upward_sum(a: f64, b: f64) -> f64 {
+    (a + b).next_up_unless_zero()
+}
+
+impl std::ops::Add for Pair {
+    type Output = Pair;
+
+    fn add(self, other: Pair) -> Pair {
+        Pair {
+            size: upward_sum(self.size, other.size),
+            off: upward_sum(self.off, other.off),
+        }
+    }
+}
+
+impl std::ops::Mul for Pair {
+    type Output = Pair;
+
+    fn mul(self, other: Pair) -> Pair {
+        let product = |a: f64, b: f64| match a == 0.0 || b == 0.0 {
+            true => 0.0,
+            // Never zero where neither factor is.
+            false => (a * b).next_up(),
+        };
+        let [of_other, of_own] = [product(self.size, other.off), product(self.off, other.size)];
+        Pair {
+            size: product(self.size, other.size),
+            off: upward_sum(of_other, of_own),
+        }
+    }
+}
+
+/// Two digits, not below.
+pub(super) fn upward(x: f64) -> String {
+    let text = format!("{x:.1e}");
+    match text.parse::<f64>() {
+        Ok(read) if read >= x => text,
+        // One unit of the second digit more.
+        _ => format!("{:.1e}", x * 1.06),
+    }
+}

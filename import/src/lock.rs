@@ -1,0 +1,102 @@
+//! Joints that stay where they are: where that is, and whether they can be there.
+
+use std::cmp::Ordering;
+
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Angle, Snap, Snapped};
+use dalembert_model::robot::Position;
+
+use crate::meant::meant;
+use crate::problems::Problems;
+use crate::urdf::{Joint, Kind, Value};
+
+/// Where a joint is locked, from the text of an option; `None` after saying what is wrong.
+///
+/// A position outside the limits is an error, as in a scene of a robot file: the arm cannot
+/// be there, and most often degrees were given for radians.
+pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
+    let Joint { name, kind, .. } = joint;
+    let number = parse_decimal(text.trim());
+    let read = match kind {
+        Kind::Fixed | Kind::Planar | Kind::Floating => {
+            let message = format!("--lock {name}: a {} joint has no position", kind.word());
+            problems.error(&joint.span, message, "leave it out");
+            return None;
+        }
+        Kind::Prismatic => number.map(Position::Length),
+        Kind::Revolute | Kind::Continuous => number
+            .map(Angle::Radians)
+            .or_else(|_| Angle::parse(text))
+            .map(|angle| Position::Angle(right(angle))),
+    };
+    let at = match read {
+        Ok(at) => at,
+        Err(error) => {
+            let message = format!("--lock {name}: `{text}` is {error}");
+            let help = "write a number in rad or m, or an angle as pi/2 or 90deg";
+            problems.error(&joint.span, message, help);
+            return None;
+        }
+    };
+    if let Some([lower, upper]) = &joint.position
+        && is_outside(&at, text, [lower, upper])
+    {
+        let message = format!(
+            "--lock {name}={text}: the joint's limits are {} to {}",
+            lower.text, upper.text
+        );
+        let help = match (&at, kind) {
+            (Position::Angle(Angle::Radians(_)), Kind::Revolute) => {
+                "lock it where it can be; a number is in rad, degrees are written as 90deg"
+            }
+            _ => "lock it where it can be",
+        };
+        problems.error(&lower.span, message, help);
+        return None;
+    }
+    Some(at)
+}
+
+/// The position that errors advise: zero, or the limit that is nearest to it.
+pub(crate) fn advised(joint: &Joint) -> &str {
+    let zero = match joint.kind {
+        Kind::Prismatic => Position::Length(Default::default()),
+        _ => Position::Angle(Angle::default()),
+    };
+    match &joint.position {
+        Some([lower, _]) if compare(&zero, &lower.value) == Ordering::Less => &lower.text,
+        Some([_, upper]) if compare(&zero, &upper.value) == Ordering::Greater => &upper.text,
+        _ => "0",
+    }
+}
+
+/// Whether a position is outside its limits, all three as they were meant: 1.5708 is
+/// within a limit of pi/2.
+fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) -> bool {
+    let as_meant = |value: &Position, text: &str| match value {
+        Position::Angle(angle) => Position::Angle(meant(angle, text).unwrap_or(angle.clone())),
+        length => length.clone(),
+    };
+    let at = as_meant(at, text.trim());
+    let [lower, upper] = [lower, upper].map(|limit| as_meant(&limit.value, &limit.text));
+    compare(&at, &lower) == Ordering::Less || compare(&at, &upper) == Ordering::Greater
+}
+
+/// Of positions of one joint; of an angle and a length there is no order.
+fn compare(left: &Position, right: &Position) -> Ordering {
+    match (left, right) {
+        (Position::Angle(left), Position::Angle(right)) => left.cmp_value(right),
+        (Position::Length(left), Position::Length(right)) => left.cmp(right),
+        _ => Ordering::Equal,
+    }
+}
+
+/// 1.5707963267948966 is what other tools print for π/2.
+fn right(angle: Angle) -> Angle {
+    let Angle::Radians(value) = angle else {
+        return angle;
+    };
+    match Snap::RightAngles.apply(value) {
+        Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
+    }
+}
