@@ -62,8 +62,8 @@ pub struct Setting {
     parameters: Vec<RuntimeParameter>,
     /// Found where a function is over them.
     base: OnceLock<Result<BaseParameters, NoBase>>,
-    /// Found where a payload is an argument.
-    load: OnceLock<Result<LoadParameters, NoBase>>,
+    /// Chosen where a payload is an argument.
+    load: Option<LoadParameters>,
 }
 
 /// Why there is no such setting.
@@ -102,7 +102,7 @@ impl Setting {
             locks: vec![None; n],
             parameters: Vec::new(),
             base: OnceLock::new(),
-            load: OnceLock::new(),
+            load: None,
         }
     }
 
@@ -131,7 +131,7 @@ impl Setting {
             locks,
             parameters: Vec::new(),
             base: OnceLock::new(),
-            load: OnceLock::new(),
+            load: None,
         })
     }
 
@@ -152,14 +152,15 @@ impl Setting {
         Setting {
             parameters: parameters.to_vec(),
             base: OnceLock::new(),
-            load: OnceLock::new(),
+            load: None,
             ..self
         }
     }
 
     /// The same joints at any velocities and accelerations, with the torques of
     /// all that move: what any function may depend on.
-    fn in_full_motion(&self) -> Setting {
+    #[must_use]
+    pub fn in_full_motion(&self) -> Setting {
         let mut full = self.clone().taking(&self.parameters);
         full.rows = full.chained.clone();
         if let Some(scene) = &mut full.scene {
@@ -296,13 +297,19 @@ impl Setting {
         found.as_ref().map_err(|why| *why)
     }
 
-    /// The regrouped parameters that a payload changes.
-    ///
-    /// # Errors
-    /// Why they cannot be written down.
-    pub fn load(&self) -> Result<&LoadParameters, NoBase> {
-        let found = self.load.get_or_init(|| LoadParameters::of(self));
-        found.as_ref().map_err(|why| *why)
+    /// The same setting with the numbers of the chain that a payload changes.
+    #[must_use]
+    pub fn with_load(self, load: LoadParameters) -> Setting {
+        Setting {
+            load: Some(load),
+            ..self
+        }
+    }
+
+    /// The numbers of the regrouped chain that a payload changes; none before they
+    /// are chosen.
+    pub fn load(&self) -> Option<&LoadParameters> {
+        self.load.as_ref()
     }
 
     /// What the columns of a function's regressor are; none of other functions,
@@ -332,7 +339,7 @@ impl Setting {
     fn sizes_of(&self, is_over_base: bool, is_loaded: bool) -> Sizes {
         let base = is_over_base.then(|| self.base().ok()).flatten();
         let is_loaded = is_loaded && self.has(RuntimeParameter::Payload);
-        let load = is_loaded.then(|| self.load().ok()).flatten();
+        let load = is_loaded.then(|| self.load()).flatten();
         Sizes {
             rows: self.rows.len(),
             joints: self.joints.len(),
