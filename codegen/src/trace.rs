@@ -46,12 +46,6 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
     }
 }
 
-/// An argument that is no joint vector, in symbols.
-pub fn parameter(argument: Argument, length: usize, builder: &Rc<RefCell<Builder>>) -> Vec<Symbol> {
-    let entry = |index| Symbol::input(builder, Input::Entry(argument, index));
-    (0..length).map(entry).collect()
-}
-
 /// Runs a formulation with symbols in a setting.
 pub fn trace(setting: &Setting, function: Function, formulation: Formulation) -> Trace {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));

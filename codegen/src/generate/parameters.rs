@@ -10,7 +10,6 @@ use crate::backend::Entries;
 use crate::function::{Argument, Function};
 use crate::portfolio::Start;
 use crate::scene::Setting;
-use crate::scene::base::NoBase;
 
 /// Why a parameter cannot be an argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,8 +25,6 @@ pub enum ParameterError {
         /// The scene's name.
         scene: String,
     },
-    /// The regrouped parameters cannot be written down.
-    Load(NoBase),
     /// The scene has a tolerance, and no box bounds the argument.
     Tolerance(Function, Argument),
     /// No joint feels what the last link carries.
@@ -58,22 +55,6 @@ impl fmt::Display for ParameterError {
                 f,
                 "the scene `{scene}` says what gravity is, so it is no argument: leave it out of \
                  the scene or of the parameters"
-            ),
-            ParameterError::Load(NoBase::Large { joint }) => write!(
-                f,
-                "a payload changes regrouped parameters of joint {} that have too many products \
-                 of sines and cosines of the table's angles: give angles that are multiples of \
-                 pi/2 as such, or the payload in a scene",
-                joint + 1
-            ),
-            ParameterError::Load(NoBase::Irrational) => f.write_str(
-                "one of the regrouped parameters depends on the others by a number that is no \
-                 short fraction, as odd angles between slides and the first axis give: give the \
-                 payload in a scene",
-            ),
-            ParameterError::Load(NoBase::Unfit) => f.write_str(
-                "a parameter is divisible by 2^61 - 1, modulo which regrouped parameters are \
-                 compared: change its last digit, or give the payload in a scene",
             ),
             ParameterError::Tolerance(function, argument) => {
                 write!(f, "`{function}`: {}", Unbounded::Reads(*argument))
@@ -120,9 +101,8 @@ pub(super) fn check(request: &Request, setting: &Setting) -> Result<(), Paramete
     if let Some(&function) = functions.find(|function| function.burden() == Burden::More) {
         return Err(ParameterError::Unregrouped(function));
     }
-    match setting.load() {
-        Err(why) => Err(ParameterError::Load(why)),
-        Ok(load) if load.rows.is_empty() => Err(ParameterError::Unfelt),
-        Ok(_) => Ok(()),
+    match setting.load().is_some_and(|load| !load.rows.is_empty()) {
+        true => Ok(()),
+        false => Err(ParameterError::Unfelt),
     }
 }

@@ -8,7 +8,7 @@ use crate::backend::{Entries, MathPath};
 use crate::emit::Layout;
 use crate::function::Function;
 use crate::plan::Plan;
-use crate::portfolio::Start;
+use crate::portfolio::{Start, load};
 use crate::program::ScalarType;
 use crate::scene::{Setting, SettingError};
 use crate::simplify::Effort;
@@ -104,7 +104,7 @@ impl Request {
     /// The scene is none of this robot.
     pub fn setting(&self, robot: &Robot) -> Result<Setting, SettingError> {
         let setting = Setting::of(robot, self.scene.as_ref())?;
-        Ok(setting.taking(&self.parameters))
+        Ok(load::chosen(setting.taking(&self.parameters)))
     }
 
     /// The module's name.

@@ -4,6 +4,7 @@
 //! ([`dalembert_model::equations::chain`]) in a regrouping that is tuned to the
 //! robot and the function ([`tune`]).
 
+pub mod load;
 pub mod start;
 pub mod tune;
 
@@ -13,8 +14,8 @@ use std::rc::Rc;
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Displacement, Regrouping, Skeleton};
 use dalembert_model::equations::matrix::{Vector, scaled};
-use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, Formulation, Link, SinCosPair};
+use dalembert_model::equations::regressor::{Column, LinkParameter};
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
 use dalembert_model::scalar::Scalar;
@@ -25,8 +26,9 @@ use crate::graph::{Builder, Folding, Graph};
 use crate::program::{AngleSum, Counts, Input};
 use crate::scene::Setting;
 use crate::simplify::{self, Effort};
-use crate::trace::{parameter, symbols, trace};
+use crate::trace::{symbols, trace};
 use crate::watch::{FunctionWatch, Part};
+use load::Numbers;
 pub use start::Start;
 use tune::Tuned;
 
@@ -64,7 +66,8 @@ pub fn trace_chain(
     folding: Folding,
 ) -> (Graph, Counts) {
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let mut chain = chain.map(|constant| Symbol::from(constant.clone()));
+    let mut numbers = Numbers::of(setting, function, &builder);
+    let mut chain = chain.map(|constant| numbers.symbol(constant));
     let mut gravity = None;
     if setting.takes(function, RuntimeParameter::Gravity) {
         let taken: Vector<Symbol> = core::array::from_fn(|axis| {
@@ -73,10 +76,7 @@ pub fn trace_chain(
         chain.gravity = scaled(&chain.per_unit, &in_frame_0(setting, &taken));
         gravity = Some(taken);
     }
-    if setting.takes(function, RuntimeParameter::Payload) {
-        let length = setting.sizes(function).load;
-        chain = chain.loaded(&parameter(Argument::Load, length, &builder));
-    }
+    drop(numbers);
     let whole = symbols(setting, &function.arguments(), &builder);
     let motion = &whole.of_joints(setting.chained());
     let (chain, at) = &chain.posed(&motion.q);
@@ -118,20 +118,17 @@ fn in_frame_0(setting: &Setting, vector: &Vector<Symbol>) -> Vector<Symbol> {
 }
 
 /// The same for a function: if it is a regressor, with its columns; if it takes a
-/// load, with the numbers of that as columns, and bodies that have the other
-/// regrouped parameters.
+/// load, with a payload whose parameters are unknown.
 pub fn skeleton_for(setting: &Setting, function: Function) -> Skeleton<Exact> {
-    let load = setting.takes(function, RuntimeParameter::Payload);
-    let Some(load) = load.then(|| setting.load().ok()).flatten() else {
+    if !setting.takes(function, RuntimeParameter::Payload) {
         return with_columns(setting, &setting.columns(function, Exact::clone));
-    };
-    let mut arm = Arm::from_robot(setting.robot(), &mut Exact::clone).fold_base();
-    for link in &mut arm.links {
-        let bare = Link::still();
-        (link.mass, link.com, link.inertia) = (bare.mass, bare.com, bare.inertia);
     }
-    let skeleton = Skeleton::with_columns(&arm, &setting.merged(), &load.columns);
-    skeleton.with_values(load.rows.len(), &load.constants)
+    let last = setting.joints().len().saturating_sub(1);
+    let columns = LinkParameter::ALL.map(|parameter| Column::Body {
+        joint: last,
+        body: parameter.unit(),
+    });
+    with_columns(setting, &columns).with_values(&setting.unknowns().values())
 }
 
 fn with_columns(setting: &Setting, columns: &[Column<Exact>]) -> Skeleton<Exact> {
@@ -252,15 +249,18 @@ pub fn tuned(
             price(&graph, limit, below)
         }
     };
-    let mut start = tune::start(&arm);
     if setting.takes(function, RuntimeParameter::Payload)
-        && let Ok(load) = setting.load()
+        && let Some(load) = setting.load()
     {
-        // About other points the load's numbers would have to be combined.
-        for (link, own) in start.links.iter_mut().zip(&load.regrouping.links) {
-            link.origin.clone_from(&own.origin);
-        }
+        // The numbers of the load are those of one regrouping, for all functions.
+        return tune::form(
+            &arm,
+            load.regrouping.clone(),
+            &forms,
+            |chain, form, below| price(&merged(chain, form), limit, below),
+        );
     }
+    let start = tune::start(&arm);
     let with = |axes: Vec<i32>| {
         let mut from = start.clone();
         for (link, axes) in from.links.iter_mut().zip(axes) {

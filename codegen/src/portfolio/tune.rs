@@ -95,6 +95,16 @@ pub fn tune(
     descent.best
 }
 
+/// The cheapest of the forms in a regrouping that is given.
+pub fn form(
+    arm: &Skeleton<Exact>,
+    regrouping: Regrouping<Exact>,
+    forms: &[Form],
+    price: impl Fn(&Chain<Exact>, Form, u64) -> u64,
+) -> Tuned {
+    tune(arm, regrouping, forms, 0, price)
+}
+
 struct Descent<'a, P> {
     arm: &'a Skeleton<Exact>,
     price: P,

@@ -1,91 +1,155 @@
-//! The load that a payload is: which regrouped parameters a body changes that is
-//! fixed to the last link, and how.
+//! The load that a payload is: the numbers of a regrouped chain that a body changes
+//! which is fixed to the last link.
 //!
-//! They are base parameters ([`super::base`]) that the last link's own parameters
-//! are part of. A payload adds to these, about the origin and in the axes of the
-//! same frame; so it adds to each base parameter what the last link's parameters
-//! would, and all others stay constants of the arm.
+//! Masses and moments that regrouping leaves are linear in the body's mass, first
+//! moments and tensor. While these are unknown, an indeterminate of exact numbers
+//! stands for each: the sine of an angle that the robot has nowhere, of which, as
+//! of every constant angle, no relation to others is known. So a payload goes
+//! through regrouping like any other body, and what comes out says what the load's
+//! numbers are.
 
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::equations::load::LoadRow;
-use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, Link};
-use dalembert_model::number::Exact;
-use dalembert_model::scalar::Scalar;
+use dalembert_model::equations::regressor::LinkParameter;
+use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::robot::{Placement, Position};
+use dalembert_model::scalar::{Scalar, SinCosPair};
 
 use super::Setting;
-use super::base::{BaseParameters, NoBase, Parameter};
-use crate::function::Quantity;
 
-/// The regrouped parameters of an arm with a payload.
+/// The numbers of a regrouped chain that a payload changes.
 #[derive(Clone, Debug)]
 pub struct LoadParameters {
-    /// What each number of the load is of; then what each of the constants is.
-    pub columns: Vec<Column<Exact>>,
-    /// The numbers of the load, the first of the columns.
+    /// Each with the payload's parameters unknown, its leading sign positive.
+    pub numbers: Vec<Exact>,
+    /// Each by what the arm has of it and what the payload adds.
     pub rows: Vec<LoadRow<Exact>>,
-    /// The values of the other columns.
-    pub constants: Vec<Exact>,
-    /// About which points they are taken.
+    /// How the chain is regrouped.
     pub regrouping: Regrouping<Exact>,
 }
 
 impl LoadParameters {
-    /// Of a setting: of all joints that move, at any velocities, whatever is
-    /// asked for.
-    ///
-    /// # Errors
-    /// Why the parameters cannot be written down.
-    pub(super) fn of(setting: &Setting) -> Result<LoadParameters, NoBase> {
-        let base = BaseParameters::of(&setting.in_full_motion(), Quantity::BaseRegressor)?;
-        let arm = Arm::from_robot(setting.robot(), &mut Exact::clone);
-        let last = arm.links.len().saturating_sub(1);
-        let (mut loads, mut fixed) = (Vec::new(), Vec::new());
-        let mut constants = Vec::new();
-        let mut rows = Vec::new();
-        for (column, terms) in base.columns.iter().zip(&base.combinations) {
-            // A chain has drives of its own.
-            if !matches!(column, Column::Body { .. }) {
-                continue;
-            }
-            let row = row(&arm.links, terms, last);
-            if row.of.is_empty() {
-                fixed.push(column.clone());
-                constants.push(row.own);
-            } else {
-                loads.push(column.clone());
-                rows.push(row);
-            }
+    /// Of a setting's chain in a regrouping, which has these numbers.
+    pub fn new(
+        setting: &Setting,
+        numbers: Vec<Exact>,
+        regrouping: Regrouping<Exact>,
+    ) -> LoadParameters {
+        let unknowns = setting.unknowns();
+        let rows = numbers.iter().map(|number| unknowns.row(number));
+        LoadParameters {
+            rows: rows.collect(),
+            numbers,
+            regrouping,
         }
-        loads.extend(fixed);
-        Ok(LoadParameters {
-            columns: loads,
-            rows,
-            constants,
-            regrouping: base.regrouping,
-        })
+    }
+
+    /// Where a number is among the load's, and whether it is negated there.
+    pub fn place(&self, number: &Exact) -> Option<(usize, bool)> {
+        place(&self.numbers, number)
     }
 }
 
-/// A base parameter of bodies: what the arm has of it, and what it has of the last
-/// link's parameters.
-fn row(links: &[Link<Exact>], terms: &[(Parameter, Exact)], last: usize) -> LoadRow<Exact> {
-    let mut row = LoadRow {
-        own: Exact::zero(),
-        of: Vec::new(),
+/// Where a number is in a list, and whether it is negated there.
+pub fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
+    let is_negative = number.leads_negative();
+    let number = if is_negative {
+        number.neg()
+    } else {
+        number.clone()
     };
-    for (parameter, factor) in terms {
-        // The rest is the drives'.
-        let Parameter::Link(joint, own) = *parameter else {
-            continue;
-        };
-        let Some(link) = links.get(joint) else {
-            continue;
-        };
-        row.own = row.own.add(&own.of(link).mul(factor));
-        if joint == last {
-            row.of.push((own, factor.clone()));
+    let at = numbers.iter().position(|known| *known == number)?;
+    Some((at, is_negative))
+}
+
+/// The parameters of a payload that is not known yet, about the origin and in the
+/// axes of the last link's frame.
+#[derive(Clone, Debug)]
+pub struct Unknowns {
+    /// An angle that the robot has nowhere, for each of [`LinkParameter::ALL`].
+    angles: Vec<Angle>,
+}
+
+impl Setting {
+    /// The parameters of a payload.
+    pub fn unknowns(&self) -> Unknowns {
+        let taken = self.constant_angles();
+        let candidates =
+            (1_000_003..).map(|n: i64| Angle::Radians(Rational::from_integer(n.into())));
+        let free = candidates.filter(|angle| {
+            !taken
+                .iter()
+                .any(|(own, opposite)| own == angle || opposite == angle)
+        });
+        Unknowns {
+            angles: free.take(LinkParameter::COUNT).collect(),
         }
     }
-    row
+
+    /// The angles of the table, the frames and the locks, with their opposites.
+    fn constant_angles(&self) -> Vec<(Angle, Angle)> {
+        let robot = self.robot();
+        let rows = robot.joints.iter();
+        let rows = rows.flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
+        let frames = robot.base.iter().chain(&robot.tool);
+        let frames = frames.flat_map(|Placement { rpy, .. }| rpy);
+        let locks = self.scene().into_iter().flat_map(|scene| &scene.lock);
+        let locks = locks.filter_map(|(_, at)| match at {
+            Position::Angle(angle) => Some(angle),
+            Position::Length(_) => None,
+        });
+        let all = rows.chain(frames).chain(locks);
+        all.map(|angle| (angle.clone(), angle.negate())).collect()
+    }
+}
+
+impl Unknowns {
+    /// Each as an exact number.
+    pub fn values(&self) -> Vec<Exact> {
+        let value = |angle| Exact::sincos(angle).sin;
+        self.angles.iter().map(value).collect()
+    }
+
+    /// Whether a number depends on one.
+    pub fn occur_in(&self, number: &Exact) -> bool {
+        let mut found = false;
+        number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {
+            found |= self.angles.contains(angle);
+            Exact::sincos(angle)
+        });
+        found
+    }
+
+    /// A number that is linear in them, by its coefficients.
+    fn row(&self, number: &Exact) -> LoadRow<Exact> {
+        let own = self.where_one_is(number, None);
+        let parameters = LinkParameter::ALL.into_iter().zip(&self.angles);
+        let coefficients = parameters.map(|(parameter, angle)| {
+            let with = self.where_one_is(number, Some(angle));
+            (parameter, with.sub(&own))
+        });
+        LoadRow {
+            of: coefficients.filter(|(_, x)| !x.is_zero()).collect(),
+            own,
+        }
+    }
+
+    /// A number where one of them is one and the others are zero.
+    fn where_one_is(&self, number: &Exact, one: Option<&Angle>) -> Exact {
+        let value = number.map(
+            &mut |x| Some(Exact::from(x.clone())),
+            &mut |angle| match self.angles.contains(angle) {
+                false => Exact::sincos(angle),
+                true => SinCosPair {
+                    sin: match one == Some(angle) {
+                        true => Exact::one(),
+                        false => Exact::zero(),
+                    },
+                    cos: Exact::one(),
+                },
+            },
+        );
+        // Every rational is an exact number.
+        value.unwrap_or_else(Exact::zero)
+    }
 }

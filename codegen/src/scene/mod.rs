@@ -62,8 +62,8 @@ pub struct Setting {
     parameters: Vec<RuntimeParameter>,
     /// Found where a quantity is over them.
     base: Bases,
-    /// Found where a payload is an argument.
-    load: OnceLock<Result<LoadParameters, NoBase>>,
+    /// Chosen where a payload is an argument.
+    load: Option<LoadParameters>,
 }
 
 /// The base parameters, an entry a quantity: there where one is over them.
@@ -105,7 +105,7 @@ impl Setting {
             locks: vec![None; n],
             parameters: Vec::new(),
             base: no_bases(),
-            load: OnceLock::new(),
+            load: None,
         }
     }
 
@@ -134,7 +134,7 @@ impl Setting {
             locks,
             parameters: Vec::new(),
             base: no_bases(),
-            load: OnceLock::new(),
+            load: None,
         })
     }
 
@@ -155,14 +155,15 @@ impl Setting {
         Setting {
             parameters: parameters.to_vec(),
             base: no_bases(),
-            load: OnceLock::new(),
+            load: None,
             ..self
         }
     }
 
     /// The same joints at any velocities and accelerations, with the torques of
     /// all that move: what any function may depend on.
-    fn in_full_motion(&self) -> Setting {
+    #[must_use]
+    pub fn in_full_motion(&self) -> Setting {
         let mut full = self.clone().taking(&self.parameters);
         full.rows = full.chained.clone();
         if let Some(scene) = &mut full.scene {
@@ -301,13 +302,19 @@ impl Setting {
         found.as_ref().map_err(|why| *why)
     }
 
-    /// The regrouped parameters that a payload changes.
-    ///
-    /// # Errors
-    /// Why they cannot be written down.
-    pub fn load(&self) -> Result<&LoadParameters, NoBase> {
-        let found = self.load.get_or_init(|| LoadParameters::of(self));
-        found.as_ref().map_err(|why| *why)
+    /// The same setting with the numbers of the chain that a payload changes.
+    #[must_use]
+    pub fn with_load(self, load: LoadParameters) -> Setting {
+        Setting {
+            load: Some(load),
+            ..self
+        }
+    }
+
+    /// The numbers of the regrouped chain that a payload changes; none before they
+    /// are chosen.
+    pub fn load(&self) -> Option<&LoadParameters> {
+        self.load.as_ref()
     }
 
     /// What the columns of a function's regressor are; none of other functions,
@@ -342,7 +349,7 @@ impl Setting {
     fn sizes_of(&self, over_base: Option<Quantity>, is_loaded: bool) -> Sizes {
         let base = over_base.and_then(|quantity| self.base(quantity).ok());
         let is_loaded = is_loaded && self.has(RuntimeParameter::Payload);
-        let load = is_loaded.then(|| self.load().ok()).flatten();
+        let load = is_loaded.then(|| self.load()).flatten();
         Sizes {
             rows: self.rows.len(),
             joints: self.joints.len(),

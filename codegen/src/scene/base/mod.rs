@@ -26,7 +26,7 @@ mod origins;
 use std::fmt;
 
 use dalembert_model::equations::Arm;
-use dalembert_model::equations::chain::{Chain, Probed, Regrouping, Skeleton};
+use dalembert_model::equations::chain::{Chain, Probed, Skeleton};
 use dalembert_model::equations::matrix::opposite;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
 use dalembert_model::number::Exact;
@@ -66,8 +66,6 @@ pub struct BaseParameters {
     pub columns: Vec<Column<Exact>>,
     /// Each as a combination of the robot file's parameters.
     pub combinations: Vec<Vec<(Parameter, Exact)>>,
-    /// Where the origins lie that they are about.
-    pub regrouping: Regrouping<Exact>,
 }
 
 /// Why there are none.
@@ -147,7 +145,6 @@ impl BaseParameters {
                 .map(|&c| candidates[c].clone())
                 .collect(),
             combinations: vec![Vec::new(); reduced.pivots.len()],
-            regrouping: regrouping.clone(),
         };
         // What each candidate is over the base columns.
         let mut over: Vec<Vec<(usize, Exact)>> = Vec::with_capacity(candidates.len());

@@ -12,7 +12,7 @@
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
-//! - `load`: bodies by parameters that an argument brings
+//! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
