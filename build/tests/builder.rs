@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use dalembert_build::{BuildError, Entries, Generator, Layout, Output, Scalar, SinCos};
+use dalembert_build::{BuildError, Entries, Generator, Layout, Output, Parameter, Scalar, SinCos};
 use dalembert_codegen::clauses::RobotFile;
 use dalembert_codegen::generate::{Request, generate};
 
@@ -234,4 +234,25 @@ fn the_contents_have_no_module_and_one_scalar() {
     assert!(matches!(error, BuildError::Generate(..)));
     assert!(error.to_string().contains("one scalar"), "{error}");
     assert_eq!(fs::read_to_string(&path).unwrap(), text);
+}
+
+/// Parameters are the file's, and another choice of them is another file.
+#[test]
+fn parameters_are_arguments() {
+    let folder = folder("parameters");
+    let path = folder.join("arm.rs");
+    let text = |parameters: &[Parameter]| {
+        let generator = generator(&folder).parameters(parameters.iter().copied());
+        generator.write_to(&path).unwrap();
+        fs::read_to_string(&path).unwrap()
+    };
+    let plain = text(&[]);
+    assert!(plain.contains("pub fn gravity(q: &[f32; 2]) -> [f32; 2] {"));
+    assert!(!plain.contains("Load"));
+    let taking = text(&[Parameter::Payload, Parameter::Gravity]);
+    assert!(taking.contains("pub fn load(payload: &Payload) -> Load {"));
+    assert!(
+        taking.contains("pub fn gravity(q: &[f32; 2], g: &[f32; 3], load: &Load) -> [f32; 2] {")
+    );
+    assert_eq!(text(&[]), plain);
 }

@@ -47,6 +47,39 @@ fn entries_are_asked_for() {
     assert!(wrong.err.contains("'lanes'"), "{}", wrong.err);
 }
 
+/// Parameters that are arguments are proved, printed and verified like others, and
+/// no plan has such programs.
+#[test]
+fn parameters_are_asked_for() {
+    let planar = robot("planar2r");
+    let asked = ["--outputs", "gravity", "--parameters", "payload,gravity"];
+    let ran = run(&[&["generate", &planar][..], &asked].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.contains("pub type Payload = [f32; 10];"));
+    assert!(
+        ran.out
+            .contains("pub fn gravity(q: &[f64; 2], g: &[f64; 3], load: &Load)")
+    );
+    let verified = run(&[&["verify", &planar][..], &asked].concat());
+    assert_eq!(verified.code, 0, "{}", verified.err);
+    assert!(
+        verified.out.contains("load equals its definition"),
+        "{}",
+        verified.out
+    );
+    let counted = run(&[&["count", &planar][..], &asked].concat());
+    assert!(counted.out.contains("load") && counted.out.contains("gravity"));
+    let kept = run(&[&["generate", &planar, "--save-plan"][..], &asked].concat());
+    assert_eq!(kept.code, 2);
+    assert!(
+        kept.err
+            .contains("a plan keeps programs of the robot's own parameters")
+    );
+    let wrong = run(&["count", &planar, "--parameters", "mass"]);
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.err.contains("payload"), "{}", wrong.err);
+}
+
 #[test]
 fn the_same_bytes_on_every_run() {
     let arguments = ["generate", &robot("puma560")];

@@ -143,6 +143,8 @@ pub enum Source {
     Textbook(Formulation),
     /// The chain formulas with regrouped parameters.
     Regrouped,
+    /// What a load is by its definition.
+    Definition,
 }
 
 impl Source {
@@ -153,6 +155,7 @@ impl Source {
             Source::Textbook(Formulation::Dalembert) => "dalembert",
             Source::Textbook(_) => "newton_euler",
             Source::Regrouped => "regrouped",
+            Source::Definition => "definition",
         }
     }
 }

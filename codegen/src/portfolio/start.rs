@@ -73,6 +73,12 @@ impl Start {
                 let variant = portfolio::textbook(setting, function, formulation);
                 (None, vec![variant])
             }
+            Start::Auto | Start::AngleSums if function == Function::Load => {
+                let mut definition =
+                    portfolio::textbook(setting, function, Formulation::NewtonEulerLink);
+                definition.source = Source::Definition;
+                (None, vec![definition])
+            }
             Start::Auto | Start::AngleSums => {
                 let mut quantities = function.quantities().iter();
                 if !quantities.any(|quantity| quantity.is_regrouped()) {

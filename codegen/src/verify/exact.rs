@@ -50,8 +50,9 @@ pub(super) const MAX_DRAWS: usize = 64;
 /// What was proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// The formula that the program equals.
-    pub yardstick: Formulation,
+    /// The formulation that the program equals; none of a load, which has its
+    /// definition.
+    pub yardstick: Option<Formulation>,
     /// At how many primes and points.
     pub primes: usize,
     /// Degree of the difference in the random parameters, from above.
@@ -105,8 +106,9 @@ pub enum Disproof {
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let formula = match self.yardstick {
-            Formulation::LagrangeEuler => "Lagrange–Euler as written",
-            _ => "the Newton–Euler recursion",
+            None => "its definition",
+            Some(Formulation::LagrangeEuler) => "Lagrange–Euler as written",
+            Some(_) => "the Newton–Euler recursion",
         };
         write!(
             f,
@@ -182,7 +184,7 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
     let denominators = denominators.borrow().clone();
     let (degree, height) = bounded(&own, &formula, &denominators)?;
     Ok(Proof {
-        yardstick,
+        yardstick: (program.function != Function::Load).then_some(yardstick),
         primes: PRIMES,
         degree,
         height,
