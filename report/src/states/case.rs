@@ -75,7 +75,8 @@ impl Case {
 fn function(quantity: Quantity) -> Option<Function> {
     let mut all = Function::ALL.into_iter();
     let function = all.find(|function| function.quantities().contains(&quantity))?;
-    (function != Function::Load && function.columns() != Columns::Base).then_some(function)
+    let is_over_base = matches!(function.columns(), Columns::Base(_));
+    (function != Function::Load && !is_over_base).then_some(function)
 }
 
 /// A quantity as its own function returns it.
