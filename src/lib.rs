@@ -35,6 +35,10 @@ pub use dalembert_model::read;
 #[cfg(feature = "batch")]
 pub use dalembert_batch as batch;
 
+pub mod interface;
+#[cfg(feature = "nalgebra")]
+pub mod matrices;
+
 /// Generates verified dynamics of one robot as a module of flat functions.
 ///
 /// ```
@@ -117,7 +121,8 @@ pub use dalembert_batch as batch;
 ///
 /// - `outputs: …;` of `inverse_dynamics`, `gravity`, `inertia`, `coriolis`,
 ///   `manipulator_equation`, `dynamic_coefficients`. There is no default:
-///   every function costs compile time.
+///   every function costs compile time. `servo = inverse_dynamics + jacobian` among
+///   them is one function of that name ([below](#several-at-once)).
 /// - `scalar: f64;` or `f32`. With `f64, f32` there are two modules, `NAME` and
 ///   `NAME_f32`. The default is `f64`.
 /// - `formulation: auto;` tries all of `newton_euler`, `dalembert` and
@@ -142,12 +147,36 @@ pub use dalembert_batch as batch;
 ///   arithmetic: `with_sincos` adds `NAME_with_sincos` for who has the sines
 ///   already, `lanes` also `NAME_lanes`, several states at once, and `batch` also
 ///   `NAME_batch` and `NAME_columns`, slices of states ([below](#many-states)).
+/// - `interface: functions;`, or `traits`: besides its functions the module has a
+///   `Robot` with the traits of [`interface`](mod@interface), for code that is
+///   generic over robots.
 /// - `parameters: payload;`, `gravity` or both make arguments of what are constants
 ///   of the robot otherwise ([below](#parameters-at-run-time)).
 /// - `scene: NAME;` generates only what that scene of the robot needs, or
 ///   `scene: NAME { … };` what is said here. Then `outputs` and `scalar` may
 ///   be left out: they are the scene's.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
+///
+/// # Several at once
+///
+/// Who wants several quantities at one state asks for one function of them, a
+/// bundle, which shares all work that they have in common:
+///
+/// ```
+/// dalembert::dynamics! {
+///     mod arm = "generated/robots/planar2r.toml";
+///     outputs: servo = inverse_dynamics + jacobian + forward_kinematics;
+///     interface: traits;
+/// }
+/// let (q, qd, qdd) = ([0.3, -0.5], [0.7, 0.2], [0.0, 0.0]);
+/// let arm::Servo { tau, jacobian, pose } = arm::servo(&q, &qd, &qdd);
+/// // dx/dq1 = -y: what turns about the base.
+/// assert!((jacobian[0][0] + pose[1][3]).abs() < 1e-15 && tau[0] > 0.0);
+/// ```
+///
+/// Its struct is called after it and has a field a quantity, in the order in which
+/// the parts stand; its arguments are all that a part reads. No quantity can be in
+/// it twice. `manipulator_equation` is a bundle that is always there.
 ///
 /// # Parameters at run time
 ///

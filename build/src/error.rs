@@ -5,13 +5,17 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use crate::{GenerateError, RobotFileError, UnknownScene};
+use dalembert_model::read::for_bundle;
+
+use crate::{BundleError, GenerateError, RobotFileError, UnknownScene};
 
 /// Why nothing was written.
 #[non_exhaustive]
 pub enum BuildError {
     /// No robot file was named.
     NoRobot,
+    /// There is no such bundle.
+    Bundle(BundleError),
     /// There is no `OUT_DIR`.
     NoOutDir,
     /// The robot file is missing or wrong.
@@ -30,6 +34,12 @@ impl fmt::Display for BuildError {
             BuildError::NoRobot => {
                 f.write_str("error: no robot file: call `.robot(\"robots/arm.toml\")`")
             }
+            BuildError::Bundle(error) => write!(
+                f,
+                "error: {}\n  = help: {}",
+                error.message(),
+                for_bundle(error)
+            ),
             BuildError::NoOutDir => f.write_str(
                 "error: `OUT_DIR` is not set: call this from a build script, or `write_to`",
             ),
@@ -64,6 +74,7 @@ impl Error for BuildError {
             BuildError::Robot(error) => Some(error),
             BuildError::Scene(_, error) => Some(error),
             BuildError::Generate(_, error) => Some(error),
+            BuildError::Bundle(error) => Some(error),
             BuildError::Write(_, error) => Some(error),
         }
     }

@@ -93,7 +93,9 @@ pub use dalembert_codegen::backend::Entries;
 #[doc(inline)]
 pub use dalembert_codegen::clauses::RobotFileError;
 #[doc(inline)]
-pub use dalembert_codegen::emit::Layout;
+pub use dalembert_codegen::emit::{Interface, Layout};
+#[doc(inline)]
+pub use dalembert_codegen::function::BundleError;
 #[doc(inline)]
 pub use dalembert_codegen::function::Function as Output;
 #[doc(inline)]
@@ -120,6 +122,7 @@ pub use error::BuildError;
 pub struct Generator {
     robot: Option<PathBuf>,
     outputs: Option<Vec<Output>>,
+    bundles: Vec<Result<Output, BundleError>>,
     scalars: Option<Vec<Scalar>>,
     scene: Option<String>,
     math: Option<String>,
@@ -145,6 +148,17 @@ impl Generator {
     #[must_use]
     pub fn outputs(mut self, outputs: impl IntoIterator<Item = Output>) -> Self {
         self.outputs = Some(outputs.into_iter().collect());
+        self
+    }
+
+    /// One function of this name that returns what all of these do, in a struct,
+    /// and shares their work: for a control loop that wants them at one state.
+    /// `.bundle("servo", [Output::InverseDynamics, Output::Jacobian])` returns a
+    /// `Servo`; its arguments are all that one of its parts reads. It comes besides
+    /// the [`outputs`](Generator::outputs) that are chosen.
+    #[must_use]
+    pub fn bundle(mut self, name: &str, parts: impl IntoIterator<Item = Output>) -> Self {
+        self.bundles.push(Output::bundle(name, parts));
         self
     }
 
@@ -256,6 +270,28 @@ impl Generator {
         self
     }
 
+    /// How code meets the module: [`Interface::Traits`] adds a type `Robot` with the
+    /// traits of `dalembert::interface`, for code that is generic over robots; that
+    /// needs `dalembert` in `Cargo.toml`, without its default features.
+    #[must_use]
+    pub fn interface(mut self, interface: Interface) -> Self {
+        self.request.interface = interface;
+        self
+    }
+
+    /// The outputs that were chosen, if any were.
+    fn chosen(&self) -> Result<Option<Vec<Output>>, BuildError> {
+        let bundles: Result<Vec<Output>, BundleError> = self.bundles.iter().cloned().collect();
+        let bundles = bundles.map_err(BuildError::Bundle)?;
+        Ok(match (&self.outputs, bundles.as_slice()) {
+            (None, []) => None,
+            (outputs, bundles) => {
+                let outputs = outputs.iter().flatten().copied();
+                Some(outputs.chain(bundles.iter().copied()).collect())
+            }
+        })
+    }
+
     /// Writes the file into `OUT_DIR`, for `include!`.
     ///
     /// # Errors
@@ -291,7 +327,7 @@ impl Generator {
         if let Some(path) = &self.math {
             request.math.path.clone_from(path);
         }
-        let request = request.choose(self.outputs.clone(), self.scalars.clone(), scene);
+        let request = request.choose(self.chosen()?, self.scalars.clone(), scene);
         let key = output::key(&file.source, &request);
         if output::is_current(path, &key) {
             return Ok(());

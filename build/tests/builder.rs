@@ -4,7 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use dalembert_build::{BuildError, Entries, Generator, Layout, Output, Parameter, Scalar, SinCos};
+use dalembert_build::{
+    BuildError, Entries, Generator, Interface, Layout, Output, Parameter, Scalar, SinCos,
+};
 use dalembert_codegen::clauses::RobotFile;
 use dalembert_codegen::generate::{Request, generate};
 
@@ -255,4 +257,35 @@ fn parameters_are_arguments() {
         taking.contains("pub fn gravity(q: &[f32; 2], g: &[f32; 3], load: &Load) -> [f32; 2] {")
     );
     assert_eq!(text(&[]), plain);
+}
+
+/// A bundle besides what is chosen, and alone; what is wrong with it is said before
+/// anything is read.
+#[test]
+fn bundles_and_traits() {
+    let folder = folder("bundle");
+    let path = folder.join("arm.rs");
+    let parts = [Output::Inertia, Output::Gravity];
+    let of = |generator: Generator| {
+        generator.bundle("hold", parts).write_to(&path).unwrap();
+        fs::read_to_string(&path).unwrap()
+    };
+    let both = of(generator(&folder).interface(Interface::Traits));
+    assert!(both.contains("pub fn gravity(q: &[f32; 2]) -> [f32; 2] {"));
+    assert!(both.contains("pub fn hold(q: &[f32; 2]) -> Hold {"));
+    assert!(both.contains("impl dalembert::interface::Gravity<f32, 2> for Robot {"));
+    assert!(both.contains("/// [`hold`] returns what is this module's own"));
+    let robot = folder.join("arm.toml");
+    let alone = of(Generator::new().robot(&robot).scalars([Scalar::F64]));
+    assert!(!alone.contains("pub fn gravity(") && !alone.contains("Robot"));
+    assert!(alone.contains("pub fn hold("));
+    let twice = [Output::Gravity, Output::ManipulatorEquation];
+    let error = generator(&folder).bundle("hold", twice).write_to(&path);
+    let error = error.unwrap_err();
+    assert!(matches!(error, BuildError::Bundle(_)));
+    let said = error.to_string();
+    assert!(
+        said.contains("both return c") && said.contains("help: leave one"),
+        "{said}"
+    );
 }

@@ -1,10 +1,13 @@
 //! The command line.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use dalembert_codegen::backend::{Entries, MathPath};
+use dalembert_codegen::clauses::words::bundle;
+use dalembert_codegen::emit::Interface;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Prefer, Request};
 use dalembert_codegen::portfolio::Start;
@@ -58,7 +61,8 @@ pub enum Command {
 /// Which functions, and from what.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Choice {
-    /// The functions, separated by commas [default: all]
+    /// The functions, separated by commas [default: all]; NAME=A+B is one that
+    /// returns what A and B do, and shares their work
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = function_parser())]
     pub outputs: Vec<Function>,
     /// The formulation to start from; `auto` takes the cheapest
@@ -231,6 +235,10 @@ pub struct GenerateArgs {
     /// `batch` also with slices of states, by the crate dalembert-batch
     #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser())]
     pub entries: Entries,
+    /// How code meets the module: `traits` also gives it a `Robot` with the traits of
+    /// `dalembert::interface`, for code that is generic over robots
+    #[arg(long, value_name = "HOW", default_value = "functions", value_parser = interface_parser())]
+    pub interface: Interface,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
@@ -447,9 +455,38 @@ fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     })
 }
 
-fn function_parser() -> impl TypedValueParser<Value = Function> {
-    let names = PossibleValuesParser::new(Function::ALL.map(Function::name));
-    names.try_map(|name| Function::from_name(&name).ok_or("no such function"))
+/// An output by its name, of which clap lists all and suggests one, or a bundle
+/// of some, which none of its lists can have.
+#[derive(Clone)]
+struct FunctionParser;
+
+impl TypedValueParser for FunctionParser {
+    type Value = Function;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Function, clap::Error> {
+        let is_bundle = value.to_string_lossy().contains(['=', '+']);
+        if is_bundle {
+            let bundles = StringValueParser::new().try_map(|text| bundle(&text));
+            return bundles.parse_ref(command, argument, value);
+        }
+        let names = PossibleValuesParser::new(Function::ALL.map(Function::name));
+        let functions = names.try_map(|name| Function::parse(&name));
+        functions.parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let names = Function::ALL.into_iter().map(Function::name);
+        Some(Box::new(names.map(PossibleValue::new)))
+    }
+}
+
+fn function_parser() -> FunctionParser {
+    FunctionParser
 }
 
 fn start_parser() -> impl TypedValueParser<Value = Start> {
@@ -529,6 +566,15 @@ fn entries_parser() -> impl TypedValueParser<Value = Entries> {
         let mut all = Entries::ALL.into_iter();
         all.find(|entries| entries.name() == name)
             .ok_or("no such entries")
+    })
+}
+
+fn interface_parser() -> impl TypedValueParser<Value = Interface> {
+    let names = PossibleValuesParser::new(Interface::ALL.map(Interface::name));
+    names.try_map(|name| {
+        let mut all = Interface::ALL.into_iter();
+        all.find(|interface| interface.name() == name)
+            .ok_or("no such interface")
     })
 }
 

@@ -42,10 +42,9 @@ pub fn watch(request: &mut Request) -> Session {
     if !thorough && scene.is_none_or(|scene| scene.tolerance.is_none()) {
         return Session(None);
     }
-    let wanted = |function: &Function| request.functions.contains(function);
     let terminal = Arc::new(Terminal {
         bar: bar(1),
-        functions: Function::ALL.into_iter().filter(wanted).collect(),
+        functions: Function::in_order(&request.functions),
         stop: AtomicBool::new(false),
         over: AtomicBool::new(false),
     });

@@ -157,6 +157,49 @@ fn counts_as_json() {
     assert_eq!(json["functions"].as_object().unwrap().len(), 2);
 }
 
+/// Bundles on the command line; what is wrong with one is said with the likely fix.
+#[test]
+fn bundles_by_their_text() {
+    let planar = robot("planar2r");
+    let outputs = "gravity,servo=inverse_dynamics+jacobian";
+    let ran = run(&["count", &planar, "--json", "--outputs", outputs]);
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    let names: Vec<&String> = json["functions"].as_object().unwrap().keys().collect();
+    assert_eq!(names, ["gravity", "servo"]);
+    let traits = [
+        "--outputs",
+        outputs,
+        "--interface",
+        "traits",
+        "--scalar",
+        "f32",
+    ];
+    let ran = run(&[&["generate", &planar][..], &traits].concat());
+    assert!(ran.out.contains("-> Servo {"), "{}", ran.err);
+    let traits = "impl dalembert::interface::Gravity<f32, 2> for Robot {";
+    assert!(ran.out.contains(traits), "{}", ran.out);
+    let verify = ["verify", &planar, "--outputs", "servo=gravity+jacobian"];
+    let ran = run(&verify);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    // Each quantity against its own runtime, in both scalars.
+    let rows = ran.out.lines().filter(|line| line.ends_with("ok"));
+    assert_eq!(rows.count(), 4, "{}", ran.out);
+    for (outputs, said) in [
+        ("servo=gravty+jacobian", "did you mean `gravity`?"),
+        ("gravity+jacobian", "write NAME = gravity+jacobian"),
+        ("gravity=inertia+jacobian", "call the bundle otherwise"),
+        (
+            "a=gravity+inertia,a=gravity+jacobian",
+            "call one of them otherwise",
+        ),
+        ("gravty", "a similar value exists: 'gravity'"),
+    ] {
+        let ran = run(&["count", &planar, "--outputs", outputs]);
+        assert_eq!(ran.code, 2, "{outputs}");
+        assert!(ran.err.contains(said), "{outputs}: {}", ran.err);
+    }
+}
+
 #[test]
 fn lagrange_euler_alone_gets_far() {
     let ran = run(&[

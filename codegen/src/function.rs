@@ -1,5 +1,5 @@
 //! The functions that can be generated: the model's registry of outputs.
 
 pub use dalembert_model::outputs::{
-    Argument, Columns, ErrorScale, Function, Quantity, RuntimeParameter, Sizes,
+    Argument, BundleError, Columns, ErrorScale, Function, Quantity, RuntimeParameter, Sizes,
 };

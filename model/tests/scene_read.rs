@@ -213,6 +213,17 @@ fn mistakes() {
             "outputs = [\"gravity\", \"gravity\"]",
             "in the list already",
         ),
+        (
+            2,
+            "outputs = [\"hold = gravty + jacobian\"]",
+            "did you mean `gravity`?",
+        ),
+        (2, "outputs = [\"gravity + jacobian\"]", "has no name"),
+        (
+            2,
+            "outputs = [\"a=gravity+inertia\", \"a=gravity+jacobian\"]",
+            "`a` is in the list already",
+        ),
         (2, "velocity = 0", "expected \"zero\""),
         (
             2,

@@ -33,6 +33,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
                 .into(),
         ));
     }
+    request.interface = args.interface;
     if args.contents {
         request.layout = Layout::Contents;
     }

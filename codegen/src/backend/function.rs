@@ -134,7 +134,7 @@ pub(super) fn argument_type(program: &Program, argument: Argument, scalar: Scala
 }
 
 /// What it returns.
-pub(super) fn result_type(program: &Program, scalar: ScalarType) -> String {
+pub fn result_type(program: &Program, scalar: ScalarType) -> String {
     let function = program.function;
     match function.structure() {
         Some(name) => name.to_owned(),

@@ -180,6 +180,8 @@ fn functions(
         sincos: invocation.sincos,
         math: module::math(invocation.sincos),
         entries: invocation.entries,
+        interface: invocation.interface,
+        traits: module::TRAITS.to_owned(),
         parameters: invocation.parameters.iter().map(|(p, _)| *p).collect(),
         batch: module::BATCH.to_owned(),
         module: Some(invocation.name.to_string()),
@@ -210,6 +212,7 @@ fn functions(
                 | GenerateError::Tolerance(function, _)
                 | GenerateError::Variant(function, _)
                 | GenerateError::Text(function, ..)
+                | GenerateError::Namesakes(_, function)
                 | GenerateError::Vanishing(function, _) => Some(*function),
             };
             let asked = invocation.outputs.iter().flatten();

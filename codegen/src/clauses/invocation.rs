@@ -10,10 +10,11 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::closest;
 
 use super::errors::Errors;
+use super::list;
 use super::messages as m;
 use super::statement::{self, Pair, pairs, trees};
-use super::words::{self, Word};
 use crate::backend::Entries;
+use crate::emit::Interface;
 use crate::function::Function;
 use crate::generate::Prefer;
 use crate::portfolio::Start;
@@ -38,6 +39,7 @@ pub(super) struct Invocation {
     /// The error of polynomials stands in it once all clauses are read.
     pub(super) sincos: SinCos,
     pub(super) entries: Entries,
+    pub(super) interface: Interface,
     /// With the tokens that asked for them.
     pub(super) parameters: Vec<(RuntimeParameter, TokenStream)>,
     /// The scene's name, and what it is if that stands here.
@@ -53,7 +55,7 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 11] = [
+const CLAUSES: [&str; 12] = [
     "outputs",
     "scalar",
     "formulation",
@@ -62,6 +64,7 @@ const CLAUSES: [&str; 11] = [
     "sincos",
     "sincos_error",
     "entries",
+    "interface",
     "parameters",
     "scene",
     "crate",
@@ -94,6 +97,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         prefer: Prefer::Accuracy,
         sincos: SinCos::Auto,
         entries: Entries::Single,
+        interface: Interface::Functions,
         parameters: Vec::new(),
         scene: None,
         facade: quote!(::dalembert),
@@ -182,8 +186,11 @@ impl Invocation {
         match key {
             Some("outputs") => {
                 let chosen = self.outputs.get_or_insert_default();
-                for (output, at) in words::<Function>(value, errors) {
-                    if chosen.iter().any(|(earlier, _)| *earlier == output) {
+                for (output, at) in list::outputs(value, errors) {
+                    if chosen
+                        .iter()
+                        .any(|(earlier, _)| output.is_namesake(*earlier))
+                    {
                         errors.twice(&at);
                     } else {
                         chosen.push((output, at));
@@ -192,7 +199,7 @@ impl Invocation {
             }
             Some("scalar") => {
                 let chosen = self.scalars.get_or_insert_default();
-                for (scalar, at) in words::<ScalarType>(value, errors) {
+                for (scalar, at) in list::words::<ScalarType>(value, errors) {
                     if chosen.contains(&scalar) {
                         errors.twice(&at);
                     } else {
@@ -200,13 +207,16 @@ impl Invocation {
                     }
                 }
             }
-            Some("formulation") => self.start = word(value, errors).unwrap_or(self.start),
-            Some("effort") => self.effort = word(value, errors).unwrap_or(self.effort),
-            Some("prefer") => self.prefer = word(value, errors).unwrap_or(self.prefer),
-            Some("sincos") => self.sincos = word(value, errors).unwrap_or(self.sincos),
-            Some("entries") => self.entries = word(value, errors).unwrap_or(self.entries),
+            Some("formulation") => self.start = list::word(value, errors).unwrap_or(self.start),
+            Some("effort") => self.effort = list::word(value, errors).unwrap_or(self.effort),
+            Some("prefer") => self.prefer = list::word(value, errors).unwrap_or(self.prefer),
+            Some("sincos") => self.sincos = list::word(value, errors).unwrap_or(self.sincos),
+            Some("interface") => {
+                self.interface = list::word(value, errors).unwrap_or(self.interface);
+            }
+            Some("entries") => self.entries = list::word(value, errors).unwrap_or(self.entries),
             Some("parameters") => {
-                for (parameter, at) in words::<RuntimeParameter>(value, errors) {
+                for (parameter, at) in list::words::<RuntimeParameter>(value, errors) {
                     if self.parameters.iter().any(|(known, _)| *known == parameter) {
                         errors.twice(&at);
                     } else {
@@ -252,54 +262,6 @@ fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
     meant
 }
 
-/// Words with commas between, in brackets as a scene has them or without; an
-/// unknown one counts as the one that was probably meant, so that its users are
-/// not told that it is missing.
-fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
-    let mut read = Vec::new();
-    let list = match value {
-        [tree] => statement::group(tree, Delimiter::Bracket),
-        _ => None,
-    };
-    let inner = list.map(|list| trees(list.stream()));
-    if let (Some(list), Some([])) = (list, inner.as_deref()) {
-        errors.push(list, &m::NO_VALUE);
-    }
-    let value = inner.as_deref().unwrap_or(value);
-    for item in statement::items(value) {
-        let at: TokenStream = item.iter().cloned().collect();
-        match item {
-            [TokenTree::Ident(ident)] => {
-                let value = match words::parse(&ident.to_string()) {
-                    Ok(value) => Some(value),
-                    Err(error) => {
-                        errors.say(ident, &error.message(), &error.help());
-                        error.meant.and_then(|meant| words::parse(meant).ok())
-                    }
-                };
-                read.extend(value.map(|value| (value, at)));
-            }
-            [] => errors.say(
-                first(value),
-                &format!("expected the word for the {}", W::WHAT),
-                "",
-            ),
-            [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_COMMA),
-            _ => errors.push(at, &m::NO_WORD),
-        }
-    }
-    read
-}
-
-fn word<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Option<W> {
-    let mut words = words(value, errors).into_iter();
-    let first = words.next();
-    for (_, at) in words {
-        errors.push(at, &m::ONE_WORD);
-    }
-    Some(first?.0)
-}
-
 /// An error of sines, as a float literal.
 fn sincos_error(value: &[TokenTree], errors: &mut Errors) -> Option<f64> {
     let tokens: TokenStream = value.iter().cloned().collect();
@@ -331,11 +293,4 @@ fn facade(value: &[TokenTree], errors: &mut Errors) -> Option<TokenStream> {
         return None;
     }
     Some(path.into_token_stream())
-}
-
-fn first(value: &[TokenTree]) -> TokenStream {
-    value
-        .first()
-        .map(ToTokens::to_token_stream)
-        .unwrap_or_default()
 }

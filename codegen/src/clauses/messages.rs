@@ -42,6 +42,14 @@ pub(super) const NO_OUTPUTS: Message = message(
 );
 pub(super) const NO_WORD: Message = message("expected a word", "");
 pub(super) const NO_COMMA: Message = message("expected `,` or `;`", "");
+pub(super) const NO_PART: Message = message(
+    "expected the word for an output",
+    "a bundle is `name = output + output`",
+);
+pub(super) const NO_PLUS: Message = message(
+    "expected `+`, `,` or `;`",
+    "a bundle is `name = output + output`",
+);
 pub(super) const ONE_WORD: Message = message("expected one word only", "");
 pub(super) const SINCOS_ERROR: Message = message(
     "expected an error above 0 and below 1",

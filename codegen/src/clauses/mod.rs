@@ -4,7 +4,7 @@
 //! - [`words`]: outputs, scalars, formulations, efforts, preferences, sources of sines
 //! - [`robot_file`]: a robot file from a path, with errors fit to show
 //! - [`expand`]: the tokens of `dynamics!` to the tokens of its modules, by
-//!   way of `invocation` (the grammar), `table` (a robot written in the
+//!   way of `invocation` (the grammar), `list` (words and bundles), `table` (a robot written in the
 //!   macro), `module` (the generated text as tokens) and `stub` (what stands
 //!   there instead after an error)
 //! - `warnings`: what is odd about a robot, as warnings of the compiler
@@ -16,6 +16,7 @@
 mod errors;
 mod expand;
 mod invocation;
+mod list;
 mod messages;
 mod module;
 pub mod robot_file;

@@ -11,12 +11,16 @@ use syn::Attribute;
 use super::invocation::Invocation;
 use super::warnings::{self, Warning};
 use crate::backend::{Entries, MathPath};
+use crate::emit::Interface;
 use crate::program::Library;
 use crate::sincos::SinCos;
 
 /// Where the bodies find sine and cosine: an import of the module, so that a
 /// wrong path to the facade is one error and not one a call.
 const MATH: &str = "__math";
+
+/// Where the robot's type finds its traits.
+pub(super) const TRAITS: &str = "__traits";
 
 /// Where batches find the crate that runs them.
 pub(super) const BATCH: &str = "__batch";
@@ -55,6 +59,13 @@ pub(super) fn assemble(
             use #facade::batch as #batch;
         }
     });
+    let traits = (invocation.interface == Interface::Traits).then(|| {
+        let traits = Ident::new(TRAITS, proc_macro2::Span::call_site());
+        quote! {
+            #[allow(unused_imports)]
+            use #facade::interface as #traits;
+        }
+    });
     let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
     let gap = attributes.iter().any(is_doc).then(|| quote!(#[doc = ""]));
     let notes = warnings.iter().map(Warning::documentation);
@@ -80,7 +91,10 @@ pub(super) fn assemble(
             TokenTree::Group(body) if body.delimiter() == Delimiter::Brace => {
                 let inner = body.stream();
                 let warnings = std::mem::take(&mut warnings);
-                let whole = Group::new(Delimiter::Brace, quote!(#import #batches #warnings #inner));
+                let whole = Group::new(
+                    Delimiter::Brace,
+                    quote!(#import #batches #traits #warnings #inner),
+                );
                 whole.to_tokens(&mut tokens);
                 start = true;
             }

@@ -4,9 +4,10 @@
 use std::fmt;
 
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::read::closest;
+use dalembert_model::read::{closest, for_bundle};
 
 use crate::backend::Entries;
+use crate::emit::Interface;
 use crate::function::Function;
 use crate::generate::Prefer;
 use crate::portfolio::Start;
@@ -71,6 +72,14 @@ impl Word for RuntimeParameter {
     }
 }
 
+impl Word for Interface {
+    const WHAT: &'static str = "interface";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        Interface::ALL.map(|i| (i.name(), i)).to_vec()
+    }
+}
+
 impl Word for Start {
     const WHAT: &'static str = "formulation";
 
@@ -114,6 +123,22 @@ pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
         meant: closest(text, &known),
         known,
     })
+}
+
+/// The bundle that a text makes, `NAME=OUTPUT+OUTPUT`.
+///
+/// ```
+/// use dalembert_codegen::clauses::words::bundle;
+///
+/// assert_eq!(bundle("load=inertia+gravity").unwrap().name(), "load");
+/// let error = bundle("load=inertia+gravty").unwrap_err();
+/// assert_eq!(error, "unknown output `gravty`: did you mean `gravity`?");
+/// ```
+///
+/// # Errors
+/// What is wrong with it, and the likely fix.
+pub fn bundle(text: &str) -> Result<Function, String> {
+    Function::parse(text).map_err(|error| format!("{}: {}", error.message(), for_bundle(&error)))
 }
 
 /// A word that names nothing.
@@ -168,6 +193,7 @@ mod tests {
         check::<Effort>();
         check::<Prefer>();
         check::<Entries>();
+        check::<Interface>();
         check::<RuntimeParameter>();
         check::<Start>();
         check::<SinCos>();

@@ -7,6 +7,7 @@
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
 //!   are relative to; `sines`: polynomials for sines; [`figures`]: numbers
 //!   rounded to the side that stays true
+//! - [`interface`]: the robot as a value with traits
 //! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
 //!   its load are, and gravity where it is an argument
 
@@ -14,6 +15,7 @@ mod arguments;
 mod escape;
 pub mod figures;
 mod generated;
+pub mod interface;
 pub mod module;
 mod parameters;
 mod scale;
@@ -23,4 +25,5 @@ mod state_box;
 mod variant;
 
 pub use generated::GeneratedFunction;
+pub use interface::Interface;
 pub use module::Layout;

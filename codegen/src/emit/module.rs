@@ -8,7 +8,7 @@ use super::escape::escaped;
 use super::figures::decimal;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{arguments, parameters, sines, variant};
+use super::{Interface, arguments, interface, parameters, sines, variant};
 use crate::backend::entries::angles::Angles;
 use crate::backend::entries::{self, Around};
 use crate::backend::{Entries, MathPath, function, result};
@@ -27,6 +27,10 @@ pub struct ModuleOptions<'a> {
     pub entries: Entries,
     /// Where `dalembert-batch` is.
     pub batch: &'a str,
+    /// How code meets the module.
+    pub interface: Interface,
+    /// Where the traits are, the crate `dalembert`.
+    pub traits: &'a str,
     /// The name of the f64 module.
     pub name: &'a str,
     /// Whether modules stand around the functions.
@@ -136,14 +140,19 @@ fn module(
     if options.entries > Entries::Single {
         angles.write(&mut text, scalar);
     }
-    for generated in functions {
+    for (index, generated) in functions.iter().enumerate() {
         text.push('\n');
         let sizes = generated.program.sizes();
         if let Some(structure) = result::structure(generated.function, sizes, scalar) {
             text.push_str(&structure);
             text.push('\n');
         }
-        text.push_str(&parameters::constant(generated.function, setting, scalar));
+        // One π for all that are over the same columns.
+        let columns = generated.function.columns();
+        let mut earlier = functions[..index].iter();
+        if !earlier.any(|other| other.function.columns() == columns) {
+            text.push_str(&parameters::constant(generated.function, setting, scalar));
+        }
         let doc = function_doc(generated, setting, scalar);
         let (program, sines) = (&generated.program, generated.sines(scalar));
         text.push_str(&match options.entries {
@@ -158,6 +167,9 @@ fn module(
                 entries::write(program, &around, sines, more, &doc)
             }
         });
+    }
+    if options.interface == Interface::Traits {
+        text.push_str(&interface::write(functions, scalar, options.traits));
     }
     if options.layout == Layout::Modules {
         text.push_str("}\n");

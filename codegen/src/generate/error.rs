@@ -17,6 +17,8 @@ use crate::verify::exact::Disproof;
 pub enum GenerateError {
     /// The request names no function or no scalar.
     Empty,
+    /// These are not the same, and would have one name or one struct.
+    Namesakes(Function, Function),
     /// More than one scalar was asked for where the text is to be the contents
     /// of one module.
     Contents,
@@ -92,6 +94,13 @@ impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
+            GenerateError::Namesakes(one, other) => write!(
+                f,
+                "`{}` and `{}` would have one name or one struct in a module: call one of them \
+                 otherwise",
+                one.text(),
+                other.text()
+            ),
             GenerateError::Contents => f.write_str(
                 "a file without modules has one scalar: choose f64 or f32, and write a file for each",
             ),

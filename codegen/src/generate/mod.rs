@@ -51,7 +51,7 @@ use tolerate::tolerate;
 /// Everything generated for a robot.
 #[derive(Clone, Debug)]
 pub struct Generated {
-    /// In the order of [`Function::ALL`], behind that of a load.
+    /// In the order of [`Function::in_order`], behind that of a load.
     pub functions: Vec<GeneratedFunction>,
     /// The Rust source: one module a scalar.
     pub text: String,
@@ -72,6 +72,13 @@ pub const MAX_OUTPUTS: usize = 20_000;
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::Empty);
+    }
+    let functions = Function::in_order(&request.functions);
+    for (index, &function) in functions.iter().enumerate() {
+        let mut others = functions[..index].iter();
+        if let Some(&other) = others.find(|other| function.is_namesake(**other)) {
+            return Err(GenerateError::Namesakes(other, function));
+        }
     }
     if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.any_scalar {
         return Err(GenerateError::Contents);
@@ -123,6 +130,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             math: &request.math,
             entries: request.entries,
             batch: &request.batch,
+            interface: request.interface,
+            traits: &request.traits,
             name: &name,
             layout: request.layout,
         },
@@ -174,10 +183,8 @@ fn attempt(setting: &Setting, request: &Request) -> Result<Found, GenerateError>
     if setting.has(RuntimeParameter::Payload) {
         functions.push(one(setting, Function::Load, request)?);
     }
-    for function in Function::ALL {
-        if request.functions.contains(&function) {
-            functions.push(one(setting, function, request)?);
-        }
+    for function in Function::in_order(&request.functions) {
+        functions.push(one(setting, function, request)?);
     }
     let scalars = tolerate(setting, &mut functions, request)?;
     Ok((functions, scalars))

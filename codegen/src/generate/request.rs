@@ -5,7 +5,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
 use crate::backend::{Entries, MathPath};
-use crate::emit::Layout;
+use crate::emit::{Interface, Layout};
 use crate::function::Function;
 use crate::plan::Plan;
 use crate::portfolio::{Start, load};
@@ -68,6 +68,10 @@ pub struct Request {
     pub entries: Entries,
     /// Where emitted code finds `dalembert-batch`, if batches are asked for.
     pub batch: String,
+    /// How code meets the modules.
+    pub interface: Interface,
+    /// Where emitted code finds the traits, if they are asked for.
+    pub traits: String,
     /// The module's name; the robot's and the scene's if `None`. The f32
     /// module of a pair has `_f32` appended.
     pub module: Option<String>,
@@ -131,6 +135,8 @@ impl Default for Request {
             math: MathPath::default(),
             entries: Entries::default(),
             batch: "dalembert_batch".to_owned(),
+            interface: Interface::default(),
+            traits: "dalembert::interface".to_owned(),
             module: None,
             layout: Layout::default(),
             parameters: Vec::new(),

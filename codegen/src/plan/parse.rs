@@ -7,7 +7,7 @@ use dalembert_model::robot::Robot;
 
 use super::variant::Variant;
 use super::{Entry, Plan};
-use crate::function::Function;
+use crate::function::{BundleError, Function};
 use crate::portfolio::{Source, Start};
 use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
@@ -143,7 +143,10 @@ fn program(words: &[&str]) -> Result<Entry, String> {
         .ok()
         .filter(|n| (1..=Robot::MAX_JOINTS).contains(n))
         .ok_or_else(|| unknown("number of joints", joints))?;
-    let function = Function::from_name(function).ok_or_else(|| unknown("function", function))?;
+    let function = Function::parse(function).map_err(|error| match error {
+        BundleError::Unknown(name) => unknown("function", &name),
+        error => error.message(),
+    })?;
     Ok(Entry {
         scene: None,
         edited: None,

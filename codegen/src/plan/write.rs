@@ -21,7 +21,7 @@ impl Plan {
             let _ = writeln!(
                 text,
                 "\nprogram {} {} {} {} {}",
-                program.function,
+                program.function.text(),
                 entry.start.name(),
                 entry.scalar,
                 entry.source.name(),

@@ -188,16 +188,18 @@ impl Program {
     /// there are, from how many results.
     pub fn sizes(&self) -> Sizes {
         let rows = self.rows.len();
-        let base = match self.function.columns() {
-            Columns::Base(_) => self.outputs.len() / rows.max(1),
-            Columns::None | Columns::Links => 0,
-        };
-        Sizes {
+        let mut sizes = Sizes {
             rows,
             joints: self.joints,
-            base,
+            base: 0,
             load: self.load,
+        };
+        if let Columns::Base(_) = self.function.columns() {
+            // What a bundle returns beside its regressor is of known lengths.
+            let others = self.function.outputs(sizes);
+            sizes.base = self.outputs.len().saturating_sub(others) / rows.max(1);
         }
+        sizes
     }
 
     /// Whether it divides.

@@ -73,7 +73,7 @@ impl Transcript {
 
     /// A program with its exact constants.
     pub fn program(&mut self, program: &Program) {
-        self.text(program.function.name());
+        self.text(&program.function.text());
         self.number(program.joints);
         self.numbers(&program.rows);
         self.number(program.arguments.len());

@@ -176,7 +176,15 @@ impl Emitted {
             start = range.end;
             let part = |values: &'_ [f64]| values[range.clone()].to_vec();
             let cases = cases.iter();
-            let cases = cases.map(|(a, b, granted)| (part(a), part(b), *granted));
+            // What else is in the function inverts nothing.
+            let granted = |granted: f64| {
+                if quantity.inverts_inertia() {
+                    granted
+                } else {
+                    1.0
+                }
+            };
+            let cases = cases.map(|(a, b, more)| (part(a), part(b), granted(*more)));
             let cases: Vec<Case> = cases.collect();
             let least = LEAST_PART * cases.iter().map(|(_, b, _)| largest(b)).fold(0.0, f64::max);
             measures.push(self.measure(quantity, worst(&cases, least)));

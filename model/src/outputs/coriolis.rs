@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Coriolis],
     structure: None,
     by_default: true,
+    parts: &[],
 };
 
 /// h_i

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::CoriolisMatrix],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// C_ik = Σ_m h_ikm q̇_m

@@ -22,6 +22,7 @@ pub(super) const FUNCTION: Definition = Definition {
     ],
     structure: Some("DalembertTerms"),
     by_default: false,
+    parts: &[],
 };
 
 /// D^rot_ik

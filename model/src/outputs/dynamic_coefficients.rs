@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity],
     structure: Some("DynamicCoefficients"),
     by_default: true,
+    parts: &[],
 };
 
 /// h_ikm

@@ -18,6 +18,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Acceleration],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// q̈_i

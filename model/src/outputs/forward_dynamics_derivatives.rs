@@ -26,6 +26,7 @@ pub(super) const FUNCTION: Definition = Definition {
     ],
     structure: Some("ForwardDynamicsDerivatives"),
     by_default: false,
+    parts: &[],
 };
 
 const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::Torque];

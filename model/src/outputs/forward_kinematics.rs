@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Pose],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// [R | p]

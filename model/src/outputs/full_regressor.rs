@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::LinkRegressor],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// Y_ik

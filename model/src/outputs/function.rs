@@ -9,7 +9,8 @@ use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
-/// What an output's file says of its function.
+/// What an output's file says of its function, and a bundle of itself.
+#[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Definition {
     /// Its name in generated code, on the command line and in the macro.
     pub name: &'static str,
@@ -21,6 +22,8 @@ pub(super) struct Definition {
     pub structure: Option<&'static str>,
     /// Whether it is generated where nobody says which functions are wanted.
     pub by_default: bool,
+    /// The functions whose results these are; none if it is no bundle of others.
+    pub parts: &'static [Function],
 }
 
 /// Which columns of a regressor a function's results are over.
@@ -46,7 +49,7 @@ impl Function {
         self.definition().name
     }
 
-    /// The function of a name.
+    /// The function of a name, of those that always are.
     pub fn from_name(name: &str) -> Option<Function> {
         Function::ALL.into_iter().find(|f| f.name() == name)
     }

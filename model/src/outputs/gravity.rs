@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Gravity],
     structure: None,
     by_default: true,
+    parts: &[],
 };
 
 /// c_i

@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Inertia],
     structure: None,
     by_default: true,
+    parts: &[],
 };
 
 /// D_ik

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::InertiaInverse],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// (D⁻¹)_ik

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Torque],
     structure: None,
     by_default: true,
+    parts: &[],
 };
 
 /// τ_i

@@ -19,6 +19,7 @@ pub(super) const FUNCTION: Definition = Definition {
     ],
     structure: Some("InverseDynamicsDerivatives"),
     by_default: false,
+    parts: &[],
 };
 
 /// ∂τ_i/∂q_k

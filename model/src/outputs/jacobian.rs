@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Jacobian],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// J_rk

@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::JacobianRate],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// (J̇ q̇)_r

@@ -17,6 +17,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::LinkPoses],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// [R_i | p_i]

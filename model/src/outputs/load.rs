@@ -21,6 +21,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Load],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// The base parameters that a payload changes.

@@ -1,7 +1,7 @@
-//! D, h and c in one function.
+//! D, h and c in one function: a bundle that is always there.
 
-use super::Quantity;
 use super::function::Definition;
+use super::{Function, Quantity};
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "manipulator_equation",
@@ -9,4 +9,5 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Inertia, Quantity::Coriolis, Quantity::Gravity],
     structure: Some("ManipulatorEquation"),
     by_default: true,
+    parts: &[Function::Inertia, Function::Coriolis, Function::Gravity],
 };

@@ -2,6 +2,7 @@
 //!
 //! - `registry`: the macro that makes [`Function`] and [`Quantity`] of the list below
 //! - `function`: what a generated function is: its name, arguments and results
+//! - `bundle`: several of them as one
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
 //! - `argument`: what functions read
@@ -15,6 +16,7 @@
 //! to the lists below.
 
 mod argument;
+mod bundle;
 mod formula;
 mod function;
 mod quantity;
@@ -50,6 +52,7 @@ mod reaction_wrenches;
 mod regressor;
 
 pub use argument::Argument;
+pub use bundle::{Bundle, BundleError};
 pub use formula::{Motion, Regrouped, Written};
 pub use function::Columns;
 pub use quantity::{ErrorScale, Index};

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Momentum, Quantity::MomentumSlope],
     structure: Some("Momentum"),
     by_default: false,
+    parts: &[],
 };
 
 /// p_i

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Passivity],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// What it and its regressor depend on.

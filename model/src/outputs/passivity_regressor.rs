@@ -23,6 +23,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::PassivityRegressor],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// Y_ik

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::PotentialEnergy],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// U

@@ -16,6 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::Wrench],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// (f_i, n_i)

@@ -15,6 +15,8 @@ macro_rules! registry {
         pub enum Function {
             $($(#[$doc])* $function,)*
             $($(#[$along_doc])* $along,)*
+            /// Several of these in one, by a name of the user's.
+            Bundle(bundle::Bundle),
         }
 
         /// A quantity that a function returns.
@@ -31,13 +33,15 @@ macro_rules! registry {
         }
 
         impl Function {
-            /// Every function that can be asked for, in the order of generated files.
+            /// Every function that can be asked for by its name alone, in the order of
+            /// generated files: bundles have theirs from the user.
             pub const ALL: [Function; [$(Function::$function),*].len()] = [$(Function::$function),*];
 
             pub(in crate::outputs) fn definition(self) -> &'static function::Definition {
                 match self {
                     $(Function::$function => &$file::FUNCTION,)*
                     $(Function::$along => &$along_file::FUNCTION,)*
+                    Function::Bundle(bundle) => bundle.definition(),
                 }
             }
         }

@@ -15,6 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     results: &[Quantity::BaseRegressor],
     structure: None,
     by_default: false,
+    parts: &[],
 };
 
 /// Y_ik

@@ -58,7 +58,7 @@ use crate::scene::Scene;
 pub use crate::robot::{Doubt, Severity};
 pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
-pub use suggest::closest;
+pub use suggest::{closest, for_bundle};
 
 /// How to read.
 #[derive(Clone, Debug, Default)]

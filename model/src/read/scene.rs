@@ -165,14 +165,13 @@ impl Reader<'_, '_, '_> {
         };
         self.mark(Part::Outputs, value);
         let items = self.list(value, HELP).unwrap_or_default();
-        let words = Function::ALL.map(|function| (function.name(), function));
-        let mut outputs = Vec::new();
+        let mut outputs: Vec<Function> = Vec::new();
         for item in items {
-            let read = self.cx.word(item, &words);
+            let read = self.output(item);
             let Some(output) = self.noted(read) else {
                 continue;
             };
-            if outputs.contains(&output) {
+            if outputs.iter().any(|other| output.is_namesake(*other)) {
                 let message = format!("`{}` is in the list already", output.name());
                 let span = Context::span(item);
                 self.cx.sink.error(span, message, "once is enough");
@@ -187,6 +186,23 @@ impl Reader<'_, '_, '_> {
             self.cx.sink.error(span, message, help);
         }
         outputs
+    }
+
+    /// An output by its name, or a bundle of some.
+    fn output(&mut self, item: &Value) -> Option<Function> {
+        let words = Function::ALL.map(|function| (function.name(), function));
+        let Some(text) = item.as_str().filter(|text| text.contains(['=', '+'])) else {
+            return self.cx.word(item, &words);
+        };
+        match Function::parse(text) {
+            Ok(bundle) => Some(bundle),
+            Err(error) => {
+                let help = suggest::for_bundle(&error);
+                let span = Context::span(item);
+                self.cx.sink.error(span, error.message(), &help);
+                None
+            }
+        }
     }
 
     fn joints(&mut self, keys: &Keys) -> Option<Vec<usize>> {

@@ -1,5 +1,10 @@
 //! The word that was meant.
 
+use alloc::format;
+use alloc::string::String;
+
+use crate::outputs::{BundleError, Function};
+
 /// What other tools and textbooks call the same thing.
 const OTHER_WORDS: [(&str, &str); 30] = [
     ("m", "mass"),
@@ -33,6 +38,19 @@ const OTHER_WORDS: [(&str, &str); 30] = [
     ("linear", "prismatic"),
     ("sliding", "prismatic"),
 ];
+
+/// What to do about a bundle that is none, with the output that was probably
+/// meant.
+pub fn for_bundle(error: &BundleError) -> String {
+    let meant = match error {
+        BundleError::Unknown(word) => closest(word, &Function::ALL.map(Function::name)),
+        _ => None,
+    };
+    match meant {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => error.help(),
+    }
+}
 
 /// The candidate that `word` is most likely a slip of, if one is near.
 pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {

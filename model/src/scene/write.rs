@@ -17,7 +17,7 @@ pub fn write(scene: &Scene) -> String {
         let _ = writeln!(text, "{key} = {value}");
     };
     if !scene.outputs.is_empty() {
-        let outputs = scene.outputs.iter().map(|o| format!("\"{}\"", o.name()));
+        let outputs = scene.outputs.iter().map(|o| format!("\"{}\"", o.text()));
         line("outputs", &list(outputs));
     }
     if let Some(joints) = &scene.joints {

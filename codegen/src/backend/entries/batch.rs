@@ -47,11 +47,7 @@ pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
 
 /// The type of a function: `InverseDynamicsBatch`.
 fn kind(program: &Program) -> String {
-    let words = program.function.name().split('_').map(|word| {
-        let (first, rest) = word.split_at(word.len().min(1));
-        format!("{}{rest}", first.to_ascii_uppercase())
-    });
-    format!("{}Batch", words.collect::<String>())
+    format!("{}Batch", program.function.camel())
 }
 
 fn marker(text: &mut String, program: &Program, around: &Around<'_>, kind: &str) {

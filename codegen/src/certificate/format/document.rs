@@ -90,7 +90,7 @@ impl Document {
             input: certificate.input.clone(),
             scene: scene.map(|scene| scene.name.clone()),
             scene_hash: scene.map(|scene| scene.hash.clone()),
-            function: emitted.function.name().into(),
+            function: emitted.function.text(),
             rows: emitted.rows.iter().map(|row| row + 1).collect(),
             arguments: emitted.arguments.iter().map(|a| a.name().into()).collect(),
             scalar: certificate.scalar.name().into(),
@@ -134,7 +134,9 @@ impl Document {
     }
 
     fn parse(&self) -> Result<Certificate, String> {
-        let function = known("function", &self.function, Function::from_name)?;
+        let function = known("function", &self.function, |text| {
+            Function::parse(text).ok()
+        })?;
         let scalar = known("scalar", &self.scalar, ScalarType::from_name)?;
         let relative_to = self.relative_to.as_ref();
         let relative_to = relative_to.map(|word| known("relative_to", word, scale));

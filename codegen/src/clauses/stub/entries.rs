@@ -6,7 +6,8 @@ use dalembert_model::outputs::Axis;
 
 use super::arguments;
 use crate::backend::Entries;
-use crate::clauses::module::BATCH;
+use crate::clauses::module::{BATCH, TRAITS};
+use crate::emit::interface::{ROBOT, question};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
 
@@ -34,6 +35,30 @@ pub(super) fn write(
     }
     if entries >= Entries::Batch {
         own.batch(&mut text);
+    }
+    text
+}
+
+/// The robot as a value, with the traits of these functions, each with its
+/// arguments.
+pub(super) fn robot(
+    functions: &[(Function, Vec<Argument>)],
+    joints: Option<usize>,
+    scalar: ScalarType,
+) -> String {
+    let mut text = format!(
+        "#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]\npub struct {ROBOT};\n"
+    );
+    for (function, given) in functions {
+        let own = Stub {
+            function: *function,
+            given,
+            joints,
+            scalar,
+        };
+        if *given == function.arguments() {
+            own.answer(&mut text);
+        }
     }
     text
 }
@@ -117,6 +142,23 @@ impl Stub<'_> {
                 }
             }
         }
+    }
+
+    fn answer(&self, text: &mut String) {
+        let Some(question) = question(self.function) else {
+            return;
+        };
+        let (scalar, length) = (self.scalar, self.length());
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "impl{} {TRAITS}::{question}<{scalar}, {length}> for {ROBOT} {{ \
+             fn {}(&self, {}) -> {} {{ ::core::unreachable!() }} }}",
+            self.generic(&[]),
+            self.function,
+            self.arguments(scalar.name()),
+            self.result(scalar.name(), "", &[])
+        );
     }
 
     fn with_sincos(&self, text: &mut String) {

@@ -4,6 +4,7 @@
 //! - `arguments`: those that are no joint vectors
 //! - `entries`: more ways to call them
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use dalembert_model::outputs::{Axis, RuntimeParameter};
@@ -13,7 +14,7 @@ mod entries;
 
 use crate::backend::Entries;
 use crate::clauses::invocation::Invocation;
-use crate::emit::module;
+use crate::emit::{Interface, module};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
@@ -52,8 +53,16 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
             text += &self::function(function, &given, joints, scalar);
             text += &entries::write(function, &given, joints, scalar, invocation.entries);
         }
+        if invocation.interface == Interface::Traits {
+            let given = functions.iter().map(|&f| (f, arguments::of(f, &taken)));
+            let given: Vec<(Function, Vec<Argument>)> = given.collect();
+            text += &entries::robot(&given, joints, scalar);
+        }
         let results = functions.iter().flat_map(|f| f.quantities());
-        for (_, constant) in results.filter_map(|quantity| quantity.linear()) {
+        // Once, whoever has them.
+        let constants = results.filter_map(|quantity| quantity.linear());
+        let constants: BTreeSet<&str> = constants.map(|(_, constant)| constant).collect();
+        for constant in constants {
             let _ = writeln!(text, "pub const {constant}: &[{scalar}] = &[];");
         }
         text += &state_box(&bounded(invocation, functions), joints, scalar);

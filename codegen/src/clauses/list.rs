@@ -1,0 +1,148 @@
+//! Lists of words, and of outputs, where a bundle is an item too:
+//! `gravity, servo = inverse_dynamics + jacobian`.
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::ToTokens;
+
+use dalembert_model::read::for_bundle;
+
+use super::errors::Errors;
+use super::messages as m;
+use super::statement::{self, is_punct, trees};
+use super::words::{self, Word};
+use crate::function::{BundleError, Function};
+
+/// Words with commas between, in brackets as a scene has them or without; an
+/// unknown one counts as the one that was probably meant, so that its users are
+/// not told that it is missing.
+pub(super) fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
+    read(value, W::WHAT, errors, |item, errors| known(item, errors))
+}
+
+/// One word.
+pub(super) fn word<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Option<W> {
+    let mut words = words(value, errors).into_iter();
+    let first = words.next();
+    for (_, at) in words {
+        errors.push(at, &m::ONE_WORD);
+    }
+    Some(first?.0)
+}
+
+/// Outputs with commas between, as [`words`]; some may be bundles of others.
+pub(super) fn outputs(value: &[TokenTree], errors: &mut Errors) -> Vec<(Function, TokenStream)> {
+    let sign = |tree: &TokenTree| is_punct(tree, '=') || is_punct(tree, '+');
+    read(value, Function::WHAT, errors, |item, errors| {
+        match item.iter().any(sign) {
+            true => bundle(item, errors),
+            false => known(item, errors),
+        }
+    })
+}
+
+fn read<T>(
+    value: &[TokenTree],
+    what: &str,
+    errors: &mut Errors,
+    mut one: impl FnMut(&[TokenTree], &mut Errors) -> Option<T>,
+) -> Vec<(T, TokenStream)> {
+    let mut read = Vec::new();
+    let list = match value {
+        [tree] => statement::group(tree, Delimiter::Bracket),
+        _ => None,
+    };
+    let inner = list.map(|list| trees(list.stream()));
+    if let (Some(list), Some([])) = (list, inner.as_deref()) {
+        errors.push(list, &m::NO_VALUE);
+    }
+    let value = inner.as_deref().unwrap_or(value);
+    for item in statement::items(value) {
+        if item.is_empty() {
+            let at = value.first().map(ToTokens::to_token_stream);
+            let text = format!("expected the word for the {what}");
+            errors.say(at.unwrap_or_default(), &text, "");
+            continue;
+        }
+        let found = one(item, errors);
+        read.extend(found.map(|found| (found, tokens(item))));
+    }
+    read
+}
+
+/// The value of a word, or of the word that was probably meant.
+fn known<W: Word>(item: &[TokenTree], errors: &mut Errors) -> Option<W> {
+    match item {
+        [TokenTree::Ident(ident)] => match words::parse(&ident.to_string()) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                errors.say(ident, &error.message(), &error.help());
+                error.meant.and_then(|meant| words::parse(meant).ok())
+            }
+        },
+        [TokenTree::Ident(_), next, ..] => {
+            errors.push(next, &m::NO_COMMA);
+            None
+        }
+        _ => {
+            errors.push(tokens(item), &m::NO_WORD);
+            None
+        }
+    }
+}
+
+/// `name = output + output`
+fn bundle(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
+    let (name, parts) = match item {
+        [TokenTree::Ident(name), equals, parts @ ..] if is_punct(equals, '=') => (name, parts),
+        _ => {
+            let text: String = item.iter().map(TokenTree::to_string).collect();
+            let error = match is_punct(&item[0], '=') || !is_sum(item) {
+                true => BundleError::Few(None),
+                false => BundleError::Nameless(text),
+            };
+            errors.say(tokens(item), &error.message(), &error.help());
+            return None;
+        }
+    };
+    let mut read = Vec::new();
+    for part in parts.split(|tree| is_punct(tree, '+')) {
+        match part {
+            [TokenTree::Ident(_)] => read.extend(known(part, errors).map(|output| (output, part))),
+            [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_PLUS),
+            [] => errors.push(tokens(item), &m::NO_PART),
+            _ => errors.push(tokens(part), &m::NO_PART),
+        }
+    }
+    let made = Function::bundle(&name.to_string(), read.iter().map(|(output, _)| *output));
+    match made {
+        Ok(bundle) => Some(bundle),
+        // What is missing from the list was said already.
+        Err(BundleError::Few(_)) if !errors.is_empty() => None,
+        Err(error) => {
+            let of = |wrong: &Function| {
+                let mut parts = read.iter().rev();
+                parts.find(|(output, _)| output == wrong)
+            };
+            let at = match &error {
+                BundleError::Twice(_, [_, other]) | BundleError::SameField(_, [_, other]) => {
+                    of(other).map(|(_, part)| tokens(part))
+                }
+                BundleError::Few(_) => Some(tokens(item)),
+                _ => None,
+            };
+            let at = at.unwrap_or_else(|| name.to_token_stream());
+            errors.say(at, &error.message(), &for_bundle(&error));
+            None
+        }
+    }
+}
+
+/// Whether words are added in it, and nothing else.
+fn is_sum(item: &[TokenTree]) -> bool {
+    let word = |tree: &TokenTree| matches!(tree, TokenTree::Ident(_)) || is_punct(tree, '+');
+    item.iter().all(word)
+}
+
+fn tokens(item: &[TokenTree]) -> TokenStream {
+    item.iter().cloned().collect()
+}

@@ -1,0 +1,306 @@
+//! Bundles: several outputs as one function, which shares their work. What comes
+//! out is proved, read back and measured as any function is; it is the same by
+//! every way in, and costs no more than its parts.
+
+mod support;
+
+use std::path::Path;
+
+use dalembert_codegen::Entries;
+use dalembert_codegen::clauses::expand;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::keep::keep;
+use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::plan::Plan;
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::states;
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_model::robot::Robot;
+
+fn bundle(text: &str) -> Function {
+    Function::parse(text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn of(robot: &Robot, functions: &[Function], entries: Entries) -> Generated {
+    let request = Request {
+        functions: functions.to_vec(),
+        entries,
+        ..Request::default()
+    };
+    generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn operations(robot: &Robot, function: Function) -> usize {
+    let generated = support::one(robot, function);
+    generated.functions[0].counts.operations()
+}
+
+/// Every quantity against its own runtime, in both scalars and by every entry;
+/// what divides among them, and what is over parameters.
+#[test]
+fn each_quantity_is_what_its_runtime_says() {
+    let planar = support::robot("planar2r");
+    let functions = [
+        "servo=inverse_dynamics+jacobian+forward_kinematics",
+        "task=forward_dynamics+kinetic_energy+jacobian_rate",
+        "slopes=inverse_dynamics_derivatives+gravity",
+        "adapt=regressor+momentum",
+    ]
+    .map(bundle);
+    let generated = of(&planar, &functions, Entries::Lanes);
+    let runtime = Runtime::new(&planar);
+    let states = states::seeded(&planar, 100, 7);
+    let mut quantities = 0;
+    for emitted in &generated.emitted {
+        for measure in emitted.against_runtime(&runtime, &states) {
+            assert!(measure.in_units() <= BOUND, "{measure:?}");
+            quantities += 1;
+        }
+    }
+    let each: usize = functions.iter().map(|f| f.quantities().len()).sum();
+    assert_eq!(quantities, 2 * each);
+    // π is the module's, whoever needs it.
+    let both = [functions[3], Function::Regressor];
+    let text = of(&planar, &both, Entries::Single).text;
+    assert_eq!(text.matches("pub const BASE_PARAMETERS").count(), 2);
+}
+
+/// Less than its parts by themselves, where they have more in common than sines.
+#[test]
+fn work_is_shared() {
+    let robot = support::robot("planar3r");
+    for (text, most) in [
+        ("motion=forward_kinematics+jacobian", 16),
+        ("model=inertia+coriolis_matrix+gravity", 43),
+        ("servo=inverse_dynamics+jacobian+forward_kinematics", 62),
+    ] {
+        let whole = bundle(text);
+        let parts = whole.parts().into_iter();
+        let parts: Vec<usize> = parts.map(|part| operations(&robot, part)).collect();
+        let found = operations(&robot, whole);
+        let sum: usize = parts.iter().sum();
+        assert!(found < sum, "{text}: {found}, {parts:?}");
+        assert!(found <= most, "{text}: {found}");
+    }
+}
+
+/// What the registry bundles under a name has the program of whoever bundles the
+/// same.
+#[test]
+fn the_manipulator_equation_is_a_bundle() {
+    let planar = support::robot("planar3r");
+    let own = support::one(&planar, Function::ManipulatorEquation);
+    let made = support::one(&planar, bundle("equation=inertia+coriolis+gravity"));
+    let [own, made] = [&own, &made].map(|generated| &generated.functions[0].program);
+    assert_eq!(own.steps, made.steps);
+    assert_eq!(own.outputs, made.outputs);
+}
+
+/// The signature has every argument that a part reads, in the table's order.
+#[test]
+fn one_struct_in_the_written_order() {
+    let planar = support::robot("planar2r");
+    let load = bundle("servo_load=jacobian+manipulator_equation");
+    let text = of(&planar, &[load], Entries::Batch).text;
+    for expected in [
+        "/// `jacobian`, `manipulator_equation` in one",
+        "pub struct ServoLoad {",
+        "pub fn servo_load(q: &[f64; 2], qd: &[f64; 2]) -> ServoLoad {",
+        "pub struct ServoLoadLanes<const L: usize> {",
+        "for ServoLoadBatch {",
+        "pub fn servo_load_columns(",
+    ] {
+        let expected = expected.replace("`, `", "` and `");
+        assert!(text.contains(&expected), "{expected}\n{text}");
+    }
+    let fields = ["jacobian: ", "d: ", "h: ", "c: "].map(|field| {
+        let field = format!("    pub {field}");
+        text.find(&field).unwrap_or_else(|| panic!("{field}"))
+    });
+    assert!(fields.is_sorted());
+}
+
+/// A field that trades its name with another of its type is noticed.
+#[test]
+fn the_text_is_read_back_field_by_field() {
+    use dalembert_codegen::program::{Library, Lowered};
+    let planar = support::robot("planar2r");
+    let loads = bundle("loads=gravity+coriolis");
+    let generated = of(&planar, &[loads], Entries::Single);
+    let program = &generated.functions[0].program;
+    let read = |text: &str| {
+        let read = Lowered::parse(text, loads, ScalarType::F64).map_err(|e| e.to_string())?;
+        read.matches(program, Library::Libm, &[])
+    };
+    let text = &generated.text;
+    assert_eq!(read(text), Ok(()));
+    let traded = text.replace("        c: [", "        x: [");
+    let traded = traded.replace("        h: [", "        c: [");
+    let traded = traded.replace("        x: [", "        h: [");
+    assert_ne!(*text, traded);
+    assert!(read(&traded).is_err());
+}
+
+#[test]
+fn plans_keep_bundles_by_what_is_in_them() {
+    let planar = support::robot("planar2r");
+    let servo = bundle("servo=inverse_dynamics+jacobian");
+    let request = Request {
+        functions: vec![Function::Gravity, servo],
+        scalars: vec![ScalarType::F64],
+        ..Request::default()
+    };
+    let generated = generate(&planar, &request).unwrap();
+    let text = keep(&planar, &request, &generated, None).plan.write();
+    assert!(text.contains("\nprogram servo=inverse_dynamics+jacobian auto f64 "));
+    let plan = Plan::parse(&text).unwrap();
+    assert_eq!(plan.write(), text);
+    let planned = |functions: Vec<Function>| {
+        let request = Request {
+            functions,
+            plan: Some(plan.clone()),
+            ..request.clone()
+        };
+        let generated = generate(&planar, &request).unwrap();
+        let planned = generated.functions.iter().map(|f| f.planned);
+        planned.collect::<Vec<bool>>()
+    };
+    assert_eq!(planned(request.functions.clone()), [true, true]);
+    // Another bundle by the same name is another function.
+    assert_eq!(planned(vec![bundle("servo=gravity+jacobian")]), [false]);
+    // What the text says is proved, and names are looked at.
+    let wrong = text.replace("program servo=inverse_dynamics+", "program servo=gravity+");
+    let wrong = Request {
+        functions: vec![bundle("servo=gravity+jacobian")],
+        plan: Some(Plan::parse(&wrong).unwrap()),
+        ..request.clone()
+    };
+    assert!(matches!(
+        generate(&planar, &wrong),
+        Err(GenerateError::Disproved(..))
+    ));
+    for (name, said) in [
+        ("servo=inverse_dynamics", "two parts"),
+        ("gravity=jacobian+inertia", "is an output by itself"),
+        ("servo=jacobian+inertja", "`inertja` is no function"),
+    ] {
+        let text = text.replace("servo=inverse_dynamics+jacobian", name);
+        let error = Plan::parse(&text).unwrap_err();
+        assert!(error.to_string().contains(said), "{error}");
+    }
+}
+
+#[test]
+fn one_module_has_each_name_once() {
+    let planar = support::robot("planar2r");
+    let functions = ["servo_2=gravity+inertia", "servo2=jacobian+inertia"].map(bundle);
+    let request = Request {
+        functions: functions.to_vec(),
+        ..Request::default()
+    };
+    let error = generate(&planar, &request).unwrap_err();
+    let said = error.to_string();
+    assert!(
+        said.contains("`servo_2=gravity+inertia` and `servo2=jacobian+inertia`"),
+        "{said}"
+    );
+}
+
+/// Locked joints, rows and arguments are a bundle's as they are its parts'.
+#[test]
+fn scenes_cut_bundles() {
+    const SCENE: &str = r#"
+[scene.reach]
+outputs = ["reach = gravity + jacobian", "coriolis"]
+lock = { 2 = "pi/2" }
+velocity = "zero"
+"#;
+    let reading = support::reading_with("planar3r", SCENE);
+    let scene = &reading.scenes[0];
+    let request = Request::default().in_scene(scene);
+    let generated = generate(&reading.robot, &request).unwrap();
+    let text = &generated.text;
+    assert!(
+        text.contains("pub fn reach(q: &[f64; 3]) -> Reach {"),
+        "{text}"
+    );
+    assert!(text.contains("pub c: [f64; 2],") && text.contains("pub jacobian: [[f64; 2]; 6],"));
+    let setting = Setting::new(&reading.robot, scene).unwrap();
+    let runtime = Runtime::in_setting(setting);
+    let states = states::seeded(&reading.robot, 50, 3);
+    for emitted in &generated.emitted {
+        for measure in emitted.against_runtime(&runtime, &states) {
+            assert!(measure.in_units() <= BOUND, "{measure:?}");
+        }
+    }
+    // The text of the scene, of which its hash is made, has the parts.
+    let written = dalembert_model::scene::write(scene);
+    assert!(written.contains("\"reach=gravity+jacobian\""), "{written}");
+}
+
+fn expanded(outputs: &str) -> String {
+    let text = format!("mod arm = \"planar2r.toml\"; outputs: {outputs}; scalar: f64;");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+    expand(text.parse().unwrap(), &folder).to_string()
+}
+
+/// By the macro, with everything that is wrong at once, and the function is there
+/// all the same where it is known what it would be.
+#[test]
+fn the_macro_reads_bundles() {
+    let plain = |text: String| -> String { text.split_whitespace().collect() };
+    let text = plain(expanded("gravity, servo = inverse_dynamics + jacobian"));
+    assert!(!text.contains("compile_error"), "{text}");
+    assert!(text.contains("pubfnservo(q:&[f64;2],qd:&[f64;2],qdd:&[f64;2])->Servo{"));
+
+    for (outputs, messages) in [
+        (
+            "servo = gravty + jacobian",
+            &["unknown output `gravty`", "did you mean `gravity`?"][..],
+        ),
+        (
+            "servo = gravity + gravity",
+            &["`gravity` is in it twice", "leave one of them out"],
+        ),
+        ("servo = inertia + manipulator_equation", &["both return D"]),
+        (
+            "servo = gravity",
+            &["two parts at least", "ask for `gravity` by itself"],
+        ),
+        ("servo = gravity +", &["expected the word for an output"]),
+        ("servo = gravity jacobian", &["expected `+`, `,` or `;`"]),
+        (
+            "gravity + jacobian",
+            &[
+                "`gravity+jacobian` has no name",
+                "write NAME = gravity+jacobian",
+            ],
+        ),
+        (
+            "= gravity + jacobian",
+            &["a bundle is NAME = OUTPUT + OUTPUT"],
+        ),
+        (
+            "Servo = gravity + jacobian",
+            &["no name of a function", "small letters"],
+        ),
+        ("gravity = inertia + jacobian", &["is an output by itself"]),
+        (
+            "a = gravity + jacobian, a = inertia + jacobian",
+            &["is given twice"],
+        ),
+        (
+            "a = gravty + jacobian, b = inertja + gravity",
+            &["`gravty`", "`inertja`"],
+        ),
+    ] {
+        let text = expanded(outputs);
+        assert!(text.contains("compile_error"), "{outputs}");
+        for message in messages {
+            assert!(text.contains(message), "{outputs}: {text}");
+        }
+    }
+    let stub = plain(expanded("servo = gravty + jacobian"));
+    assert!(stub.contains("pubfnservo(_q:&[f64;2])->Servo{"), "{stub}");
+}

@@ -1,0 +1,91 @@
+//! Why there is no such bundle.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use core::fmt;
+
+use crate::outputs::{Function, Quantity};
+
+/// Why there is no such bundle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BundleError {
+    /// This is no name of a function in generated code.
+    Name(String),
+    /// This is a word of the language.
+    Keyword(String),
+    /// An output has this name.
+    Output(String),
+    /// Something else in a module has this name.
+    Taken(String),
+    /// Another way to call a function would have this name: it ends so.
+    Ending(String, &'static str),
+    /// Parts, and no name before them.
+    Nameless(String),
+    /// There is no output of this name.
+    Unknown(String),
+    /// It has no part, or only this.
+    Few(Option<Function>),
+    /// Two parts return the same.
+    Twice(Quantity, [Function; 2]),
+    /// What two parts return would have one field.
+    SameField(&'static str, [Function; 2]),
+}
+
+impl BundleError {
+    /// What is wrong.
+    pub fn message(&self) -> String {
+        match self {
+            BundleError::Name(name) => format!("`{name}` is no name of a function"),
+            BundleError::Keyword(name) => format!("`{name}` is a word of Rust"),
+            BundleError::Output(name) => format!("`{name}` is an output by itself"),
+            BundleError::Taken(name) => {
+                format!("`{name}` has a meaning of its own in generated modules")
+            }
+            BundleError::Ending(name, ending) => {
+                let of = name.strip_suffix(ending).unwrap_or(name);
+                format!("`{name}` would end as the other ways to call `{of}` do, `{ending}`")
+            }
+            BundleError::Nameless(parts) => format!("`{parts}` has no name"),
+            BundleError::Unknown(word) => format!("unknown output `{word}`"),
+            BundleError::Few(_) => "a bundle has two parts at least".to_string(),
+            BundleError::Twice(_, [one, other]) if one == other => {
+                format!("`{one}` is in it twice")
+            }
+            BundleError::Twice(quantity, [one, other]) => {
+                format!("`{one}` and `{other}` both return {}", quantity.symbol())
+            }
+            BundleError::SameField(field, [one, other]) => {
+                format!("`{one}` and `{other}` would both be the field `{field}`")
+            }
+        }
+    }
+
+    /// The likely fix.
+    pub fn help(&self) -> String {
+        match self {
+            BundleError::Name(_) => {
+                "small letters, digits and single `_` between them, such as `servo_2`".to_string()
+            }
+            BundleError::Keyword(_)
+            | BundleError::Output(_)
+            | BundleError::Taken(_)
+            | BundleError::Ending(..) => "call the bundle otherwise".to_string(),
+            BundleError::Nameless(parts) => format!("write NAME = {parts}"),
+            BundleError::Unknown(_) | BundleError::Few(None) => {
+                "a bundle is NAME = OUTPUT + OUTPUT".to_string()
+            }
+            BundleError::Few(Some(part)) => format!("ask for `{part}` by itself"),
+            BundleError::Twice(..) => "leave one of them out".to_string(),
+            BundleError::SameField(..) => "ask for one of them by itself".to_string(),
+        }
+    }
+}
+
+impl fmt::Display for BundleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message(), self.help())
+    }
+}
+
+impl core::error::Error for BundleError {}

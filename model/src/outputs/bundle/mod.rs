@@ -1,0 +1,314 @@
+//! Several outputs as one function, by a name that the user gives it:
+//! `servo = inverse_dynamics + jacobian`.
+//!
+//! A bundle says of itself what a file of this folder says of its function, so
+//! whoever asks what a function returns, reads or is called need not know which
+//! of the two it is. [`Function::ManipulatorEquation`] is one that is always
+//! there.
+//!
+//! - `name`: what a bundle may be called, and its struct
+//! - `error`: why there is no such bundle
+
+mod error;
+mod name;
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::function::Definition;
+use super::{Columns, Function, Quantity};
+
+pub use error::BundleError;
+
+/// A function of the results of several others.
+///
+/// What it says of itself is kept for as long as the process runs: so a function
+/// is as small a value as a case of an enumeration, and a process names few. Two
+/// are equal if they say the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Bundle(&'static Definition);
+
+impl Bundle {
+    pub(in crate::outputs) fn definition(self) -> &'static Definition {
+        self.0
+    }
+}
+
+/// What stands between the parts of a bundle.
+const PLUS: char = '+';
+
+/// What stands between its name and them.
+const IS: char = '=';
+
+impl Function {
+    /// A function of this name that returns what all of these return, in their
+    /// order; a part that is a bundle stands for its parts.
+    ///
+    /// ```
+    /// use dalembert_model::outputs::Function;
+    ///
+    /// let parts = [Function::InverseDynamics, Function::Jacobian];
+    /// let servo = Function::bundle("servo", parts).unwrap();
+    /// assert_eq!(servo.structure(), Some("Servo"));
+    /// assert_eq!(servo.text(), "servo=inverse_dynamics+jacobian");
+    /// assert_eq!(Function::parse("servo = inverse_dynamics + jacobian"), Ok(servo));
+    /// ```
+    ///
+    /// # Errors
+    /// [`BundleError`]: the name is none or taken, or the parts cannot be in one.
+    pub fn bundle(
+        name: &str,
+        parts: impl IntoIterator<Item = Function>,
+    ) -> Result<Function, BundleError> {
+        name::check(name)?;
+        let parts: Vec<Function> = parts.into_iter().flat_map(Function::parts).collect();
+        // What comes along with others is no output.
+        let is_none = |part: &&Function| Function::from_name(part.name()) != Some(**part);
+        if let Some(part) = parts.iter().find(is_none) {
+            return Err(BundleError::Unknown(part.name().to_string()));
+        }
+        if parts.len() < 2 {
+            return Err(BundleError::Few(parts.first().copied()));
+        }
+        let mut results: Vec<(Quantity, Function)> = Vec::new();
+        for &part in &parts {
+            for &quantity in part.quantities() {
+                for &(other, by) in &results {
+                    if other == quantity {
+                        return Err(BundleError::Twice(quantity, [by, part]));
+                    }
+                    if other.field() == quantity.field() {
+                        return Err(BundleError::SameField(quantity.field(), [by, part]));
+                    }
+                }
+                results.push((quantity, part));
+            }
+        }
+        let results: Vec<Quantity> = results.into_iter().map(|(quantity, _)| quantity).collect();
+        Ok(Function::Bundle(Bundle(Box::leak(Box::new(Definition {
+            name: kept(name.to_string()),
+            summary: kept(summary(&parts)),
+            results: Box::leak(results.into_boxed_slice()),
+            structure: Some(kept(name::camel(name))),
+            by_default: false,
+            parts: Box::leak(parts.into_boxed_slice()),
+        })))))
+    }
+
+    /// Its name as that of a type: `InverseDynamics`.
+    pub fn camel(self) -> String {
+        name::camel(self.name())
+    }
+
+    /// The functions that it bundles, in their order; a function that is none is
+    /// its only part.
+    pub fn parts(self) -> Vec<Function> {
+        match self {
+            Function::Bundle(bundle) => bundle.definition().parts.to_vec(),
+            other => alloc::vec![other],
+        }
+    }
+
+    /// Its name, and what it bundles if it is a bundle, without spaces:
+    /// `servo=inverse_dynamics+jacobian`. [`Function::parse`] reads it.
+    pub fn text(self) -> String {
+        match self {
+            Function::Bundle(bundle) => {
+                let parts = bundle.definition().parts.iter();
+                let parts: Vec<&str> = parts.map(|part| part.name()).collect();
+                format!("{}{IS}{}", self.name(), parts.join("+"))
+            }
+            other => other.name().to_string(),
+        }
+    }
+
+    /// The function of a text: a name, or `NAME = PART + PART`.
+    ///
+    /// # Errors
+    /// [`BundleError`]; what names no function is a [`BundleError::Unknown`].
+    pub fn parse(text: &str) -> Result<Function, BundleError> {
+        let named = |word: &str| {
+            let word = word.trim();
+            Function::from_name(word).ok_or_else(|| BundleError::Unknown(word.to_string()))
+        };
+        match text.split_once(IS) {
+            Some((name, parts)) => {
+                let parts: Result<Vec<Function>, _> = parts.split(PLUS).map(named).collect();
+                Function::bundle(name.trim(), parts?)
+            }
+            None if text.contains(PLUS) => Err(BundleError::Nameless(text.trim().to_string())),
+            None => named(text),
+        }
+    }
+
+    /// These functions in the order of generated files, each once: those of
+    /// [`Function::ALL`] in its order, then bundles as they come.
+    pub fn in_order(wanted: &[Function]) -> Vec<Function> {
+        let mut ordered: Vec<Function> = Function::ALL.to_vec();
+        ordered.retain(|function| wanted.contains(function));
+        for &function in wanted {
+            if !ordered.contains(&function) {
+                ordered.push(function);
+            }
+        }
+        ordered
+    }
+
+    /// Whether one module cannot have both: a name or a struct would be there
+    /// twice.
+    pub fn is_namesake(self, other: Function) -> bool {
+        let same_structure = self.structure().is_some() && self.structure() == other.structure();
+        self.name() == other.name() || same_structure
+    }
+}
+
+/// A line for its documentation.
+fn summary(parts: &[Function]) -> String {
+    let names: Vec<String> = parts.iter().map(|part| format!("`{part}`")).collect();
+    let over = match parts.iter().find(|part| part.columns() != Columns::None) {
+        Some(part) => format!(" Columns are those of `{part}`."),
+        None => String::new(),
+    };
+    match names.split_last() {
+        Some((last, others)) => format!(
+            "{} and {last} in one function that shares their work.{over}",
+            others.join(", ")
+        ),
+        None => String::new(),
+    }
+}
+
+fn kept(text: String) -> &'static str {
+    Box::leak(text.into_boxed_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the registry bundles it could as well have left to a user: but for
+    /// its name and its line of documentation, nothing is special about it.
+    #[test]
+    fn the_registrys_bundles_are_like_any_other() {
+        let is_bundle = |function: &Function| !function.definition().parts.is_empty();
+        let own: Vec<Function> = Function::ALL.into_iter().filter(is_bundle).collect();
+        assert_eq!(own, [Function::ManipulatorEquation]);
+        for own in own {
+            let parts = own.definition().parts.iter().copied();
+            let made = Function::bundle("made", parts).unwrap();
+            assert_eq!(own.quantities(), made.quantities());
+            assert_eq!(own.arguments(), made.arguments());
+            assert_eq!(own.forms(), made.forms());
+            assert_eq!(own.structure(), Some(own.camel().as_str()));
+        }
+    }
+
+    #[test]
+    fn texts_read_back_and_parts_keep_their_order() {
+        for function in Function::ALL {
+            assert_eq!(Function::parse(function.name()), Ok(function));
+            assert_eq!(function.text(), function.name());
+        }
+        let text = "state_of_2=jacobian+inverse_dynamics_derivatives+gravity";
+        let found = Function::parse(text).unwrap();
+        assert_eq!(found.text(), text);
+        assert_eq!(found.structure(), Some("StateOf2"));
+        let fields: Vec<&str> = found.quantities().iter().map(|q| q.field()).collect();
+        assert_eq!(fields, ["jacobian", "dtau_dq", "dtau_dqd", "d", "c"]);
+        // Arguments are in the order of signatures, whatever the parts'.
+        let names: Vec<&str> = found.arguments().iter().map(|a| a.name()).collect();
+        assert_eq!(names, ["q", "qd", "qdd"]);
+        // A bundle of a bundle.
+        let more = Function::bundle("more", [found, Function::Coriolis]).unwrap();
+        assert!(more.text().ends_with("+gravity+coriolis"));
+        // By what they say, not by where that is kept.
+        assert_eq!(Function::parse(text), Ok(found));
+        assert_ne!(Function::parse("x=inertia+gravity"), Ok(found));
+    }
+
+    #[test]
+    fn what_cannot_be_in_one_is_refused_by_name() {
+        for (text, expected) in [
+            (
+                "a=inertia+manipulator_equation",
+                "`inertia` and `manipulator_equation` both return D: leave one of them out",
+            ),
+            (
+                "a=gravity+gravity",
+                "`gravity` is in it twice: leave one of them out",
+            ),
+            (
+                "a=coriolis+dynamic_coefficients",
+                "`coriolis` and `dynamic_coefficients` would both be the field `h`: ask for one of them by itself",
+            ),
+            (
+                "a=regressor+full_regressor",
+                "`regressor` and `full_regressor` would both be the field `y`: ask for one of them by itself",
+            ),
+            (
+                "a=gravity",
+                "a bundle has two parts at least: ask for `gravity` by itself",
+            ),
+            (
+                "a=gravty+jacobian",
+                "unknown output `gravty`: a bundle is NAME = OUTPUT + OUTPUT",
+            ),
+            (
+                "gravity+jacobian",
+                "`gravity+jacobian` has no name: write NAME = gravity+jacobian",
+            ),
+            (
+                "gravity=inertia+jacobian",
+                "`gravity` is an output by itself: call the bundle otherwise",
+            ),
+            (
+                "angles=inertia+jacobian",
+                "`angles` has a meaning of its own in generated modules: call the bundle otherwise",
+            ),
+            (
+                "robot=inertia+jacobian",
+                "`robot` has a meaning of its own in generated modules: call the bundle otherwise",
+            ),
+            (
+                "match=inertia+jacobian",
+                "`match` is a word of Rust: call the bundle otherwise",
+            ),
+            (
+                "my_lanes=inertia+jacobian",
+                "`my_lanes` would end as the other ways to call `my` do, `_lanes`: call the bundle otherwise",
+            ),
+            (
+                "Servo=inertia+jacobian",
+                "`Servo` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`",
+            ),
+            (
+                "=inertia+jacobian",
+                "`` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`",
+            ),
+            (
+                "a__b=inertia+jacobian",
+                "`a__b` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`",
+            ),
+        ] {
+            let error = Function::parse(text).unwrap_err();
+            assert_eq!(error.to_string(), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn one_module_has_a_name_once() {
+        let of = |text| Function::parse(text).unwrap();
+        let [a, b] = [of("servo_2=inertia+gravity"), of("servo2=gravity+inertia")];
+        let other = of("servo2=jacobian+gravity");
+        assert!(a.is_namesake(b) && b.is_namesake(other) && a.is_namesake(a));
+        assert!(!Function::Gravity.is_namesake(Function::Inertia));
+        assert!(!a.is_namesake(Function::Gravity));
+        let wanted = [a, Function::Gravity, other, Function::InverseDynamics, a];
+        // What comes along with others is no part either.
+        assert!(Function::bundle("a", [Function::Load, Function::Gravity]).is_err());
+        let [first, second] = [Function::InverseDynamics, Function::Gravity];
+        assert_eq!(Function::in_order(&wanted), [first, second, a, other]);
+    }
+}
