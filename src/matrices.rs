@@ -42,7 +42,7 @@ pub fn matrix<T: Scalar, const R: usize, const C: usize>(rows: [[T; C]; R]) -> S
 #[inline]
 #[must_use]
 pub fn array<T: Scalar, const N: usize>(vector: &SVector<T, N>) -> &[T; N] {
-    vector.as_ref()
+    &vector.data.0[0]
 }
 
 /// A matrix as an array of rows.
