@@ -130,8 +130,8 @@ pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
 /// ```
 /// use dalembert_codegen::clauses::words::bundle;
 ///
-/// assert_eq!(bundle("load=inertia+gravity").unwrap().name(), "load");
-/// let error = bundle("load=inertia+gravty").unwrap_err();
+/// assert_eq!(bundle("still=inertia+gravity").unwrap().name(), "still");
+/// let error = bundle("still=inertia+gravty").unwrap_err();
 /// assert_eq!(error, "unknown output `gravty`: did you mean `gravity`?");
 /// ```
 ///
