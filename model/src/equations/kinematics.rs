@@ -3,6 +3,7 @@
 //! Lagrange–Euler takes rates of the poses themselves, by dual numbers; the
 //! other formulations use axes and levers. Nothing is shared but eq. 2.1.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::energy::moving;
@@ -59,24 +60,14 @@ fn in_base_axes<S: Scalar>(arm: &Arm<S>, vector: Vector<S>) -> Vector<S> {
 }
 
 impl Formulation {
-    /// The pose of the hand, ⁰A_n but for base and tool: Lagrange–Euler
-    /// multiplies from the base outward, the others from the hand inward.
+    /// The pose of the hand, ⁰A_n but for base and tool: the recursions in link
+    /// axes go from the hand inward, which is less work alone; Lagrange–Euler
+    /// multiplies from the base outward; the others add the levers of a Jacobian.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
-        if self == Self::LagrangeEuler {
-            return hand_of(arm, &poses(arm, at));
-        }
-        let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
-        for (link, at) in arm.links.iter().zip(at).rev() {
-            let step = link.append(arm.convention, at, &Columns::identity());
-            let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
-            pose = Columns {
-                axes: pose.axes.each_ref().map(turn),
-                origin: sum(&turn(&pose.origin), &step.origin),
-            };
-        }
-        match &arm.base {
-            None => pose,
-            Some(base) => base.then(&pose),
+        match self {
+            Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
+            Self::Dalembert | Self::NewtonEulerBase => hand_by_levers(arm, &levers(arm, at)),
+            Self::NewtonEulerLink | Self::NewtonEulerLinkAsPrinted => hand_inward(arm, at),
         }
     }
 
@@ -84,6 +75,7 @@ impl Formulation {
     /// each unit rate, in base axes.
     pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         let n = at.len();
+        let levers = levers(arm, at);
         let column = |j: usize| match self {
             Self::LagrangeEuler => {
                 let mut rates = zeros(n);
@@ -93,7 +85,7 @@ impl Formulation {
                 let linear = hand.origin.each_ref().map(|x| x.rate.clone());
                 [linear, angular(&hand)]
             }
-            _ => geometric(arm, &poses(arm, at), j),
+            _ => geometric(arm, &levers, j),
         };
         let columns: Vec<[Vector<S>; 2]> = (0..n).map(column).collect();
         let row = |r: usize| columns.iter().map(move |c| c[r / 3][r % 3].clone());
@@ -206,21 +198,72 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
 }
 
 /// Linear and angular velocity of the hand for a unit rate of joint j.
-fn geometric<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
+fn geometric<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
     let frame = match arm.convention {
-        Convention::Standard if j == 0 => frame_0(arm),
-        Convention::Standard => poses[j - 1].clone(),
-        Convention::Modified => poses[j].clone(),
+        Convention::Standard => &levers[j],
+        Convention::Modified => &levers[j + 1],
     };
     let axis = frame.axes[2].clone();
     match arm.links[j].kind {
         JointKind::Prismatic => [axis, zero_vector()],
-        JointKind::Revolute => {
-            let hand = hand_of(arm, poses).origin;
-            let lever = difference(&hand, &frame.origin);
-            [cross(&axis, &lever), axis]
-        }
+        JointKind::Revolute => [cross(&axis, &frame.origin), axis],
     }
+}
+
+/// The axes of frames 0 … n and, in the place of the origin, the lever from there to
+/// the hand, in base axes. Added up from the hand on, no lever is a difference.
+fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+    let unmoved = |frame: &Columns<S>| Columns {
+        axes: frame.axes.clone(),
+        origin: zero_vector(),
+    };
+    let mut frames = vec![unmoved(&frame_0(arm))];
+    for (link, at) in arm.links.iter().zip(at) {
+        let before = frames.last().map_or_else(Columns::identity, unmoved);
+        frames.push(link.append(arm.convention, at, &before));
+    }
+    let mut lever = match (frames.last(), &arm.tool) {
+        (Some(last), Some(tool)) => last.rotate(&tool.origin),
+        _ => zero_vector(),
+    };
+    for frame in frames.iter_mut().rev() {
+        let step = core::mem::replace(&mut frame.origin, lever.clone());
+        lever = sum(&step, &lever);
+    }
+    frames
+}
+
+/// The pose of the hand, from the hand inward.
+fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+    let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        let step = link.append(arm.convention, at, &Columns::identity());
+        let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
+        pose = Columns {
+            axes: pose.axes.each_ref().map(turn),
+            origin: sum(&turn(&pose.origin), &step.origin),
+        };
+    }
+    match &arm.base {
+        None => pose,
+        Some(base) => base.then(&pose),
+    }
+}
+
+/// The pose of the hand by the levers to it.
+fn hand_by_levers<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>]) -> Columns<S> {
+    let mut hand = levers.last().cloned().unwrap_or_else(|| frame_0(arm));
+    if let Some(tool) = &arm.tool {
+        hand = hand.then(tool);
+    }
+    let whole = levers
+        .first()
+        .map_or_else(zero_vector, |first| first.origin.clone());
+    hand.origin = match &arm.base {
+        None => whole,
+        Some(base) => sum(&base.origin, &whole),
+    };
+    hand
 }
 
 /// ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
