@@ -111,11 +111,9 @@ class Arm:
                 if standard:
                     place, link = z, x
                 else:
-                    place = after((x[0], x[1]), z)
+                    place = after(x, z)
             self.place.append(after(before, place))
-            before = link if standard else NOWHERE
-            if "placement" in joint:
-                before = link
+            before = link
             self.prismatic.append(kind)
             com = np.array([number(x) for x in joint.get("com", [0, 0, 0])])
             xx, yy, zz, xy, yz, xz = (number(x) for x in joint.get("inertia", [0] * 6))
@@ -178,8 +176,10 @@ class Arm:
         rows = [f'<robot name="{self.name}">', '<link name="l0"/>']
         for i in range(self.n):
             r, p = self.place[i]
-            xx, xy, xz, yy, yz, zz = self.inertia[i][np.triu_indices(3)]
             text = lambda v: " ".join(repr(float(x)) for x in v)
+            names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+            moments = zip(names, self.inertia[i][np.triu_indices(3)])
+            inertia = " ".join(f'{name}="{text([x])}"' for name, x in moments)
             roll, pitch = math.atan2(r[2, 1], r[2, 2]), math.asin(max(-1, min(1, -r[2, 0])))
             yaw = math.atan2(r[1, 0], r[0, 0])
             if abs(abs(r[2, 0]) - 1) < 1e-14:
@@ -187,10 +187,9 @@ class Arm:
             kind = "prismatic" if self.prismatic[i] else "revolute"
             rows += [
                 f'<link name="l{i + 1}"><inertial><origin xyz="{text(self.com[i])}"/>'
-                f'<mass value="{self.mass[i]!r}"/><inertia ixx="{xx!r}" ixy="{xy!r}" ixz="{xz!r}"'
-                f' iyy="{yy!r}" iyz="{yz!r}" izz="{zz!r}"/></inertial></link>',
+                f'<mass value="{text([self.mass[i]])}"/><inertia {inertia}/></inertial></link>',
                 f'<joint name="j{i + 1}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/>'
                 f'<origin xyz="{text(p)}" rpy="{text([roll, pitch, yaw])}"/><axis xyz="0 0 1"/>'
                 '<limit lower="-7" upper="7" velocity="100" effort="1000"/></joint>',
             ]
-        return "\n".join(rows + ["</robot>", ""]).replace("np.float64(", "").replace(")", "")
+        return "\n".join(rows + ["</robot>", ""])
