@@ -38,18 +38,7 @@ pub fn text(rows: &[(Made, Vec<Counts>)]) -> String {
         "\n| arm | joints | `inverse_dynamics` | peer | `gravity` | peer | `inertia` | peer |\n";
     text += "|---|---|---|---|---|---|---|---|\n";
     for (made, counts) in rows {
-        let arm = made.arm;
-        text += &format!(
-            "| [{}](#{}) | {} |",
-            arm.title,
-            arm.name,
-            joints(&made.robot)
-        );
-        for (i, counts) in counts.iter().enumerate() {
-            let peer = arm.peer[i];
-            text += &format!(" {}/{} | {peer} |", counts.mul, counts.add);
-        }
-        text.push('\n');
+        text += &row(made, counts);
     }
     for (made, _) in rows {
         let arm = made.arm;
