@@ -75,19 +75,13 @@ impl Formulation {
     /// each unit rate, in base axes.
     pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         let n = at.len();
-        let levers = levers(arm, at);
-        let column = |j: usize| match self {
-            Self::LagrangeEuler => {
-                let mut rates = zeros(n);
-                rates[j] = S::one();
-                let (arm, at) = moving(arm, at, &rates);
-                let hand = hand_of(&arm, &poses(&arm, &at));
-                let linear = hand.origin.each_ref().map(|x| x.rate.clone());
-                [linear, angular(&hand)]
+        let columns: Vec<[Vector<S>; 2]> = match self {
+            Self::LagrangeEuler => (0..n).map(|j| by_rates(arm, at, j)).collect(),
+            _ => {
+                let levers = levers(arm, at);
+                (0..n).map(|j| geometric(arm, &levers, j)).collect()
             }
-            _ => geometric(arm, &levers, j),
         };
-        let columns: Vec<[Vector<S>; 2]> = (0..n).map(column).collect();
         let row = |r: usize| columns.iter().map(move |c| c[r / 3][r % 3].clone());
         (0..6).map(|r| row(r).collect()).collect()
     }
@@ -197,7 +191,18 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
-/// Linear and angular velocity of the hand for a unit rate of joint j.
+/// Linear and angular velocity of the hand for a unit rate of joint j, by the rate of
+/// its pose.
+fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector<S>; 2] {
+    let mut rates = zeros(at.len());
+    rates[j] = S::one();
+    let (arm, at) = moving(arm, at, &rates);
+    let hand = hand_of(&arm, &poses(&arm, &at));
+    let linear = hand.origin.each_ref().map(|x| x.rate.clone());
+    [linear, angular(&hand)]
+}
+
+/// The same by the joint's axis and the lever from there to the hand.
 fn geometric<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
     let frame = match arm.convention {
         Convention::Standard => &levers[j],
