@@ -15,7 +15,7 @@ use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
 use dalembert_codegen::states::JointState;
 use dalembert_codegen::verify::exact::prove;
-use dalembert_codegen::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_codegen::verify::floating::{BOUND, Emitted, Granted, Runtime};
 use dalembert_model::equations::Formulation;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Inertia, Placement, Position, Robot};
@@ -127,7 +127,7 @@ fn check(robot: &Robot, request: &Request, states: usize) {
             let expected = runtime.run(emitted.function, &state);
             (run(&generated, emitted, &state), expected, granted)
         });
-        let cases: Vec<(Vec<f64>, Vec<f64>, f64)> = cases.collect();
+        let cases: Vec<(Vec<f64>, Vec<f64>, Granted)> = cases.collect();
         let mut start = 0;
         for quantity in emitted.function.quantities() {
             let range = start..start + quantity.len(emitted.sizes);
@@ -138,6 +138,7 @@ fn check(robot: &Robot, request: &Request, states: usize) {
             for (found, expected, granted) in &cases {
                 let (found, expected) = (&found[range.clone()], &expected[range.clone()]);
                 let unit = emitted.scalar.unit_roundoff();
+                let granted = granted.to(*quantity);
                 let most = BOUND * unit * granted * size(expected).max(least);
                 for (a, b) in found.iter().zip(expected) {
                     assert!((a - b).abs() <= most, "{name:?} {quantity:?}: {a} {b}");

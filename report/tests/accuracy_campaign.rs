@@ -13,9 +13,9 @@ use std::collections::BTreeMap;
 
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::program::{Literal, Operand, ScalarType};
+use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::{SEED, seeded};
-use dalembert_codegen::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_codegen::verify::floating::{BOUND, Emitted, Granted, Runtime};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
 use dalembert_report::stress::truth::Truth;
@@ -89,18 +89,15 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
 struct Case {
     found: Vec<f64>,
     truth: Vec<Big>,
-    granted: f64,
+    granted: Granted,
 }
 
 /// The truth at a finite state. What was proved to vanish does so, and not within
 /// 134 digits only.
 fn exactly(emitted: &Emitted, truth: Option<Vec<Big>>) -> Vec<Big> {
     let truth = truth.expect("a finite state").into_iter();
-    let entries = truth.zip(&emitted.text.outputs);
-    let exact = entries.map(|(value, output)| match output.value {
-        Operand::Constant(Literal(0.0)) => Big::zero(),
-        _ => value,
-    });
+    let entries = truth.zip(emitted.vanishing());
+    let exact = entries.map(|(value, vanishes)| if vanishes { Big::zero() } else { value });
     exact.collect()
 }
 
@@ -126,7 +123,7 @@ fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
             };
             match pairs.map(off).fold(0.0, f64::max) {
                 0.0 => 0.0,
-                off => off / (size(case).max(least) * case.granted),
+                off => off / (size(case).max(least) * case.granted.to(quantity)),
             }
         };
         let worst = cases.iter().map(error).fold(0.0, f64::max);

@@ -188,7 +188,7 @@ fn runtime_gives_what_is_known() {
         let runtime = Reference::<f64>::from_robot(&support::robot(name));
         let conditions = Runtime::new(&support::robot(name));
         for GivenState { state, known } in given(name) {
-            let condition = conditions.granted(Function::ForwardDynamics, &state);
+            let granted = conditions.granted(Function::ForwardDynamics, &state);
             let vector = |values: &[f64]| DVector::from_row_slice(values);
             let at = JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))));
             assert_eq!(known.len(), 13);
@@ -197,7 +197,7 @@ fn runtime_gives_what_is_known() {
                 assert_eq!(found.len(), expected.len());
                 let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
                 let most = match quantity.inverts_inertia() {
-                    true => 1e-12f64.max(BOUND * f64::EPSILON / 2.0 * condition),
+                    true => 1e-12f64.max(BOUND * f64::EPSILON / 2.0 * granted.to(quantity)),
                     false => 1e-12,
                 };
                 for (a, b) in found.iter().zip(&expected) {

@@ -63,6 +63,22 @@ impl Measure {
     }
 }
 
+/// How many times more than others the results at a state may err: what inverts D
+/// as many as the condition of D over the joints that move, with a unit diagonal.
+/// What units and sizes of the joints make of it is no excuse.
+#[derive(Clone, Copy, Debug)]
+pub struct Granted(f64);
+
+impl Granted {
+    /// To a quantity: what else is in a function inverts nothing.
+    pub fn to(self, quantity: Quantity) -> f64 {
+        match quantity.inverts_inertia() {
+            true => self.0,
+            false => 1.0,
+        }
+    }
+}
+
 /// The generic runtime: the link-frame recursion in f64, constants rounded
 /// once.
 #[derive(Clone, Debug)]
@@ -90,18 +106,15 @@ impl Runtime {
         }
     }
 
-    /// How many times more than others a function's results may err at a state:
-    /// what inverts D as many as the condition of D over the joints that move,
-    /// with a unit diagonal: what units and sizes of the joints make of it is
-    /// no excuse.
-    pub fn granted(&self, function: Function, state: &JointState) -> f64 {
+    /// How many times more than others a function's results may err at a state.
+    pub fn granted(&self, function: Function, state: &JointState) -> Granted {
         if !function.inverts_inertia() {
-            return 1.0;
+            return Granted(1.0);
         }
         let Posed { arm, motion, .. } = self.posed(function, &self.arm, state);
         let d = Formulation::NewtonEulerLink.inertia(&arm, &arm.at(&motion.q));
         let d = among(&d, &free(&motion.moves)).concat();
-        Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0)
+        Granted(Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0))
     }
 
     fn posed(&self, function: Function, arm: &Arm<f64>, state: &JointState) -> Posed<f64> {
@@ -147,6 +160,13 @@ impl Emitted {
         }
     }
 
+    /// Which results were proved to vanish: these are compared with zero, not with
+    /// the dust that a runtime leaves there.
+    pub fn vanishing(&self) -> impl Iterator<Item = bool> {
+        let outputs = self.text.outputs.iter();
+        outputs.map(|output| output.value == Operand::Constant(Literal(0.0)))
+    }
+
     /// The errors against the runtime, a quantity each. Sines are libm's on
     /// both sides: how far polynomials are from them is
     /// [measured apart](Emitted::sines).
@@ -159,10 +179,8 @@ impl Emitted {
                 ScalarType::F32 => state.in_single(),
             };
             let mut reference = runtime.run(self.function, &state);
-            // What was proved to vanish is compared with zero, not with the
-            // dust that the runtime leaves there.
-            for (value, output) in reference.iter_mut().zip(&self.text.outputs) {
-                if output.value == Operand::Constant(Literal(0.0)) {
+            for (value, vanishes) in reference.iter_mut().zip(self.vanishing()) {
+                if vanishes {
                     *value = 0.0;
                 }
             }
@@ -176,15 +194,7 @@ impl Emitted {
             start = range.end;
             let part = |values: &'_ [f64]| values[range.clone()].to_vec();
             let cases = cases.iter();
-            // What else is in the function inverts nothing.
-            let granted = |granted: f64| {
-                if quantity.inverts_inertia() {
-                    granted
-                } else {
-                    1.0
-                }
-            };
-            let cases = cases.map(|(a, b, more)| (part(a), part(b), granted(*more)));
+            let cases = cases.map(|(a, b, granted)| (part(a), part(b), granted.to(quantity)));
             let cases: Vec<Case> = cases.collect();
             let least = LEAST_PART * cases.iter().map(|(_, b, _)| largest(b)).fold(0.0, f64::max);
             measures.push(self.measure(quantity, worst(&cases, least)));

@@ -57,6 +57,14 @@ macro_rules! registry {
                 }
             }
 
+            /// The function that defines it, where others may return it too.
+            pub fn function(self) -> Function {
+                match self {
+                    $($(Quantity::$quantity => Function::$function,)*)*
+                    $($(Quantity::$part => Function::$along,)*)*
+                }
+            }
+
             /// Its entries by a textbook formulation, flat, row by row.
             pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {

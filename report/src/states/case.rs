@@ -71,17 +71,13 @@ impl Case {
     }
 }
 
-/// The function that defines a quantity; none of those whose columns are the robot's.
-fn function(quantity: Quantity) -> Option<Function> {
-    let mut all = Function::ALL.into_iter();
-    let function = all.find(|function| function.quantities().contains(&quantity))?;
-    let is_base = matches!(function.columns(), Columns::Base(_));
-    (function != Function::Load && !is_base).then_some(function)
-}
-
-/// A quantity as its own function returns it.
+/// A quantity as its own function returns it; nothing of those whose columns are the
+/// robot's.
 fn by_its_function(runtime: &Runtime, quantity: Quantity, state: &JointState) -> Option<Vec<f64>> {
-    let function = function(quantity)?;
+    let function = quantity.function();
+    if function == Function::Load || matches!(function.columns(), Columns::Base(_)) {
+        return None;
+    }
     let sizes = Sizes::whole(state.q.len());
     let before = function.quantities().iter().take_while(|q| **q != quantity);
     let start: usize = before.map(|q| q.len(sizes)).sum();
@@ -92,6 +88,6 @@ fn by_its_function(runtime: &Runtime, quantity: Quantity, state: &JointState) ->
 /// How many times more than others a quantity may be off at a state. A change on trial
 /// that makes D singular must not excuse everything.
 fn granted(runtime: &Runtime, quantity: Quantity, state: &JointState) -> f64 {
-    let condition = function(quantity).map_or(1.0, |function| runtime.granted(function, state));
+    let condition = runtime.granted(quantity.function(), state).to(quantity);
     condition.min(MAX_CONDITION)
 }

@@ -104,7 +104,7 @@ pub fn compare(emitted: &Emitted, runtime: &Runtime, states: &[GivenState]) -> V
                 continue;
             };
             let (entry, error) = worst(&values, known);
-            let error = error / granted;
+            let error = error / granted.to(returned);
             let found = Difference {
                 state: index,
                 entry,
