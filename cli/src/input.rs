@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use dalembert_codegen::RobotFileError;
 use dalembert_codegen::generate::in_scene::find;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::plan;
@@ -134,10 +135,8 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
 
 fn begin(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     first(path, most).map_err(|error| {
-        Failure::Input(format!(
-            "error: `{}` cannot be read: {error}",
-            path.display()
-        ))
+        let shown = path.display().to_string();
+        Failure::Input(RobotFileError::of_system(path, &shown, &error).to_string())
     })
 }
 

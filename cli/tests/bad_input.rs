@@ -71,7 +71,16 @@ fn files_that_cannot_be_read_or_written() {
     let missing = folder.join("no.toml");
     let ran = run(&["generate", missing.to_str().unwrap()]);
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("no.toml` cannot be read"), "{}", ran.err);
+    assert!(ran.err.contains("there is no file `"), "{}", ran.err);
+    // In the words of macro and builder, with the file that was meant.
+    let beside = robot("planar2r").replace("planar2r", "planar2");
+    let ran = run(&["generate", &beside]);
+    assert!(
+        ran.err.contains("planar2.toml`\n  = help: did you mean `"),
+        "{}",
+        ran.err
+    );
+    assert!(ran.err.contains("planar2r.toml`?"), "{}", ran.err);
     assert_eq!(run(&["count", folder.to_str().unwrap()]).code, 2);
 
     let planar = robot("planar2r");

@@ -83,7 +83,7 @@ fn from_robot_files_and_urdfs() {
         ),
         (
             vec![text("lost"), "--from".into(), text("lost.toml")],
-            "cannot be read",
+            "there is no file `",
         ),
     ] {
         let arguments: Vec<&str> = ["new"]

@@ -40,13 +40,7 @@ impl RobotFile {
     /// # Errors
     /// As [`RobotFile::read`].
     pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
-        let bytes = bytes(path).map_err(|error| match error.kind() {
-            ErrorKind::NotFound => missing(path, shown),
-            _ => RobotFileError::Unreadable {
-                shown: shown.to_owned(),
-                error: error.to_string(),
-            },
-        })?;
+        let bytes = bytes(path).map_err(|error| RobotFileError::of_system(path, shown, &error))?;
         let source = String::from_utf8_lossy(&bytes).into_owned();
         let plan = plan::file::beside(path).map_err(RobotFileError::Plan)?;
         match read::parse_bytes(&bytes, &Options::default()) {
@@ -108,6 +102,18 @@ pub enum RobotFileError {
 }
 
 impl RobotFileError {
+    /// What the system says of a path, in the words that every way in has for it;
+    /// messages call it by a shorter name.
+    pub fn of_system(path: &Path, shown: &str, error: &std::io::Error) -> RobotFileError {
+        match error.kind() {
+            ErrorKind::NotFound => missing(path, shown),
+            _ => RobotFileError::Unreadable {
+                shown: shown.to_owned(),
+                error: error.to_string(),
+            },
+        }
+    }
+
     /// Every error by itself; those of the text with their line. Never empty.
     pub fn messages(&self) -> Vec<String> {
         match self {
