@@ -10,9 +10,9 @@ use std::path::Path;
 /// are relative to that.
 fn provide_robots() -> std::io::Result<()> {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("..");
-    let folder = target.join("tests/trybuild/dalembert/robots");
+    let folder = target.join("tests/trybuild/dalembert-ui/robots");
     fs::create_dir_all(&folder)?;
-    for entry in fs::read_dir("tests/ui/robots")? {
+    for entry in fs::read_dir("robots")? {
         let entry = entry?;
         fs::copy(entry.path(), folder.join(entry.file_name()))?;
     }
@@ -23,6 +23,6 @@ fn provide_robots() -> std::io::Result<()> {
 fn mistakes_and_good_invocations() {
     provide_robots().unwrap();
     let cases = trybuild::TestCases::new();
-    cases.compile_fail("tests/ui/fail/*.rs");
-    cases.pass("tests/ui/pass/*.rs");
+    cases.compile_fail("fail/*.rs");
+    cases.pass("pass/*.rs");
 }
