@@ -3,11 +3,9 @@
 //! those that aim at primes and points, tests/README.md what an attacker can and
 //! cannot do.
 
-mod support;
-
 use std::path::PathBuf;
 
-use support::{Ran, run};
+use crate::support::{Ran, run};
 
 fn data(name: &str) -> String {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/attacks");

@@ -1,11 +1,9 @@
 //! Programs and parameters that were aimed at fixed primes and points: each
 //! was once accepted as proved.
 
-mod support;
-
 use std::fs;
 
-use support::{Ran, run, temporary};
+use crate::support::{Ran, run, temporary};
 
 fn attack(name: &str) -> String {
     format!("{}/tests/data/attacks/{name}", env!("CARGO_MANIFEST_DIR"))

@@ -1,10 +1,8 @@
 //! Whatever is wrong with the input: exit code 2, a message, never a panic.
 
-mod support;
-
 use std::fs;
 
-use support::{robot, run, temporary};
+use crate::support::{robot, run, temporary};
 
 #[test]
 fn broken_robot_files_name_the_line() {

@@ -2,12 +2,10 @@
 //! the edits are applied and bounded, the text is read back. Their operations
 //! are bars, which only ever go down; the searches took minutes.
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::run;
 use dalembert_codegen::certificate::format;
-use support::run;
 
 /// Torques of the PUMA over the box of its file.
 fn holds(name: &str, relative_to: &str, tolerance: f64, operations: usize) {

@@ -1,11 +1,9 @@
 //! The command as a user runs it: every subcommand, exit codes, files.
 
-mod support;
-
 use std::fs;
 
+use crate::support::{golden, robot, run, temporary};
 use serde_json::Value;
-use support::{golden, robot, run, temporary};
 
 #[test]
 fn code_goes_to_stdout_and_the_report_to_stderr() {

@@ -1,9 +1,7 @@
 //! `dalembert explain` as a user runs it.
 
-mod support;
-
+use crate::support::{robot, run, temporary};
 use serde_json::Value;
-use support::{robot, run, temporary};
 
 #[test]
 fn the_table_and_the_reasons() {

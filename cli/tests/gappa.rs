@@ -2,13 +2,11 @@
 //! where Gappa is installed, it finds no more than a few times our bound, and no
 //! error that was seen is above its.
 
-mod support;
-
 use std::fs;
 use std::process::Command;
 
+use crate::support::{robot, run, temporary};
 use dalembert_codegen::certificate::format;
-use support::{robot, run, temporary};
 
 /// Exact but for rounding, in a box.
 const SCENE: &str = r#"

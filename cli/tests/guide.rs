@@ -6,13 +6,12 @@
 //! once more is all that a change of a message takes; where a block leaves lines out
 //! (`...`), it is printed instead.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use support::temporary;
+use crate::support;
+use crate::support::temporary;
 
 /// A fenced block: what stands behind the fence, and its lines.
 struct Block {

@@ -1,10 +1,8 @@
 //! `dalembert import`: the robot file of a URDF, and what is said about it.
 
-mod support;
-
 use std::fs;
 
-use support::{run, temporary};
+use crate::support::{run, temporary};
 
 fn urdf(name: &str) -> String {
     format!(

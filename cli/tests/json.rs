@@ -1,11 +1,9 @@
 //! `--json`: every subcommand has it, and says there what it says to people.
 
-mod support;
-
 use std::fs;
 
+use crate::support::{robot, run, temporary};
 use serde_json::Value;
-use support::{robot, run, temporary};
 
 /// Runs with `--json` and reads what comes out.
 fn json(arguments: &[&str]) -> Value {

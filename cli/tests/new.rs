@@ -1,12 +1,10 @@
 //! `dalembert new`: the crate that it makes builds, passes and prints torques.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use support::{robot, run, temporary};
+use crate::support::{robot, run, temporary};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 

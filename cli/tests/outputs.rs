@@ -1,12 +1,10 @@
 //! What a run writes: looked at before its work, never over something else,
 //! all of it or nothing.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use support::{Ran, robot, run, temporary};
+use crate::support::{Ran, robot, run, temporary};
 
 const SCENE: &str = r#"
 [scene.hold]

@@ -1,10 +1,8 @@
 //! `dalembert show`: the drawing of an arm.
 
-mod support;
-
 use std::fs;
 
-use support::{robot, run, temporary};
+use crate::support::{robot, run, temporary};
 
 #[test]
 fn the_same_drawing_twice() {

@@ -1,12 +1,11 @@
 //! `--sincos polynomial`: generated, counted, verified, certified, refused.
 
-mod support;
-
 use std::fs;
 use std::path::PathBuf;
 
+use crate::support;
+use crate::support::{robot, run, temporary};
 use serde_json::Value;
-use support::{robot, run, temporary};
 
 const POLYNOMIAL: [&str; 4] = ["--outputs", "inverse_dynamics", "--sincos", "polynomial"];
 

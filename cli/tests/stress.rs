@@ -1,11 +1,9 @@
 //! `dalembert stress` as a user runs it.
 
-mod support;
-
 use std::fs;
 
+use crate::support::{robot, run, temporary};
 use serde_json::Value;
-use support::{robot, run, temporary};
 
 #[test]
 fn a_robot_passes_with_table_and_charts() {

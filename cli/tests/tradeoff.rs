@@ -1,14 +1,12 @@
 //! Accuracy given up on purpose, as a user runs it: scenes with a tolerance,
 //! `certify` and `tradeoff`.
 
-mod support;
-
 use dalembert_codegen::certificate::format::text_hash;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::support::{robot, run, temporary};
 use serde_json::Value;
-use support::{robot, run, temporary};
 
 /// Two joints that need little, so that a search is quick.
 const SCENES: &str = r#"

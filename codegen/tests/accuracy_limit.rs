@@ -1,8 +1,7 @@
 //! The limit on rounding errors: what it refuses, what is taken instead, and
 //! that a robot's last digits do not decide.
 
-mod support;
-
+use crate::support::{arm_file, read_robot};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GeneratedFunction, Prefer, Request, generate};
 use dalembert_codegen::program::ScalarType;
@@ -10,7 +9,6 @@ use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::floating::Runtime;
 use dalembert_codegen::verify::rounding::Rounding;
-use support::{arm_file, read_robot};
 
 /// τ by a quick search.
 fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {

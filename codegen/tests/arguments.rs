@@ -1,8 +1,6 @@
 //! Parameters of the robot that are arguments: a payload by its load, gravity. What
 //! is generated gives what the robot file with that payload, or that gravity, gives.
 
-mod support;
-
 use std::path::Path;
 
 use dalembert_codegen::backend::Entries;
@@ -20,6 +18,8 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Inertia, Placement, Position, Robot};
 use dalembert_model::scene::{Payload, Scene};
+
+use crate::support;
 
 const PAYLOAD: &[RuntimeParameter] = &[RuntimeParameter::Payload];
 const GRAVITY: &[RuntimeParameter] = &[RuntimeParameter::Gravity];

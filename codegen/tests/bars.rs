@@ -1,10 +1,10 @@
 //! Upper bounds on operation counts. They only ever go down.
 
-mod support;
-
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_model::equations::Formulation;
+
+use crate::support;
 
 fn operations(name: &str, function: Function, start: Start) -> usize {
     let generated = support::from(&support::robot(name), function, start);

@@ -2,8 +2,6 @@
 //! out is proved, read back and measured as any function is; it is the same by
 //! every way in, and costs no more than its parts.
 
-mod support;
-
 use std::path::Path;
 
 use dalembert_codegen::Entries;
@@ -17,6 +15,8 @@ use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 fn bundle(text: &str) -> Function {
     Function::parse(text).unwrap_or_else(|error| panic!("{error}"))

@@ -2,8 +2,6 @@
 //!
 //! Minutes without optimisation, so they run in release only.
 
-mod support;
-
 use dalembert_codegen::approximate::prune::{Settings, prune};
 use dalembert_codegen::bound::definite::least_eigenvalue;
 use dalembert_codegen::bound::input_box::InputBox;
@@ -14,6 +12,8 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::scene::Setting;
+
+use crate::support;
 
 fn bar(tolerance: f64, operations: usize) {
     let robot = support::robot("puma560");

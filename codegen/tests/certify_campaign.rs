@@ -2,8 +2,6 @@
 //! four robots, run at corners, random states and where a climb ends. The
 //! whole campaign is in `src/certificate/README.md`; this is its smaller dose.
 
-mod support;
-
 use dalembert_codegen::approximate::choose::ErrorBudget;
 use dalembert_codegen::approximate::prune::Settings;
 use dalembert_codegen::bound::magnitude::BoxEffort;
@@ -15,6 +13,8 @@ use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::scene::Setting;
 use dalembert_model::scene::{Scale, Scene};
+
+use crate::support;
 
 const SAMPLES: usize = 20_000;
 const CLIMBS: usize = 6;

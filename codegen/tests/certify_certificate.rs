@@ -1,7 +1,5 @@
 //! Certificates hold, are tight enough, and are caught when they lie.
 
-mod support;
-
 use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::magnitude::{BoxEffort, magnitudes};
@@ -17,6 +15,8 @@ use dalembert_codegen::program::{Program, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 fn robot() -> Robot {
     let mut robot = support::robot("planar3r");

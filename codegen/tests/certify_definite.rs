@@ -1,7 +1,5 @@
 //! D stays positive definite where terms were left out, and that is certified.
 
-mod support;
-
 use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
 use dalembert_codegen::bound::definite::{Indefinite, least_eigenvalue};
 use dalembert_codegen::bound::input_box::InputBox;
@@ -21,6 +19,8 @@ use dalembert_codegen::states::JointState;
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Options, Reading, parse};
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 fn inertia(robot: &Robot) -> (Program, InputBox) {
     let mut robot = robot.clone();

@@ -3,8 +3,6 @@
 //! by other means than the check's: the printed text is read by a reader of
 //! this test's own, and run against the runtime.
 
-mod support;
-
 use std::collections::HashMap;
 
 use dalembert_codegen::certificate::{Certificate, format};

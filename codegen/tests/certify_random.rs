@@ -1,8 +1,8 @@
 //! Certificates of robots that nobody chose, sliding joints and parts of the
 //! circle among them: no bound is violated, and none is much too large.
 
-mod support;
-
+use crate::support;
+use crate::support::draw::{Draw, robots};
 use dalembert_codegen::approximate::choose::ErrorBudget;
 use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
 use dalembert_codegen::bound::input_box::InputBox;
@@ -16,7 +16,6 @@ use dalembert_codegen::scene::Setting;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::Scale;
-use support::draw::{Draw, robots};
 
 /// Limits: the whole circle or a part of it, and rates.
 fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {

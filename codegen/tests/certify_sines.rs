@@ -1,8 +1,6 @@
 //! Certificates of functions whose sines are polynomials: they hold, follow
 //! from the tolerance, and are caught when they lie.
 
-mod support;
-
 use dalembert_codegen::approximate::sines::within;
 use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::bound::input_box::InputBox;
@@ -20,6 +18,8 @@ use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::{Sines, counts, stated};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 const TOLERANCE: f64 = 1e-5;
 

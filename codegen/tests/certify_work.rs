@@ -1,7 +1,5 @@
 //! A certificate that would take long is refused before anything is computed.
 
-mod support;
-
 use std::time::{Duration, Instant};
 
 use dalembert_codegen::bound::input_box::InputBox;
@@ -14,6 +12,8 @@ use dalembert_codegen::scene::Setting;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
+
+use crate::support;
 
 fn honest() -> (Robot, Value) {
     let mut robot = support::robot("planar2r");

@@ -1,8 +1,6 @@
 //! Functions that can be called in several ways: one arithmetic, which every
 //! other text must bring the right values. What does not is refused.
 
-mod support;
-
 use dalembert_codegen::Entries;
 use dalembert_codegen::backend::MathPath;
 use dalembert_codegen::backend::entries::angles::Angles;
@@ -13,6 +11,8 @@ use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::sincos::SinCos;
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 fn request(entries: Entries, sincos: SinCos, start: Start) -> Request {
     Request {

@@ -1,14 +1,14 @@
 //! What rounding costs: every robot and function within the bounds, and the
 //! measure itself sees what it should.
 
-mod support;
-
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::Operand;
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::{SEED, STATES, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
+
+use crate::support;
 
 const ROBOTS: [&str; 6] = [
     "panda", "planar2r", "planar3r", "puma560", "stanford", "ur10",

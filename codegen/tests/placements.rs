@@ -1,17 +1,15 @@
 //! Robots with a base and a tool: what is generated is proved, close to the
 //! runtime, and says where both are; without them nothing changes.
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::{read_robot, reading_with};
 use dalembert_codegen::clauses::expand;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
-use support::{read_robot, reading_with};
 
 const ARM: &str = "\
 name = \"arm\"

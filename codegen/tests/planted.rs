@@ -1,8 +1,6 @@
 //! Faults planted into finished programs and texts: the exact proof and the
 //! text check catch every one.
 
-mod support;
-
 use dalembert_codegen::backend::{MathPath, function};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::program::{Library, Lowered, Operand, Operation, Program, ScalarType};
@@ -11,6 +9,8 @@ use dalembert_codegen::verify::exact::{Disproof, prove};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
+
+use crate::support;
 
 const FUNCTIONS: [Function; 3] = [
     Function::InverseDynamics,

@@ -2,8 +2,6 @@
 //! one: the formatter leaves it alone, the compiler and the documentation have
 //! nothing to warn of, whatever the joints are called and whatever is called.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -15,6 +13,8 @@ use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 /// Joints named as nobody should, and one that turns without end.
 fn robot() -> Robot {

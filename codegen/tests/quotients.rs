@@ -1,8 +1,6 @@
 //! Programs that divide: what they divide by, that a wrong divisor is seen, and
 //! what is refused by name.
 
-mod support;
-
 use dalembert_codegen::certificate::format;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
@@ -14,6 +12,8 @@ use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Scale, Scene, Tolerance};
+
+use crate::support;
 
 const INVERTING: [Function; 3] = [
     Function::ForwardDynamics,

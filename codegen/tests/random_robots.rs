@@ -4,8 +4,7 @@
 //! What is generated for them is proved (or `generate` fails), the emitted text
 //! stays within the floating bound, and the formulations agree.
 
-mod support;
-
+use crate::support::draw::{Draw, robots};
 use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::graph::Points;
@@ -17,7 +16,6 @@ use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::scene::Scene;
-use support::draw::{Draw, robots};
 
 /// A function whose code stays small enough for a test.
 fn function(n: usize, draw: &mut Draw) -> Function {

@@ -1,8 +1,6 @@
 //! τ = Y π and D a + C v + c + b∘v = Y π: of every arm, in both scalars, in scenes, with
 //! as few columns as there can be; and what a wrong combination is refused with.
 
-mod support;
-
 use std::path::Path;
 
 use dalembert_codegen::clauses::expand;
@@ -20,6 +18,8 @@ use dalembert_model::number::{Angle, Exact, Rational, Rounded};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::Scene;
+
+use crate::support;
 
 const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",

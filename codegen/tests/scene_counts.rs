@@ -1,7 +1,5 @@
 //! Scenes of the PUMA: everything they do not need is gone from the code.
 
-mod support;
-
 use std::path::Path;
 
 use dalembert_codegen::function::Function;
@@ -12,6 +10,8 @@ use dalembert_codegen::program::ScalarType;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
 use dalembert_model::scene::{MotionBox, Scene};
+
+use crate::support;
 
 fn locked(joints: &[usize]) -> Vec<(usize, Position)> {
     let at = || Position::Angle(Angle::default());

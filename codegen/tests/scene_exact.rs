@@ -1,7 +1,5 @@
 //! A scene's code is the full model's at the scene's values: proved, and run.
 
-mod support;
-
 use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::plan::{Entry, Plan};
@@ -14,6 +12,8 @@ use dalembert_model::number::{Angle, Rational, Rounded};
 use dalembert_model::outputs::Axis;
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Payload, Scene};
+
+use crate::support;
 
 fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())

@@ -1,8 +1,6 @@
 //! Generated functions whose sines are polynomials: printed, counted, read
 //! back, and as near to libm's as was proved.
 
-mod support;
-
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::program::{Library, Lowered, ScalarType};
@@ -12,6 +10,8 @@ use dalembert_codegen::split::Split;
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 const FUNCTION: Function = Function::InverseDynamics;
 

@@ -1,12 +1,12 @@
 //! Reading emitted text back: what is no emitted function is refused with a
 //! line and a reason.
 
-mod support;
-
 use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::run::State;
 use dalembert_codegen::program::{Library, Lowered, ScalarType};
+
+use crate::support;
 
 const TEXT: &str = "\
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {

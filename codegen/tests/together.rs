@@ -1,8 +1,6 @@
 //! Generated functions that call for all their angles at once: the same
 //! program, one line of text apart, and certified with the same bounds.
 
-mod support;
-
 use dalembert_codegen::backend::MathPath;
 use dalembert_codegen::certificate::{Refuted, format};
 use dalembert_codegen::function::Function;
@@ -12,6 +10,8 @@ use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::seeded;
 use dalembert_model::robot::Robot;
+
+use crate::support;
 
 fn with(robot: &Robot, library: Library, sincos: SinCos) -> Generated {
     let request = Request {

@@ -1,7 +1,5 @@
 //! Watching a search and ending it early.
 
-mod support;
-
 use std::sync::Arc;
 use std::sync::Mutex;
 
@@ -11,6 +9,8 @@ use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::simplify::Effort;
 use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
+
+use crate::support;
 
 /// Writes down what it is told, and wants an end at a part.
 struct Clerk {

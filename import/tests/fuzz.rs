@@ -1,11 +1,9 @@
 //! Whatever the bytes are: an answer, never a panic, and the same one twice; and
 //! a robot file that was made reads.
 
-mod support;
-
+use crate::support::{NAMES, snapped, source};
 use dalembert_import::{Options, import};
 use dalembert_model::read;
-use support::{NAMES, snapped, source};
 
 /// xorshift.
 struct Draw(u64);

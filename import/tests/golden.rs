@@ -1,12 +1,11 @@
 //! Real URDFs: torques, gravity loads and poses are those of an independent
 //! library; with snapping they are off by no more than the bounds say.
 
-mod support;
-
+use crate::support;
+use crate::support::{NAMES, exact, golden, imported, snapped};
 use dalembert_import::Motion;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
-use support::{NAMES, exact, golden, imported, snapped};
 
 /// Digits as they stand: every torque, load and pose of all six.
 #[test]

@@ -1,11 +1,9 @@
 //! What is refused, by name, with the line of the URDF and what to do about it;
 //! and what is said of what is taken.
 
-mod support;
-
+use crate::support::{refused, source};
 use dalembert_import::{Imported, Options, import};
 use dalembert_model::read::Severity;
-use support::{refused, source};
 
 /// Two links that turn, a gripper beside the tip, and all that a URDF may have.
 const ARM: &str = r#"<?xml version="1.0"?>

@@ -2,8 +2,7 @@
 //! and antiparallel axes, slides between them, both conventions, seen in every
 //! choice of axes, against Lagrange–Euler in the prime field.
 
-mod equations_support;
-
+use crate::equations_support::random;
 use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
 use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm};
 use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
@@ -11,7 +10,6 @@ use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random;
 
 /// A residue that knows when it is zero or one: parallel axes are a matter of
 /// structure.

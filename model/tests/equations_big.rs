@@ -1,14 +1,10 @@
 //! The big float against the 30-digit truth of the extreme cases.
-#![cfg(feature = "bigfloat")]
-
-mod equations_support;
-
+use crate::equations_support::extremes::{self, Extreme};
 use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
-use equations_support::extremes::{self, Extreme};
 use nalgebra::DVector;
 
 fn number(x: f64) -> Big {

@@ -1,11 +1,9 @@
 //! Operation counts of the formulas as written.
 
-mod equations_support;
-
+use crate::equations_support::golden;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::count::{Count, Counter};
-use equations_support::golden;
 
 /// Multiplications and additions of τ for a generic arm of n revolute joints,
 /// θ_i given.

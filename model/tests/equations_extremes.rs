@@ -1,12 +1,10 @@
 //! The generic runtime in f64 against the extreme cases: speeds, sizes, mass
 //! ratios, far bases, huge angles, long snakes.
 
-mod equations_support;
-
+use crate::equations_support::extremes::{self, Extreme};
+use crate::equations_support::normwise;
 use dalembert_model::equations::SinCosPair;
 use dalembert_model::reference::{Reference, WrongLength};
-use equations_support::extremes::{self, Extreme};
-use equations_support::normwise;
 use nalgebra::DVector;
 
 const U: f64 = f64::EPSILON / 2.0;

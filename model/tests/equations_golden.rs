@@ -1,11 +1,9 @@
 //! Every formulation in f64 against τ, D, h and c of an independent library.
 
-mod equations_support;
-
+use crate::equations_support::{golden, normwise, positions};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::read;
 use dalembert_model::reference::Reference;
-use equations_support::{golden, normwise, positions};
 use nalgebra::DVector;
 
 /// The bound of the golden states, normwise.

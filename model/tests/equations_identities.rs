@@ -3,8 +3,7 @@
 //! Equality at a random point means equality of the rational functions but for
 //! a chance of about 1e-16 each.
 
-mod equations_support;
-
+use crate::equations_support::random::{self, Case, case, kinds, triple};
 use dalembert_model::equations::dalembert::Dalembert;
 use dalembert_model::equations::lagrange_euler::velocity_terms;
 use dalembert_model::equations::newton_euler::{Wrench, table1, table2};
@@ -12,7 +11,6 @@ use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{self, Case, case, kinds, triple};
 
 const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
 

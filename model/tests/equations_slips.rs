@@ -1,15 +1,13 @@
 //! Any single slip in a formula is caught by comparing formulations: a wrong
 //! sign anywhere, a dropped term anywhere.
 
-mod equations_support;
-
 use std::cell::Cell;
 
+use crate::equations_support::random::{Case, case, kinds};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{Case, case, kinds};
 
 /// What happens to one addition or subtraction of a formula.
 #[derive(Clone, Copy, PartialEq)]

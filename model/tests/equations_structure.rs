@@ -1,15 +1,13 @@
 //! What is special about two robots: which h_ikm vanish or coincide, found with
 //! their exact parameters at a random point of the prime field.
 
-mod equations_support;
-
 use std::collections::BTreeSet;
 
+use crate::equations_support::{golden, random};
 use dalembert_model::equations::{Formulation, JointPosition};
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::{golden, random};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 

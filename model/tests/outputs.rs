@@ -1,8 +1,7 @@
 //! The registry of outputs: what there is, and identities of its formulas that
 //! hold for every arm, checked exactly in the prime field.
 
-mod equations_support;
-
+use crate::equations_support::random::{Case, case, kinds, pair, pose};
 use dalembert_model::equations::chain::Body;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_links};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
@@ -11,7 +10,6 @@ use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
-use equations_support::random::{Case, case, kinds, pair, pose};
 
 /// Every function with its arguments, and its results' axes for six joints and
 /// 36 base parameters.

@@ -1,13 +1,11 @@
 //! Joints by placements: the same arm as by its DH rows, whatever the frames;
 //! and the same torques and poses as a recursion that knows nothing of DH.
 
-mod placed_support;
-
+use crate::placed_support::{Drawn, compare, file};
 use dalembert_model::number::Angle;
 use dalembert_model::read::{Options, Reading, parse};
 use dalembert_model::robot::{Robot, write};
 use num_traits::{Signed, ToPrimitive};
-use placed_support::{Drawn, compare, file};
 
 fn reading(text: &str) -> Reading {
     parse(text, &Options::default()).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))

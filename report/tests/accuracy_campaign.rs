@@ -3,14 +3,12 @@
 //!
 //! An error is that of a quantity's entries against its largest entry, or a sixteenth
 //! of the largest met where that is more. The whole campaign is for releases: `cargo
-//! test --release -p dalembert-report --test accuracy_campaign -- --include-ignored
+//! test --release -p dalembert-report --test all -- accuracy_campaign --include-ignored
 //! --nocapture` prints the worst of each quantity.
-
-#[path = "../../codegen/tests/support/draw.rs"]
-mod draw;
 
 use std::collections::BTreeMap;
 
+use crate::support::draw::robots;
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::program::ScalarType;
@@ -19,7 +17,6 @@ use dalembert_codegen::verify::floating::{BOUND, Emitted, Granted, Runtime};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
 use dalembert_report::stress::truth::Truth;
-use draw::robots;
 
 /// States a robot.
 const STATES: usize = 30;

@@ -1,10 +1,9 @@
 //! Coefficients that vanish or repeat: the known counts, and the reasons.
 
-#[path = "../../codegen/tests/support/mod.rs"]
-mod support;
-
 use dalembert_codegen::function::Quantity;
 use dalembert_report::couplings::{Couplings, Finding, Reason};
+
+use crate::support;
 
 fn summary(couplings: &Couplings, quantity: Quantity) -> (usize, usize, usize) {
     let summary = couplings.summary(quantity);

@@ -1,9 +1,6 @@
 //! The table of steps and the fate of the parameters, on arms where the
 //! answers are known.
 
-#[path = "../../codegen/tests/support/mod.rs"]
-mod support;
-
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
@@ -14,6 +11,8 @@ use dalembert_model::scene::Scale;
 use dalembert_report::explain::parameters::{Parameter, ParameterStatus, Together};
 use dalembert_report::explain::steps::{Code, SearchStep};
 use dalembert_report::explain::{Explanation, explain, explain_all};
+
+use crate::support;
 
 fn of(name: &str, function: Function) -> Explanation {
     explain(&support::robot(name), function, &Request::default()).unwrap()

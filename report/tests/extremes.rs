@@ -2,11 +2,11 @@
 //! emitted code, each by its criterion. Without optimisation, the first case of
 //! each category, and no search of long arms: minutes are for release mode.
 
-mod extremes_support;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::extremes_support;
+use crate::extremes_support::Extreme;
 use dalembert_codegen::function::{Function, Quantity, Sizes};
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::portfolio::Start;
@@ -20,7 +20,6 @@ use dalembert_report::stress::rounding::rounded;
 use dalembert_report::stress::scale;
 use dalembert_report::stress::subject::{Code, Subject};
 use dalembert_report::stress::truth::Truth;
-use extremes_support::Extreme;
 
 fn criterion(category: &str) -> Criterion {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));

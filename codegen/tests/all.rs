@@ -1,0 +1,34 @@
+//! One program of all test files: they share what they link, and both cores.
+
+mod accuracy_limit;
+mod arguments;
+mod bars;
+mod bundles;
+mod certify_bars;
+mod certify_campaign;
+mod certify_certificate;
+mod certify_definite;
+mod certify_mutations;
+mod certify_random;
+mod certify_sines;
+mod certify_work;
+mod entries;
+mod floating;
+mod fuzz_tokens;
+mod fuzz_verified;
+mod libm_ulps;
+mod overflow;
+mod placements;
+mod planted;
+mod printed_file;
+mod quotients;
+mod random_robots;
+mod regressor;
+mod scene_counts;
+mod scene_exact;
+mod scene_ways_in;
+mod sincos;
+mod support;
+mod text;
+mod together;
+mod watch;

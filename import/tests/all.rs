@@ -1,0 +1,6 @@
+//! One program of all test files: they share what they link, and both cores.
+
+mod fuzz;
+mod golden;
+mod refusals;
+mod support;

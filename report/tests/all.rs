@@ -1,0 +1,15 @@
+//! One program of all test files: they share what they link, and both cores.
+
+mod accuracy_campaign;
+mod couplings;
+mod explain;
+mod extremes;
+mod extremes_growth;
+mod extremes_not_finite;
+mod extremes_support;
+mod identities_in_time;
+mod outputs;
+mod states;
+mod stress_report;
+#[path = "../../codegen/tests/support/mod.rs"]
+mod support;
