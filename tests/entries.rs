@@ -168,20 +168,10 @@ macro_rules! check {
     }};
 }
 
-macro_rules! check_arm {
+/// What every arm here has, from torques to accelerations and back.
+macro_rules! check_dynamics {
     ($module:ident, $scalar:ty) => {{
-        let vector = |x: &[$scalar; 3]| *x;
-        check!(
-            $module,
-            $scalar,
-            gravity,
-            gravity_lanes,
-            gravity_batch,
-            gravity_columns,
-            GravityBatch,
-            [q],
-            vector
-        );
+        let vector = |x: &[$scalar; $module::N]| *x;
         check!(
             $module,
             $scalar,
@@ -203,6 +193,23 @@ macro_rules! check_arm {
             ForwardDynamicsBatch,
             [q, qd, tau],
             vector
+        );
+    }};
+}
+
+macro_rules! check_arm {
+    ($module:ident, $scalar:ty) => {{
+        check_dynamics!($module, $scalar);
+        check!(
+            $module,
+            $scalar,
+            gravity,
+            gravity_lanes,
+            gravity_batch,
+            gravity_columns,
+            GravityBatch,
+            [q],
+            |x: &[$scalar; $module::N]| *x
         );
         check!(
             $module,
@@ -259,35 +266,8 @@ fn sines_of_sums() {
 /// The arm that is measured: hundreds of operations.
 #[test]
 fn a_whole_arm() {
-    macro_rules! whole {
-        ($module:ident, $scalar:ty) => {{
-            let vector = |x: &[$scalar; 6]| *x;
-            check!(
-                $module,
-                $scalar,
-                inverse_dynamics,
-                inverse_dynamics_lanes,
-                inverse_dynamics_batch,
-                inverse_dynamics_columns,
-                InverseDynamicsBatch,
-                [q, qd, qdd],
-                vector
-            );
-            check!(
-                $module,
-                $scalar,
-                forward_dynamics,
-                forward_dynamics_lanes,
-                forward_dynamics_batch,
-                forward_dynamics_columns,
-                ForwardDynamicsBatch,
-                [q, qd, tau],
-                vector
-            );
-        }};
-    }
-    whole!(puma560, f64);
-    whole!(puma560_f32, f32);
+    check_dynamics!(puma560, f64);
+    check_dynamics!(puma560_f32, f32);
     // What calls the arithmetic is the function that is checked in but for the
     // sines.
     let (q, qd, qdd) = ([0.3, -0.5, 1.1, 0.7, -2.0, 0.1], [0.4; 6], [-0.9; 6]);
