@@ -31,7 +31,7 @@ pairs: products that one sum alone reads; so many instructions fewer where a com
   contracts both to one (rustc does not, unless that keeps both roundings)
 estimates, from the program as printed: registers given out in its order, arguments loaded
   once, results stored; without the instructions and the stack of functions that are called;
-  chain: cycles of the longest chain, behind the calls
+  stack, code and constants are bytes; chain: cycles of the longest chain, behind the calls
 ";
 
 /// The tables.
@@ -185,8 +185,9 @@ fn estimates(footprints: &[&Footprint], target: usize) -> String {
         rows.push(row);
     }
     format!(
-        "\n{scalar} on {}: {} registers, {} kept over calls; bytes of stack, code and constants\n{}",
+        "\n{scalar} on {} ({}): {} registers, {} kept over calls\n{}",
         target.name,
+        target.about,
         unit.registers,
         unit.kept,
         output::table(&rows, 0)

@@ -36,8 +36,8 @@
 //! | cortex-m7, f64 | 0.94 to 1.19 | 0.89 to 1.46 | 0.86 to 1.16 |
 //! | aarch64, f32 | 0.87 to 1.14 | up to 2.2 | 0.87 to 1.14 |
 //! | aarch64, f64 | 0.90 to 1.17 | up to 2.5, once 48 bytes for 0 | 0.90 to 1.17 |
-//! | x86-64, f32 | 0.73 to 1.07 | up to 4.3 | 0.62 to 1.08 |
-//! | x86-64, f64 | 0.91 to 1.07 | up to 2.6 | 0.82 to 1.20 |
+//! | x86-64, f32 | 0.73 to 1.07 | up to 4.3 | 0.63 to 1.10 |
+//! | x86-64, f64 | 0.91 to 1.07 | up to 2.6 | 0.83 to 1.22 |
 //!
 //! The torques of `puma560` with libm's sines, estimated and compiled:
 //!
@@ -50,13 +50,15 @@
 //! | x86-64, f32 | 539, 515 | 208, 400 |
 //! | x86-64, f64 | 539, 512 | 384, 512 |
 //!
-//! What is not in the model: aarch64 and x86-64 have vectors, of which LLVM makes
-//! some and keeps them whole on the stack; on x86-64, functions without calls also
-//! use 128 bytes below the stack pointer, which were not counted as compiled; arrays
-//! of arrays are put together on the stack (1.46). The host's functions were
+//! What is not in the model: arrays of arrays of arrays are put together on the
+//! stack (`dynamic_coefficients`, 1.46 on Cortex-M). aarch64 and x86-64 have vectors,
+//! of which LLVM makes some and keeps them whole on the stack; without
+//! (`-C no-vectorize-slp`) the PUMA's other functions with libm's sines take 1.0 to 1.5
+//! times the estimate on x86-64. And there, functions without calls use 128 bytes below
+//! the stack pointer, which were not counted as compiled. The host's functions were
 //! compiled with std. The others' targets were not installed: they were compiled
-//! with a `core` of sixty lines, of operators and indices alone, which gives on the
-//! host the instructions that std gives. The processor was chosen by `target-cpu`
+//! with a `core` of forty lines, of operators and indices alone, which gives on the
+//! host as many instructions as std gives. The processor was chosen by `target-cpu`
 //! for Cortex-M, and left alone for the others.
 //!
 //! # Why the search does not use it

@@ -8,7 +8,7 @@ use dalembert_codegen::program::{Operation, ScalarType};
 pub struct Target {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it is, in a line.
+    /// Which of its kind, in a few words.
     pub about: &'static str,
     /// What it has for f32.
     pub f32: Option<Unit>,
