@@ -55,11 +55,12 @@
 //! of which LLVM makes some and keeps them whole on the stack; without
 //! (`-C no-vectorize-slp`) the PUMA's other functions with libm's sines take 1.0 to 1.5
 //! times the estimate on x86-64. And there, functions without calls use 128 bytes below
-//! the stack pointer, which were not counted as compiled. The host's functions were
-//! compiled with std. The others' targets were not installed: they were compiled
-//! with a `core` of forty lines, of operators and indices alone, which gives on the
-//! host as many instructions as std gives. The processor was chosen by `target-cpu`
-//! for Cortex-M, and left alone for the others.
+//! the stack pointer, which were not counted as compiled.
+//!
+//! Arm's targets were not installed: all was compiled with a `core` of forty lines, of
+//! operators and indices alone. On the host that gives as many instructions and as
+//! much stack as std does, for torques and gravity in both scalars. The processor was
+//! chosen by `target-cpu` for Cortex-M, and left alone for the others.
 //!
 //! # Why the search does not use it
 //!
