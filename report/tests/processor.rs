@@ -60,7 +60,7 @@ fn sincos(joint: usize) -> LoweredTrig {
     }
 }
 
-/// t1 = q0·q1, t2 = q1·q2, t3 = t1 + t2, t4 = t3/t1, t5 = t4·t4 and −t4, t5, t3.
+/// t1 = q0·q1, t2 = q1·q2, t3 = t1 + t2, t4 = t3/t1, t5 = t4·t4 and −t5, t4, t3.
 fn small() -> Lowered {
     text(
         &[
@@ -70,7 +70,7 @@ fn small() -> Lowered {
             (Div, t(3), t(1)),
             (Mul, t(4), t(4)),
         ],
-        &[(true, t(4)), (false, t(5)), (false, t(3))],
+        &[(true, t(5)), (false, t(4)), (false, t(3))],
     )
 }
 
@@ -117,18 +117,18 @@ fn of(text: &Lowered, target: &'static Target) -> (Footprint, Estimate) {
     (footprint, estimate)
 }
 
-/// Behind each line are alive: t1; t1 t2; t1 t3; t3 t4; t3 t4 t5; and with −t4, of
-/// which t4 is read no more, three again.
+/// Behind each line are alive: t1; t1 t2; t1 t3; t3 t4; t3 t4 t5; and with −t5, when
+/// t5 is read no more, three again.
 #[test]
 fn alive_deep_and_paired_by_hand() {
     let (footprint, estimate) = of(&small(), &FOUR);
     assert_eq!(footprint.alive, 3);
-    // q1·q2, then t3, t4 and t5.
+    // q1·q2, then t3, t4 and t5; a change of sign is no operation.
     assert_eq!(footprint.depth, 4);
     assert_eq!(footprint.operations(), 5);
     assert!((footprint.parallelism() - 1.25).abs() < 1e-15);
     assert_eq!(estimate.cycles, 3 + 2 + 10 + 3);
-    // t2 is read by t3 alone; t1 by two, and t5 is a result.
+    // t2 is read by t3 alone; t1 by two, and no sum reads t5.
     assert_eq!(footprint.pairs, 1);
     assert_eq!(footprint.sines, Sines::default());
     let path = &footprint.path;
