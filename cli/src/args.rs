@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
-use clap::{Parser, Subcommand};
+use clap::{ArgGroup, Parser, Subcommand};
 use dalembert_codegen::backend::{Entries, MathPath};
 use dalembert_codegen::clauses::words::bundle;
 use dalembert_codegen::emit::Interface;
@@ -17,6 +17,8 @@ use dalembert_codegen::sincos::SinCos;
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::outputs::RuntimeParameter;
+use dalembert_report::processor::target::Target;
+use dalembert_report::processor::targets::TARGETS;
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -205,12 +207,13 @@ pub struct ShowArgs {
 
 /// Arguments of `generate`.
 #[derive(Debug, clap::Args)]
+#[command(group(ArgGroup::new("standard output free").multiple(true)))]
 pub struct GenerateArgs {
     /// The robot file
     pub robot: PathBuf,
     /// Write the code to this file [default: standard output]; a link is
     /// followed, a device or pipe written into
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", group = "standard output free")]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with FILE and exit with 1 if it differs
     #[arg(long, requires = "output")]
@@ -243,8 +246,16 @@ pub struct GenerateArgs {
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
     pub states: Option<usize>,
-    /// Print the report as JSON; the code goes to -o
-    #[arg(long, requires = "output")]
+    /// Print what each function takes of a processor, by the model of the guide's
+    /// page on real time: instructions, stack, calls, values alive; the code goes
+    /// to -o, without it nowhere
+    #[arg(long, group = "standard output free")]
+    pub report: bool,
+    /// The processors of the report, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "report", value_parser = target_parser())]
+    pub target: Vec<&'static Target>,
+    /// Print the reports as JSON; the code goes to -o
+    #[arg(long, requires = "standard output free")]
     pub json: bool,
     #[command(flatten)]
     pub choice: Choice,
@@ -575,6 +586,15 @@ fn interface_parser() -> impl TypedValueParser<Value = Interface> {
         let mut all = Interface::ALL.into_iter();
         all.find(|interface| interface.name() == name)
             .ok_or("no such interface")
+    })
+}
+
+fn target_parser() -> impl TypedValueParser<Value = &'static Target> {
+    let names = PossibleValuesParser::new(TARGETS.iter().map(|target| target.name));
+    names.try_map(|name| {
+        let mut all = TARGETS.iter();
+        all.find(|target| target.name == name)
+            .ok_or("no such processor")
     })
 }
 

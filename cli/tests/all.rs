@@ -12,6 +12,7 @@ mod import;
 mod json;
 mod new;
 mod outputs;
+mod processor;
 mod show;
 mod sines;
 mod stress;

@@ -7,12 +7,14 @@
 //! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code, and why they disagree
 //! - [`table3`]: the paper's counts beside the formulas' and the generator's
+//! - [`processor`]: what functions take of a processor, by a stated model
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
 
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
+pub mod processor;
 pub mod states;
 pub mod stress;
 pub mod sweep;

@@ -14,7 +14,8 @@ use crate::{input, output};
 
 /// Where the code, the certificates and the plan go.
 pub struct Files {
-    code: Target,
+    /// Unless a report is what was asked for.
+    code: Option<Target>,
     /// With a tolerance, unless the code goes into a device or a pipe.
     certificates: Option<Target>,
     /// If it is to be kept.
@@ -30,8 +31,8 @@ impl Files {
     /// Something cannot be written, or would be written over something else.
     pub fn of(args: &GenerateArgs, request: &Request) -> Result<Files, Failure> {
         let code = match &args.output {
-            Some(file) => Target::at(file)?,
-            None => Target::standard(),
+            Some(file) => Some(Target::at(file)?),
+            None => (!args.report).then(Target::standard),
         };
         let scene = request.scene.as_ref();
         let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
@@ -41,7 +42,8 @@ impl Files {
                     .into(),
             ));
         }
-        let beside = code.file().and(args.output.as_ref());
+        let file = code.as_ref().and_then(Target::file);
+        let beside = file.and(args.output.as_ref());
         let beside = beside.map(|file| file.with_extension("certificate.json"));
         let certificates = args.certificate.clone().or(beside);
         let certificates = certificates.filter(|_| certified);
@@ -63,12 +65,12 @@ impl Files {
     }
 
     fn comparable(&self) -> Outcome {
-        match self.code.file() {
-            Some(_) => Ok(()),
-            None => Err(Failure::Input(format!(
+        match &self.code {
+            Some(code) if code.file().is_none() => Err(Failure::Input(format!(
                 "error: `{}` is no file that --check could compare",
-                self.code.name.display()
+                code.name.display()
             ))),
+            _ => Ok(()),
         }
     }
 
@@ -83,7 +85,7 @@ impl Files {
             None => "the certificate beside the code",
         };
         let outputs = [
-            ("--output", Some(&self.code)),
+            ("--output", self.code.as_ref()),
             (certificates, self.certificates.as_ref()),
             ("--save-plan", self.plan.as_ref()),
         ];
@@ -95,15 +97,15 @@ impl Files {
 
     /// Writes all of it, or nothing.
     pub fn write(&self, code: &str, certificates: Option<&str>, plan: Option<&str>) -> Outcome {
-        let beside = [
+        let all = [
             (self.plan.as_ref(), plan),
             (self.certificates.as_ref(), certificates),
+            (self.code.as_ref(), Some(code)),
         ];
         let mut outputs = Vec::new();
-        for (target, text) in beside {
+        for (target, text) in all {
             outputs.extend(target.zip(text));
         }
-        outputs.push((&self.code, code));
         write(&outputs)?;
         if let Some(robot) = &self.first
             && let Err(error) = plan::file::announce(robot)
@@ -134,7 +136,9 @@ impl Files {
         if let Some((target, text)) = self.certificates.as_ref().zip(certificates) {
             compare(target, text)?;
         }
-        compare(&self.code, code)
+        self.code
+            .as_ref()
+            .map_or(Ok(()), |file| compare(file, code))
     }
 }
 

@@ -4,9 +4,11 @@
 //! - [`files`]: what goes where, and what is there already
 //! - [`report`]: what a person wants to know about the code
 //! - [`json`]: the same for programs
+//! - [`processor`]: what the functions take of processors
 
 mod files;
 pub mod json;
+mod processor;
 pub mod report;
 
 use dalembert_codegen::certificate::format;
@@ -53,9 +55,19 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     if states > affordable_states(robot.joints.len()) {
         output::note(&format!("measuring rounding errors at {states} states"));
     }
-    match args.json {
-        true => output::print_json(&json::json(&robot, &request, &generated, states))?,
-        false => output::note(&report::text(&robot, &request, &generated, states)),
+    let footprints = args.report.then(|| processor::of(&generated, &args.target));
+    let footprints = footprints.as_deref();
+    if args.json {
+        let mut said = json::json(&robot, &request, &generated, states);
+        if let Some(footprints) = footprints {
+            said["processors"] = processor::json(footprints);
+        }
+        output::print_json(&said)?;
+    } else {
+        output::note(&report::text(&robot, &request, &generated, states));
+    }
+    if let Some(footprints) = footprints.filter(|_| !args.json) {
+        output::print(&processor::text(&robot, &request, &generated, footprints))?;
     }
     let plan = args.save_plan.then(|| {
         let kept = keep(&robot, &request, &generated, kept);

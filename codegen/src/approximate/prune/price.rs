@@ -5,7 +5,7 @@ use super::columns::{Nodes, Value};
 use crate::program::{Input, Operation};
 
 /// A sine/cosine pair weighs as much as this many operations.
-const SINCOS: u32 = 8;
+pub(super) const SINCOS: u32 = 8;
 
 /// Operations that stay, sines and cosines weighed.
 pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratch) -> u32 {

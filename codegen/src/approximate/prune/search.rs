@@ -3,6 +3,7 @@
 use super::columns::Nodes;
 use super::greedy::{Greedy, State};
 use super::motions::Motions;
+use super::price::SINCOS;
 use super::tally::Tally;
 use super::{Pruned, Settings};
 use crate::bound::definite::least_eigenvalue;
@@ -329,8 +330,9 @@ fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
     }
 }
 
-/// Operations, and a few more for each sine and cosine.
+/// Operations, and a few more for each sine and cosine: what
+/// `price` gives, of a program that is built.
 pub(super) fn cost(program: &Program) -> usize {
     let counts = program.counts();
-    counts.operations() + 8 * counts.sincos
+    counts.operations() + SINCOS as usize * counts.sincos
 }

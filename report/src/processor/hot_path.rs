@@ -1,0 +1,112 @@
+//! What a function meets beside its own arithmetic: calls, branches, f64.
+
+use std::fmt;
+
+use dalembert_codegen::backend::parts::{LONG, PART};
+use dalembert_codegen::program::{Library, Lowered, LoweredTrig, ScalarType};
+
+use super::target::Target;
+
+/// Functions of one name that are called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// Its name, as the text has it.
+    pub name: String,
+    /// How often it is called.
+    pub times: usize,
+}
+
+/// What a function meets in every run. The text of the function itself has no
+/// branch and no loop.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HotPath {
+    /// The scalar.
+    pub scalar: ScalarType,
+    /// What is called.
+    pub calls: Vec<Call>,
+    /// Whose sines, if any are called.
+    pub library: Option<Library>,
+}
+
+impl HotPath {
+    /// Of the printed text.
+    pub fn of(text: &Lowered) -> HotPath {
+        let called: Vec<&LoweredTrig> = text.trig.iter().filter(|t| t.kernel.is_none()).collect();
+        let library = (!called.is_empty()).then_some(text.library);
+        let suffix = text.scalar.math_suffix();
+        let mut calls = Vec::new();
+        match library {
+            None => {}
+            Some(Library::Together) => calls.push(Call {
+                name: format!("dalembert_sines::sincos{suffix}"),
+                times: 1,
+            }),
+            Some(Library::Libm) => {
+                for (name, sin, cos) in [
+                    ("sincos", true, true),
+                    ("sin", true, false),
+                    ("cos", false, true),
+                ] {
+                    let same = called.iter().filter(|t| (t.sin, t.cos) == (sin, cos));
+                    calls.push(Call {
+                        name: format!("libm::{name}{suffix}"),
+                        times: same.count(),
+                    });
+                }
+            }
+        }
+        if text.steps.len() > LONG {
+            calls.push(Call {
+                name: "part".to_owned(),
+                times: text.steps.len().div_ceil(PART),
+            });
+        }
+        calls.retain(|call| call.times > 0);
+        HotPath {
+            scalar: text.scalar,
+            calls,
+            library,
+        }
+    }
+
+    /// Where it branches.
+    pub fn branches(&self) -> &'static str {
+        match (self.library, self.scalar) {
+            (None, _) => "none",
+            (Some(Library::Libm), _) => "in libm",
+            (Some(Library::Together), ScalarType::F64) => "one: angles beyond 8192 rad",
+            (Some(Library::Together), ScalarType::F32) => "one: angles beyond 100 rad",
+        }
+    }
+
+    /// Where it computes in f64.
+    pub fn f64(&self) -> &'static str {
+        match (self.scalar, self.library) {
+            (ScalarType::F64, _) => "all",
+            (ScalarType::F32, Some(Library::Libm)) => "in libm",
+            (ScalarType::F32, Some(Library::Together)) => "beyond 100 rad",
+            (ScalarType::F32, None) => "none",
+        }
+    }
+
+    /// What is slow on a processor because it has no f64, and the way around.
+    pub fn warning(&self, target: &Target) -> Option<String> {
+        let software = target.f64.is_none() && self.library == Some(Library::Libm);
+        (software && self.scalar == ScalarType::F32).then(|| {
+            format!(
+                "libm's f32 sines compute in f64, which is software on {}: `--sincos together` \
+                 computes them in f32, `--sincos polynomial` also without a call",
+                target.name
+            )
+        })
+    }
+}
+
+impl fmt::Display for Call {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.times {
+            1 => f.write_str(&self.name),
+            times => write!(f, "{times} {}", self.name),
+        }
+    }
+}
