@@ -48,9 +48,9 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Say which coefficients of the dynamics vanish or repeat, and why
     Couplings(CouplingsArgs),
-    /// Show what each step of the generator brought, and why
+    /// Show how many operations each step of the generator saves, and for what reason
     Explain(ExplainArgs),
-    /// Measure errors where robots are not: huge angles and speeds, odd masses
+    /// Measure rounding errors in extreme cases: huge angles and speeds, odd masses
     Stress(StressArgs),
     /// Check a certificate again: proof, edits, text and every bound
     Certify(CertifyArgs),
@@ -74,8 +74,8 @@ pub struct Choice {
     #[arg(long, value_name = "TYPE", value_parser = scalar_parser())]
     pub scalar: Option<ScalarType>,
     /// How long to search for fewer operations. Ctrl-C ends a thorough search
-    /// early, except for --check: what it has until then is taken, or what a
-    /// quick search finds where that is cheaper; a second Ctrl-C gives up
+    /// early (not with --check) and takes the best program so far, or the quick
+    /// search's if that is cheaper; a second Ctrl-C quits without a result
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
     /// `operations` takes the cheapest program even if it costs digits
@@ -85,17 +85,19 @@ pub struct Choice {
     /// are the defaults
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
-    /// What functions take as arguments that are constants otherwise: `payload`,
-    /// by the regrouped parameters that a function `load` computes, and `gravity`
+    /// Parameters that become arguments of the functions instead of constants: `gravity`,
+    /// and `payload`, which a function `load` turns once into the argument `load` of
+    /// the others
     #[arg(long, value_name = "WHICH", value_delimiter = ',', value_parser = parameter_parser())]
     pub parameters: Vec<RuntimeParameter>,
     /// Search anew even if a plan is kept beside the robot file
     #[arg(long)]
     pub no_plan: bool,
-    /// Where sines come from: `libm` an angle a call, `together` all of a
-    /// function's in one call of the crate dalembert-sines, in a third of the
-    /// time; `polynomial` holds over the joints' limits. `auto` takes that where
-    /// a scene's tolerance admits it, else libm
+    /// How sines and cosines are computed: `libm`, one call for each angle;
+    /// `together`, one call of the crate dalembert-sines for all angles of a
+    /// function, in a third of libm's time; `polynomial`, polynomials that
+    /// hold inside the joints' limits only; `auto`, polynomials where a
+    /// scene's tolerance admits them, else libm
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = sincos_parser())]
     pub sincos: SinCos,
     /// The largest error of each sine and cosine by polynomials [default: 1e-6,
@@ -150,10 +152,9 @@ pub struct NewArgs {
 
 /// Arguments of `import`.
 ///
-/// Links that are fixed to each other become one, and what hangs on a link moves
-/// with it. Numbers that were meant to be others, as 1.57079632679 for pi/2, are
-/// taken for these, listed with their lines, and what that changes in the torques
-/// is bounded.
+/// Links that are fixed to each other become one. Rounded numbers are replaced by the
+/// exact ones that were probably meant, 1.57079632679 by pi/2 for example; each is listed
+/// with its line, and the change of the torques is bounded. --exact keeps them.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The URDF; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
@@ -233,13 +234,14 @@ pub struct GenerateArgs {
     /// that is a module of your crate (`mod puma560;`). It has one scalar
     #[arg(long)]
     pub contents: bool,
-    /// In how many ways each function can be called: `with_sincos` also by whoever
-    /// has sines and cosines already, `lanes` also with several states at once,
-    /// `batch` also with slices of states, by the crate dalembert-batch
+    /// Which variants of each function to print, each choice with those before it:
+    /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`,
+    /// for several states at once; `batch`, for slices of states (needs the crate
+    /// dalembert-batch)
     #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser())]
     pub entries: Entries,
-    /// How code meets the module: `traits` also gives it a `Robot` with the traits of
-    /// `dalembert::interface`, for code that is generic over robots
+    /// What the module has besides functions: `traits` adds a type `Robot` that implements
+    /// the traits of `dalembert::interface`, for code that is generic over robots
     #[arg(long, value_name = "HOW", default_value = "functions", value_parser = interface_parser())]
     pub interface: Interface,
     /// Measure errors at this many states inside the robot's limits [default:
@@ -359,8 +361,8 @@ pub struct CertifyArgs {
     /// The scene of the robot file that it is for [default: the one it names]
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
-    /// What E may be, instead of the scene's tolerance: `tradeoff` certifies
-    /// others
+    /// The largest certified error E to accept, instead of the scene's tolerance;
+    /// for certificates that `tradeoff` wrote for other tolerances
     #[arg(long, value_name = "E", value_parser = exact_tolerance_parser())]
     pub tolerance: Option<Rational>,
     /// Also write scripts by which Gappa bounds the rounding of each output,
@@ -376,7 +378,7 @@ pub struct CertifyArgs {
         default_value_t = 0
     )]
     pub samples: usize,
-    /// Climbs from there to the largest error of each output
+    /// Local searches for each output, from the worst of these states, for a larger error
     #[arg(
         long,
         value_name = "N",
@@ -402,8 +404,8 @@ pub struct TradeoffArgs {
     /// The function [default: the scene's first, or inverse_dynamics]
     #[arg(long, value_name = "NAME", value_parser = function_parser())]
     pub function: Option<Function>,
-    /// What errors are relative to: `actuator` torque limits, or `range`, a
-    /// torque that the model attains in the box, at or just below its largest
+    /// What errors are relative to: `actuator`, the joints' torque limits, or `range`,
+    /// the largest torque that was found for the model in the box
     /// [default: the scene's, or actuator]
     #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
     pub relative_to: Option<String>,

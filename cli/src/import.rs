@@ -86,7 +86,7 @@ fn json(imported: &Imported, name: &str, source: &str) -> Value {
     })
 }
 
-/// What a person wants to know: what was left out, which numbers were taken for
+/// What a person wants to know: what was left out, which numbers were replaced by
 /// others, and what that changes.
 fn report(imported: &Imported, name: &str, source: &str) {
     for note in &imported.notes {
@@ -100,7 +100,7 @@ fn report(imported: &Imported, name: &str, source: &str) {
     if let Some(change) = &imported.change {
         let n = imported.snaps.len();
         output::note(&format!(
-            "{n} numbers were taken for others; what that changes in the torques is bounded: {change}"
+            "{n} rounded numbers were replaced by exact ones; the torques change by: {change}"
         ));
         let limits = change.limits();
         let bounds = change.torques(limits);

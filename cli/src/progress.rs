@@ -198,8 +198,8 @@ impl Terminal {
         }
         self.bar.suspend(|| {
             output::note(
-                "ending the search after this round; what it has is then compared with a quick \
-                 search, proved and measured; once more: give up",
+                "ending the search after this round; its best program is then compared with a quick \
+                 search's, proved and measured. Press Ctrl-C again to quit without a result",
             );
         });
     }

@@ -73,7 +73,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
         let kept = keep(&robot, &request, &generated, kept);
         for (function, scalar) in kept.own {
             output::note(&format!(
-                "the plan keeps its own `{function}` in {scalar}: what was found until the early end is no cheaper"
+                "the plan's program for `{function}` in {scalar} stays: the search, ended early, found none that is cheaper"
             ));
         }
         kept.plan.write()

@@ -60,11 +60,11 @@ pub fn limits(generated: &Generated) -> String {
         let [error, taken] = [refused.error, refused.taken].map(|u| format!("{u:.0}"));
         // The limit holds for every result; the largest error may be another's.
         let price = match error == taken {
-            true => format!("a result that is less exact; the worst stays at about {taken} u"),
-            false => format!("an error of about {error} u instead of {taken}"),
+            true => format!("one result less accurate; the worst stays at about {taken} u"),
+            false => format!("a rounding error of about {error} u instead of {taken}"),
         };
         text += &format!(
-            "\n{}: {fewer} operations fewer with {price}: `--prefer operations`\n",
+            "\n{}: `--prefer operations` would save {fewer} operations, with {price}\n",
             function.function
         );
     }
