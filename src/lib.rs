@@ -83,6 +83,7 @@ pub mod matrices;
 ///             com: [0, 0.01, 0],                  // m, in the link frame
 ///             inertia: [0.1, 0.1, 0.05, 0, 0, 0], // xx yy zz xy yz xz about the com, kg·m²
 ///             viscous: 0.5, armature: 0.2,        // optional
+///             coulomb: 3, coulomb_width: 0.01,    // optional
 ///             limits: { position: [-0.5, 0.5], velocity: 1 },
 ///         }
 ///     }
@@ -335,6 +336,6 @@ pub mod __private {
     /// What bodies call, by one name whichever library it is from.
     pub mod math {
         pub use dalembert_sines as together;
-        pub use libm::{cos, cosf, sin, sincos, sincosf, sinf};
+        pub use libm::{cos, cosf, sin, sincos, sincosf, sinf, sqrt, sqrtf};
     }
 }

@@ -225,7 +225,8 @@ impl Generator {
         self
     }
 
-    /// Where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32):
+    /// Where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32), and `sqrt`
+    /// of robots with Coulomb friction:
     /// a path, by default `libm`, or `dalembert_sines` with
     /// [`SinCos::Together`]. A target with its own sines has a module of them.
     #[must_use]

@@ -11,7 +11,7 @@ use dalembert_model::scalar::Scalar;
 
 use crate::function::{Argument, Function};
 use crate::graph::symbol::Symbol;
-use crate::graph::{Builder, Folding, Graph};
+use crate::graph::{Builder, Folding, Graph, Node};
 use crate::program::{Counts, Input};
 use crate::scene::Setting;
 
@@ -44,6 +44,18 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
         true => Symbol::input(builder, input),
         false => Symbol::zero(),
     }
+}
+
+/// Whether a function of a setting depends on what Coulomb friction reads of
+/// speeds.
+pub fn feels_coulomb(setting: &Setting, function: Function) -> bool {
+    if !setting.has_coulomb() {
+        return false;
+    }
+    let graph = trace(setting, function, Formulation::NewtonEulerLink).graph;
+    let live = graph.live();
+    let mut nodes = graph.nodes.iter().zip(&live);
+    nodes.any(|(node, live)| *live && matches!(node, Node::Input(Input::PerSpeed(_))))
 }
 
 /// Runs a formulation with symbols in a setting.

@@ -12,6 +12,7 @@ mod certify_mutations;
 mod certify_random;
 mod certify_sines;
 mod certify_work;
+mod coulomb;
 mod entries;
 mod floating;
 mod fuzz_tokens;

@@ -10,6 +10,7 @@ mod derivatives;
 mod forward;
 mod regressor;
 
+use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -17,6 +18,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::equations::dalembert::Part;
 use crate::equations::energy::contracted;
+use crate::equations::friction::per_speed;
 use crate::equations::kinematics::poses;
 use crate::equations::load::Loading;
 use crate::equations::matrix::{Columns, total};
@@ -32,6 +34,8 @@ use crate::scalar::{Divide, Scalar};
 pub trait Float: Divide + Rounded + fmt::Debug + sealed::Sealed + 'static {
     /// sin and cos, within an ulp at every size.
     fn sin_cos(self) -> (Self, Self);
+    /// The square root, correctly rounded.
+    fn root(self) -> Self;
 }
 
 mod sealed {
@@ -44,11 +48,17 @@ impl Float for f64 {
     fn sin_cos(self) -> (f64, f64) {
         libm::sincos(self)
     }
+    fn root(self) -> f64 {
+        libm::sqrt(self)
+    }
 }
 
 impl Float for f32 {
     fn sin_cos(self) -> (f32, f32) {
         libm::sincosf(self)
+    }
+    fn root(self) -> f32 {
+        libm::sqrtf(self)
     }
 }
 
@@ -148,6 +158,7 @@ impl<T> JointVectors<T> {
 ///         com: [0.0; 3],
 ///         inertia: Inertia::default(),
 ///         viscous: 0.1,
+///         coulomb: None,
 ///         armature: 0.0,
 ///     }],
 /// };
@@ -195,7 +206,7 @@ impl<T: Float> Reference<T> {
         self.arm.links.len()
     }
 
-    /// τ = D q̈ + h + c + b∘q̇.
+    /// τ = D q̈ + h + c + (b + F∘r)∘q̇, r_i = 1/√(q̇_i² + w_i²).
     pub fn inverse_dynamics(
         &self,
         q: &DVector<T>,
@@ -204,7 +215,7 @@ impl<T: Float> Reference<T> {
     ) -> Result<DVector<T>, WrongLength> {
         let at = self.at(q)?;
         let [qd, qdd] = [self.values("qd", qd)?, self.values("qdd", qdd)?];
-        let tau = torques(&self.arm, &at, qd, qdd);
+        let tau = torques(&self.arm_at(qd), &at, qd, qdd);
         Ok(DVector::from_vec(tau))
     }
 
@@ -329,6 +340,20 @@ impl<T: Float> Reference<T> {
             arm: part.of(&self.arm),
             whole: part.of(&self.whole),
         }
+    }
+
+    /// The arm with its Coulomb friction at these velocities.
+    fn arm_at(&self, qd: &[T]) -> Cow<'_, Arm<T>> {
+        let links = &self.arm.links;
+        if links.iter().all(|link| link.coulomb.is_none()) {
+            return Cow::Borrowed(&self.arm);
+        }
+        let speeds = links.iter().zip(qd).map(|(link, qd)| {
+            let own = link.coulomb.as_ref()?;
+            Some(per_speed(qd, &own.width.mul(&own.width), |x| x.root()))
+        });
+        let speeds: Vec<Option<T>> = speeds.collect();
+        Cow::Owned(self.arm.clone().at_speeds(&speeds))
     }
 
     fn at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {

@@ -10,6 +10,7 @@ mod equations_identities;
 mod equations_slips;
 mod equations_structure;
 mod equations_support;
+mod friction;
 mod outputs;
 mod placed;
 mod placed_support;

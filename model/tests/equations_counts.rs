@@ -34,6 +34,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
             xz: value(),
         },
         viscous: Count::Zero,
+        coulomb: None,
         armature: Count::Zero,
     };
     let arm = Arm {

@@ -7,9 +7,9 @@ use dalembert_model::equations::regressor::{Column, LinkParameter, of_links};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::outputs::{Argument, Function, Motion, Quantity, Sizes, Written};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
+use dalembert_model::scalar::{Divide, Scalar};
 
 /// Every function with its arguments, and its results' axes for six joints and
 /// 36 base parameters.
@@ -195,7 +195,7 @@ fn products(
         let products = row.iter().zip(&pi).map(|(y, pi)| y.mul(pi));
         let links = products.fold(Field::ZERO, |sum, x| sum.add(&x));
         let link = &arm.links[i];
-        let friction = link.viscous.mul(&rates[i]);
+        let friction = link.damping().mul(&rates[i]);
         links.add(&friction.add(&link.armature.mul(&accelerations[i])))
     };
     y.iter().enumerate().map(sum).collect()
@@ -244,7 +244,7 @@ fn coriolis_matrix_is_the_christoffels() {
                 rate = rate.add(&own.add(&d[i][k].value.mul(&qdd[k])));
             }
             assert_eq!(load, h[i]);
-            let damping = arm.links[i].viscous.mul(&qd[i]);
+            let damping = arm.links[i].damping().mul(&qd[i]);
             let rest = tau[i].add(&slope[i]).sub(&gravity[i]).sub(&damping);
             assert_eq!(rate, rest);
         }
@@ -281,7 +281,7 @@ fn energy_and_wrenches_belong_to_the_torques() {
                 JointKind::Prismatic => &wrenches[i].force,
             };
             let along = (0..3).fold(Field::zero(), |sum, k| sum.add(&axis[k].mul(&load[k])));
-            let drive = link.viscous.mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
+            let drive = link.damping().mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
             assert_eq!(along.add(&drive), tau[i]);
         }
     }
@@ -343,17 +343,42 @@ fn forward_dynamics_solves_the_equations_of_motion() {
     }
 }
 
+/// Velocities at which every joint's r is 1/√(q̇² + w²): with a tangent t of half an
+/// angle q̇ is w 2t/(1 − t²), and r is (1 − t²)/(w (1 + t²)).
+fn at_true_speeds(case: &mut Case, points: &mut Points) {
+    for (link, qd) in case.arm.links.iter_mut().zip(&mut case.qd) {
+        let Some(coulomb) = &mut link.coulomb else {
+            continue;
+        };
+        let (one, t) = (Field::one(), points.field());
+        let [more, less] = [one.add(&t.mul(&t)), one.sub(&t.mul(&t))];
+        *qd = coulomb.width.mul(&t.double()).div(&less);
+        coulomb.per_speed = less.div(&coulomb.width.mul(&more));
+    }
+}
+
 /// ∂q̈/∂q and ∂q̈/∂q̇ are the slopes of q̈ itself: its rate along the motion, with
-/// q̇ for the rate of q and q̈ for that of q̇.
+/// q̇ for the rate of q and q̈ for that of q̇. The r of Coulomb friction changes by
+/// −q̇ r³ q̈, as 1/√(q̇² + w²) does.
 #[test]
 fn acceleration_slopes_are_its_rates() {
     let mut points = Points::new(0x736c);
-    for case in cases() {
+    for mut case in cases() {
+        at_true_speeds(&mut case, &mut points);
         let n = case.arm.links.len();
         let moves = vec![true; n];
         let motion = driven(&case, &moves, &mut points);
         let form = Formulation::LagrangeEuler;
-        let (arm_moving, at_moving) = moving(&case);
+        let (mut arm_moving, at_moving) = moving(&case);
+        let joints = arm_moving
+            .links
+            .iter_mut()
+            .zip(case.qd.iter().zip(&case.qdd));
+        for (link, (qd, qdd)) in joints {
+            let r = &mut link.coulomb.as_mut().unwrap().per_speed;
+            let cube = r.value.mul(&r.value).mul(&r.value);
+            r.rate = qd.mul(&cube).mul(qdd).neg();
+        }
         let qd: Vec<Dual<Field>> = (case.qd.iter().zip(&case.qdd))
             .map(|(value, rate)| Dual {
                 value: *value,

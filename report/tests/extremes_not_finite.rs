@@ -26,6 +26,7 @@ fn reads(input: Input, place: Entry) -> bool {
         Input::Sin(angle) | Input::Cos(angle) => {
             place.0 == 0 && angle.terms().any(|(joint, _)| joint == place.1)
         }
+        Input::PerSpeed(joint) => place == Entry(1, joint),
         Input::Entry(argument, joint) => place == Entry(argument.index(), joint),
     }
 }

@@ -106,6 +106,9 @@ mod single;
 #[cfg(test)]
 mod tests;
 
+/// Roots, correctly rounded: libm's, for code that has all from here.
+pub use libm::{sqrt, sqrtf};
+
 /// Up to this magnitude, 1303 turns, angles are computed here; libm takes the
 /// others.
 pub const LARGEST: f64 = 8192.0;

@@ -115,6 +115,8 @@ pub enum Unbounded {
     Reads(Argument),
     /// Its program divides.
     Divides,
+    /// It has Coulomb friction in it.
+    Friction,
     /// It is a regressor: what multiplies its entries is not known.
     Parameters,
 }
@@ -135,13 +137,22 @@ impl Unbounded {
 
     fn find(program: &Program) -> Option<Unbounded> {
         let divides = program.divides().then_some(Unbounded::Divides);
-        divides.or_else(|| Unbounded::of(program.function))
+        let rubs = !program.speeds.is_empty();
+        let rubs = rubs.then_some(Unbounded::Friction);
+        divides.or(rubs).or_else(|| Unbounded::of(program.function))
     }
 }
 
 impl fmt::Display for Unbounded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Unbounded::Friction => {
+                return f.write_str(
+                    "it has Coulomb friction in it, which divides by a root, so its errors have \
+                     no certified bound: leave `coulomb` out of the robot file and add the friction \
+                     to the torques yourself, or leave the tolerance out of the scene",
+                );
+            }
             Unbounded::Divides => f.write_str("it divides by what depends on the state")?,
             Unbounded::Parameters => f.write_str("its entries multiply parameters of any size")?,
             Unbounded::Reads(argument) => {

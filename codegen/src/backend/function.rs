@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use crate::backend::result::{self, array_type};
 use crate::backend::statement::{last_uses, operand, statement};
-use crate::backend::{MathPath, parts, trig};
+use crate::backend::{MathPath, parts, speed, trig};
 use crate::function::{Argument, Function};
 use crate::program::{Operand, Output, Program, ScalarType};
 use crate::sincos::AngleKernel;
@@ -49,13 +49,19 @@ pub fn with_sines(
     push(&mut text, format_args!("#[must_use]"));
     push(&mut text, format_args!("{} {{", signature(program, scalar)));
     trig::write(&mut text, program, scalar, math, sines);
-    write_body(&mut text, program, scalar);
+    write_body(&mut text, program, scalar, math);
     text.push_str("}\n");
     text
 }
 
-/// What follows the sines: the arithmetic and the result.
-pub(super) fn write_body(text: &mut String, program: &Program, scalar: ScalarType) {
+/// What follows the sines: what is read of speeds, the arithmetic and the result.
+pub(super) fn write_body(
+    text: &mut String,
+    program: &Program,
+    scalar: ScalarType,
+    math: &MathPath,
+) {
+    speed::write(text, program, scalar, math);
     write_steps(text, program, scalar);
     let (function, sizes) = (program.function, program.sizes());
     let items = program.outputs.iter().map(|o| result_item(o, scalar));

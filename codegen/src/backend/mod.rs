@@ -7,6 +7,7 @@
 //! - `place`: what a line calls values, in a state or in a lane
 //! - `trig`: sines and cosines that are called
 //! - `sines`: sines and cosines as polynomials
+//! - `speed`: what Coulomb friction reads of speeds
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`read`]: the printed text, and whether it is the program
 
@@ -17,6 +18,7 @@ mod place;
 pub mod read;
 pub mod result;
 mod sines;
+mod speed;
 mod statement;
 mod trig;
 

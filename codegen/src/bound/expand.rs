@@ -161,6 +161,7 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
     let cosine = |joint: usize| 1u128 << shift(joint);
     let sine = |joint: usize| 16u128 << shift(joint);
     Some(match input {
+        Input::PerSpeed(_) => return None,
         Input::Entry(Argument::Velocity, joint) => vec![(joint as u128 + 1, Interval::ONE)],
         Input::Entry(Argument::Acceleration, joint) => {
             vec![((n + joint) as u128 + 1, Interval::ONE)]

@@ -165,6 +165,8 @@ impl InputBox {
         match input {
             Input::Sin(angle) => self.angle(angle).sin(),
             Input::Cos(angle) => self.angle(angle).cos(),
+            // Of what reads it no bound is known; this one is true.
+            Input::PerSpeed(_) => Interval::ALL,
             Input::Entry(argument, joint) => {
                 let range = self.of_argument(argument).get(joint);
                 range.copied().unwrap_or(Interval::ALL)
@@ -220,6 +222,7 @@ mod tests {
             arguments: function.arguments().to_vec(),
             load: 0,
             trig: Vec::new(),
+            speeds: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
         };

@@ -191,6 +191,7 @@ fn computed_input(input: Input) -> String {
     match input {
         Input::Sin(angle) => format!("s{angle}"),
         Input::Cos(angle) => format!("c{angle}"),
+        Input::PerSpeed(joint) => format!("r{}", joint + 1),
         Input::Entry(argument, joint) => format!("{}{joint}", argument.name()),
     }
 }

@@ -24,6 +24,8 @@ pub enum WrongInput {
     Slides,
     /// The joint is locked: its entries are not read.
     Locked,
+    /// What Coulomb friction reads of speeds, which rounds more than is bounded.
+    Friction,
     /// The argument is none of the function's in this scene.
     NoArgument,
 }
@@ -35,6 +37,7 @@ impl fmt::Display for WrongInput {
             WrongInput::Turns => "the joint turns: only its sine and cosine may be read",
             WrongInput::Slides => "the joint slides: it has no sine or cosine",
             WrongInput::Locked => "the joint is locked: its entries may not be read",
+            WrongInput::Friction => "no bound is known of what Coulomb friction reads of speeds",
             WrongInput::NoArgument => "the function has no such argument in this scene",
         })
     }

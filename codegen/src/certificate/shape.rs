@@ -133,6 +133,8 @@ impl Checker<'_> {
                 let wrong = terms.find_map(|(joint, _)| of(joint, Some(JointKind::Revolute)));
                 (Argument::Position, wrong)
             }
+            // No bound is known of what its root costs.
+            Input::PerSpeed(_) => (Argument::Velocity, Some(WrongInput::Friction)),
             Input::Entry(argument, joint) => {
                 let slides = argument == Argument::Position;
                 let kind = slides.then_some(JointKind::Prismatic);

@@ -9,11 +9,12 @@
 //!   rounded to the side that stays true
 //! - [`interface`]: the robot as a value with traits
 //! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
-//!   its load are, and gravity where it is an argument
+//!   its load are, and gravity where it is an argument; `friction`: Coulomb friction
 
 mod arguments;
 mod escape;
 pub mod figures;
+mod friction;
 mod generated;
 pub mod interface;
 pub mod module;

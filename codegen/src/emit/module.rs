@@ -6,6 +6,7 @@ use dalembert_model::robot::{Convention, JointKind, Placement, Robot};
 
 use super::escape::escaped;
 use super::figures::decimal;
+use super::friction;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{Interface, arguments, interface, parameters, sines, variant};
@@ -287,16 +288,30 @@ fn header(
     lines
 }
 
-/// The operation counts, divisions among them where there are any.
+/// The operation counts, divisions and roots among them where there are any.
 fn table(functions: &[GeneratedFunction]) -> Vec<String> {
-    let divides = functions.iter().any(|generated| generated.counts.div > 0);
-    let line = |[function, mul, add, div, sincos, from]: [&dyn Display; 6]| match divides {
-        true => format!("| {function} | {mul} | {add} | {div} | {sincos} | {from} |"),
-        false => format!("| {function} | {mul} | {add} | {sincos} | {from} |"),
+    let any = |of: fn(&GeneratedFunction) -> usize| functions.iter().any(|f| of(f) > 0);
+    let (divides, roots) = (any(|f| f.counts.div), any(|f| f.counts.sqrt));
+    let line = |[function, mul, add, div, sqrt, sincos, from]: [&dyn Display; 7]| {
+        let mut line = format!("| {function} | {mul} | {add} |");
+        for (column, cell) in [(divides, div), (roots, sqrt)] {
+            if column {
+                line += &format!(" {cell} |");
+            }
+        }
+        line + &format!(" {sincos} | {from} |")
     };
     let mut lines = vec![
-        line([&"function", &"mul", &"add", &"div", &"sincos", &"from"]),
-        line([&"---"; 6]).replace(' ', ""),
+        line([
+            &"function",
+            &"mul",
+            &"add",
+            &"div",
+            &"sqrt",
+            &"sincos",
+            &"from",
+        ]),
+        line([&"---"; 7]).replace(' ', ""),
     ];
     for generated in functions {
         let counts = generated.counts;
@@ -305,6 +320,7 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
             &counts.mul,
             &counts.add,
             &counts.div,
+            &counts.sqrt,
             &counts.sincos,
             &generated.source.name(),
         ]));
@@ -343,6 +359,7 @@ fn function_doc(
         );
         lines.push("where a joint moves no inertia, with infinities and NaN.".into());
     }
+    lines.extend(friction::doc(generated, setting));
     lines.extend(arguments::doc(generated.function, setting));
     lines.extend(parameters::doc(generated.function, setting));
     lines.extend(sines::doc(generated.sines(scalar), scalar));

@@ -49,7 +49,11 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of"
                     .into(),
             );
-            lines.push("link 2. Armature and viscous friction have none.".into());
+            let friction = match setting.has_coulomb() {
+                true => "friction, viscous and Coulomb,",
+                false => "viscous friction",
+            };
+            lines.push(format!("link 2. Armature and {friction} have none."));
             lines.extend(named.map(String::from));
         }
     }

@@ -83,6 +83,7 @@ mod tests {
             arguments: function.arguments(),
             load: 0,
             trig: Vec::new(),
+            speeds: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
         };

@@ -37,6 +37,7 @@ use crate::program::{Lowered, ScalarType};
 use crate::scene::{Setting, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
+use crate::trace::feels_coulomb;
 use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::parameters::prove_base;
@@ -102,6 +103,13 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     let setting = request.setting(robot).map_err(GenerateError::Scene)?;
+    if tolerance.is_some() {
+        let mut functions = request.functions.iter();
+        if let Some(&function) = functions.find(|&&f| feels_coulomb(&setting, f)) {
+            let why = ToleranceError::Function(Unbounded::Friction);
+            return Err(GenerateError::Tolerance(function, why));
+        }
+    }
     parameters::check(request, &setting).map_err(GenerateError::Parameter)?;
     let (mut functions, scalars) = all(&setting, request)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
@@ -218,7 +226,8 @@ fn one(
     let entry = replay(setting, function, request)?;
     let (source, stages, program, refused) = match entry {
         Some(entry) => {
-            let program = entry.program.clone();
+            // Widths are the robot's: a plan has none.
+            let program = entry.program.clone().with_speeds(setting.speeds());
             (entry.source, entry.stages.clone(), program, None)
         }
         None => found(setting, function, request)?,

@@ -93,6 +93,8 @@ impl Points {
         match input {
             Input::Sin(angle) => angle.pair(|joint| self.joint(joint, point)).sin,
             Input::Cos(angle) => angle.pair(|joint| self.joint(joint, point)).cos,
+            // Beyond all arguments.
+            Input::PerSpeed(joint) => draw(64, joint),
             // From 2, around 5, which is that of constant angles.
             Input::Entry(argument, joint) => match argument.index() as u64 {
                 index @ 0..=2 => draw(index + 2, joint),

@@ -161,6 +161,8 @@ fn program(words: &[&str]) -> Result<Entry, String> {
             arguments: function.arguments(),
             load: 0,
             trig: Vec::new(),
+            // Those of the robot, which the plan's text does not have.
+            speeds: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
         },

@@ -47,6 +47,7 @@ fn written(
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
     };
+    let arm = arm.at_speeds(&motion.per_speed);
     quantity.written(&Written {
         formulation: Formulation::NewtonEulerLink,
         arm: &arm,
@@ -79,6 +80,7 @@ pub fn trace_chain(
     drop(numbers);
     let whole = symbols(setting, &function.arguments(), &builder);
     let motion = &whole.of_joints(setting.chained());
+    let chain = chain.at_speeds(&motion.per_speed);
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
     let regrouped = Regrouped {

@@ -85,6 +85,18 @@ impl Lowered {
             columns.insert(Input::Sin(trig.angle), sines);
             columns.insert(Input::Cos(trig.angle), cosines);
         }
+        let velocities = &states.arguments[Argument::Velocity.index()];
+        let mut qd = vec![T::literal(0.0); velocities.len()];
+        for speed in &self.speeds {
+            let mut own = Vec::new();
+            for state in 0..states.len {
+                for (qd, column) in qd.iter_mut().zip(velocities) {
+                    *qd = column[state];
+                }
+                own.extend(speed.run(&qd));
+            }
+            columns.insert(Input::PerSpeed(speed.joint), own);
+        }
         columns
     }
 }

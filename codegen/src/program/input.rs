@@ -117,6 +117,8 @@ pub enum Input {
     Sin(AngleSum),
     /// The cosine of an angle.
     Cos(AngleSum),
+    /// 1/√(q̇² + w²) of a joint with Coulomb friction, w being its width.
+    PerSpeed(usize),
     /// An entry of an argument, of most a joint's; of q that of a prismatic joint.
     Entry(Argument, usize),
 }
@@ -126,6 +128,7 @@ impl Input {
     pub fn argument(self) -> Argument {
         match self {
             Input::Sin(_) | Input::Cos(_) => Argument::Position,
+            Input::PerSpeed(_) => Argument::Velocity,
             Input::Entry(argument, _) => argument,
         }
     }

@@ -2,7 +2,8 @@
 
 use super::kernel::Kernel;
 use super::{
-    AngleSum, Counts, Library, Literal, Operand, Operation, Output, Program, ScalarType, Step,
+    AngleSum, Counts, Library, Literal, Operand, Operation, Output, Program, ScalarType, Speed,
+    Step,
 };
 
 /// A program lowered to a scalar: every constant rounded once, and how each
@@ -15,6 +16,8 @@ pub struct Lowered {
     pub library: Library,
     /// Sines and cosines.
     pub trig: Vec<LoweredTrig>,
+    /// The joints of which r is read, ascending.
+    pub speeds: Vec<Speed<Literal>>,
     /// The arithmetic.
     pub steps: Vec<Step<Literal>>,
     /// The results.
@@ -52,6 +55,10 @@ impl Program {
             cos: trig.cos,
             kernel: kernel(trig.angle).cloned(),
         });
+        let speeds = self.speeds.iter().map(|own| Speed {
+            joint: own.joint,
+            square: Literal(scalar.round(&own.square)),
+        });
         let steps = self.steps.iter().map(|step| Step {
             operation: step.operation,
             left: operand(&step.left),
@@ -65,6 +72,7 @@ impl Program {
             scalar,
             library: Library::Libm,
             trig: trig.collect(),
+            speeds: speeds.collect(),
             steps: steps.collect(),
             outputs: outputs.collect(),
         }
@@ -82,6 +90,7 @@ impl Lowered {
             false if self.scalar != other.scalar => Some("the scalars differ".into()),
             false if self.library != other.library => Some("the libraries of sines differ".into()),
             false if self.trig != other.trig => Some("the sines and cosines differ".into()),
+            false if self.speeds != other.speeds => Some("what is read of speeds differs".into()),
             false if self.steps.len() != other.steps.len() => {
                 Some("the number of operations differs".into())
             }
@@ -134,14 +143,16 @@ impl Lowered {
         let kernels = self.trig.iter().filter_map(|t| t.kernel.as_ref());
         let trig = kernels.map(Kernel::counts);
         let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
-        Counts {
+        let own = Counts {
             mul,
             add: self.steps.len() - mul - div + angles,
             div,
             sincos: self.trig.len(),
+            sqrt: 0,
             trig_mul,
             trig_add,
-        }
+        };
+        own.with_speeds(self.speeds.len())
     }
 }
 
@@ -161,6 +172,7 @@ mod tests {
             scalar: ScalarType::F64,
             library: Library::Libm,
             trig: Vec::new(),
+            speeds: Vec::new(),
             steps: vec![
                 step(
                     Operand::Input(Input::Entry(Argument::Velocity, 0)),

@@ -16,6 +16,8 @@ pub trait Machine: Divide + Copy {
     fn sin(self) -> Self;
     /// The cosine that emitted code calls when it needs no sine.
     fn cos(self) -> Self;
+    /// The square root, correctly rounded.
+    fn root(self) -> Self;
     /// Both at once.
     fn sincos(self) -> (Self, Self);
     /// Both, where the code calls for all angles together: an angle's bits do
@@ -24,7 +26,7 @@ pub trait Machine: Divide + Copy {
 }
 
 macro_rules! machine {
-    ($t:ty, $scalar:expr, $sin:path, $cos:path, $sincos:path, $together:path) => {
+    ($t:ty, $scalar:expr, $root:path, $sin:path, $cos:path, $sincos:path, $together:path) => {
         impl Machine for $t {
             const SCALAR: ScalarType = $scalar;
             fn literal(value: f64) -> Self {
@@ -32,6 +34,9 @@ macro_rules! machine {
             }
             fn to_f64(self) -> f64 {
                 self.into()
+            }
+            fn root(self) -> Self {
+                $root(self)
             }
             fn sin(self) -> Self {
                 $sin(self)
@@ -52,6 +57,7 @@ macro_rules! machine {
 machine!(
     f64,
     ScalarType::F64,
+    libm::sqrt,
     libm::sin,
     libm::cos,
     libm::sincos,
@@ -60,6 +66,7 @@ machine!(
 machine!(
     f32,
     ScalarType::F32,
+    libm::sqrtf,
     libm::sinf,
     libm::cosf,
     libm::sincosf,

@@ -2,6 +2,7 @@
 //!
 //! - this file: [`Program`]: sines and cosines first, then arithmetic
 //! - [`input`]: what a program reads: sines, cosines, positions, rates
+//! - [`speed`]: what it reads of speeds for Coulomb friction
 //! - [`scalar_type`]: the floats that code is printed in; constants rounded once
 //! - [`counts`]: what a program costs
 //! - `lowered`: the same over literals: each constant rounded once, sines by a
@@ -25,6 +26,7 @@ mod lowered;
 pub mod machine;
 pub mod run;
 pub mod scalar_type;
+pub mod speed;
 pub mod text;
 
 use std::collections::BTreeMap;
@@ -39,6 +41,7 @@ pub use library::Library;
 pub use literal::Literal;
 pub use lowered::{Lowered, LoweredTrig};
 pub use scalar_type::ScalarType;
+pub use speed::Speed;
 
 /// Straight-line code with exact constants: what is proved and emitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +59,8 @@ pub struct Program {
     pub load: usize,
     /// The angles whose sine or cosine it needs, ascending.
     pub trig: Vec<Trig>,
+    /// The joints of which r = 1/√(q̇² + w²) is read, ascending.
+    pub speeds: Vec<Speed>,
     /// The arithmetic, operands before users.
     pub steps: Vec<Step>,
     /// The results in the order of the function's quantities.
@@ -166,6 +171,14 @@ impl Program {
         self.trig = trig.into_values().collect();
     }
 
+    /// The same program with these joints' r, as far as it reads them.
+    #[must_use]
+    pub(crate) fn with_speeds(self, mut speeds: Vec<Speed>) -> Program {
+        let read = speed::read(&self.steps, &self.outputs);
+        speeds.retain(|own| read.contains(&own.joint));
+        Program { speeds, ..self }
+    }
+
     /// What it costs.
     pub fn counts(&self) -> Counts {
         let [mul, div] = [Operation::Mul, Operation::Div].map(|operation| {
@@ -173,13 +186,14 @@ impl Program {
             steps.filter(|step| step.operation == operation).count()
         });
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
-        Counts {
+        let own = Counts {
             mul,
             add: self.steps.len() - mul - div + angles,
             div,
             sincos: self.trig.len(),
             ..Counts::default()
-        }
+        };
+        own.with_speeds(self.speeds.len())
     }
 }
 

@@ -38,9 +38,15 @@ impl Lowered {
             trig.insert(Input::Sin(t.angle), sin);
             trig.insert(Input::Cos(t.angle), cos);
         }
+        for speed in &self.speeds {
+            let qd = state.argument(Argument::Velocity);
+            if let Some(value) = speed.run(qd) {
+                trig.insert(Input::PerSpeed(speed.joint), value);
+            }
+        }
         let input = |input: &Input| match *input {
             Input::Entry(argument, joint) => state.argument(argument).get(joint).copied(),
-            Input::Sin(_) | Input::Cos(_) => trig.get(input).copied(),
+            Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => trig.get(input).copied(),
         };
         let constant = |value: &Literal| Some(T::literal(value.0));
         evaluate(&self.steps, &self.outputs, input, constant).unwrap_or_default()

@@ -14,6 +14,7 @@ pub fn input_name(input: Input) -> String {
     match input {
         Input::Sin(angle) => format!("s{angle}"),
         Input::Cos(angle) => format!("c{angle}"),
+        Input::PerSpeed(joint) => format!("r{}", joint + 1),
         Input::Entry(argument, joint) => format!("{}[{joint}]", argument.name()),
     }
 }
@@ -119,6 +120,10 @@ fn input(word: &str) -> Option<Input> {
     match word.split_at_checked(1)? {
         ("s", digits) => angle(digits).map(Input::Sin),
         ("c", digits) => angle(digits).map(Input::Cos),
+        ("r", digits) => {
+            let joint = digits.parse::<usize>().ok()?;
+            joint.checked_sub(1).map(Input::PerSpeed)
+        }
         _ => None,
     }
 }
@@ -129,6 +134,7 @@ fn input_fits(input: Input, program: &Program) -> bool {
         Input::Sin(angle) | Input::Cos(angle) => {
             angle.terms().all(|(joint, _)| joint < program.joints)
         }
+        Input::PerSpeed(joint) => joint < program.joints,
         Input::Entry(argument, index) => index < argument.length(sizes),
     }
 }

@@ -21,6 +21,7 @@
 //! invertible), h_ikm rows × rows × rows.
 
 pub mod base;
+mod friction;
 mod key;
 pub mod load;
 mod motion;
@@ -274,12 +275,18 @@ impl Setting {
                 JointPosition::Prismatic(q) => JointPosition::Prismatic(constant(q)),
             };
             motion.moves[joint] = false;
+            motion.per_speed[joint] = self.per_speed_at_rest(joint).map(|x| constant(&x));
             // Zero by structure: what it multiplies is gone.
             for argument in Argument::ALL {
                 if let Some(entries) = motion.of_mut(argument) {
                     entries[joint] = S::zero();
                 }
             }
+        }
+        if self.has_zero(Argument::Velocity) {
+            let rest = self.joints.iter();
+            let rest = rest.map(|&joint| self.per_speed_at_rest(joint).map(|x| constant(&x)));
+            motion.per_speed = rest.collect();
         }
         for argument in Argument::ALL {
             if self.has_zero(argument)

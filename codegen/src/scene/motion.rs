@@ -23,6 +23,12 @@ pub fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> 
         }
     });
     let q = q.collect();
+    let speeds = robot.joints.iter().enumerate();
+    let speeds = speeds.map(|(i, joint)| joint.has_coulomb().then(|| input(Input::PerSpeed(i))));
+    let per_speed = speeds.collect();
     let entries = |argument| (0..n).map(|i| input(Input::Entry(argument, i))).collect();
-    Motion::new(q, entries)
+    Motion {
+        per_speed,
+        ..Motion::new(q, entries)
+    }
 }

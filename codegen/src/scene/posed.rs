@@ -38,6 +38,7 @@ impl Setting {
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Posed<S> {
         let mut motion = self.motion(&mut input, &mut constant);
+        arm = arm.at_speeds(&motion.per_speed);
         let mut joints = self.joints().to_vec();
         if self.takes(function, RuntimeParameter::Gravity) {
             let entry = |axis| input(Input::Entry(Argument::Gravity, axis));

@@ -43,7 +43,7 @@ impl Setting {
                 let number = payload.get(index).and_then(|x| Rational::from_float(*x));
                 Exact::from(number.unwrap_or_else(Rational::zero))
             }
-            Input::Sin(_) | Input::Cos(_) => Exact::from(Rational::zero()),
+            Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => Exact::from(Rational::zero()),
         };
         let load = self.load_of(entry, Exact::clone);
         load.iter().map(f64::nearest).collect()

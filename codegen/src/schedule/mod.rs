@@ -16,6 +16,7 @@ impl Program {
             arguments: function.arguments(),
             load: 0,
             trig: Vec::new(),
+            speeds: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
         };
@@ -31,6 +32,7 @@ impl Program {
             arguments: setting.arguments(function),
             load: setting.sizes(function).load,
             trig: Vec::new(),
+            speeds: setting.speeds(),
             steps: Vec::new(),
             outputs: Vec::new(),
         };
@@ -68,11 +70,12 @@ impl Program {
             arguments: self.arguments.clone(),
             load: self.load,
             trig: Vec::new(),
+            speeds: Vec::new(),
             steps,
             outputs,
         };
         program.collect_trig();
-        program
+        program.with_speeds(self.speeds.clone())
     }
 }
 

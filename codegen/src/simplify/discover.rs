@@ -313,6 +313,7 @@ fn sample(input: Input) -> Rational {
     match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
+        Input::PerSpeed(joint) => ratio(joint as i64 + 2, 41),
         Input::Entry(argument, joint) => {
             const DENOMINATORS: [i64; Argument::COUNT] = [7, 11, 13, 17, 19, 23, 29, 31, 37];
             let place = argument.index();

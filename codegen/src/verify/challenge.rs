@@ -80,6 +80,12 @@ impl Transcript {
         for argument in &program.arguments {
             self.text(argument.name());
         }
+        // Of programs without any nothing is added: their points stay.
+        for speed in &program.speeds {
+            self.text("speed");
+            self.number(speed.joint);
+            self.text(&speed.square.to_string());
+        }
         self.number(program.steps.len());
         for step in &program.steps {
             self.text(step.operation.symbol().encode_utf8(&mut [0; 4]));
@@ -114,6 +120,10 @@ impl Transcript {
         match input {
             Input::Sin(angle) => self.text(&format!("sin {angle}")),
             Input::Cos(angle) => self.text(&format!("cos {angle}")),
+            Input::PerSpeed(joint) => {
+                self.text("per speed");
+                self.number(joint);
+            }
             Input::Entry(argument, joint) => {
                 self.text(argument.noun());
                 self.number(joint);
@@ -196,6 +206,7 @@ impl Point {
         match input {
             Input::Sin(angle) => angle.pair(|joint| self.joint(joint)).sin,
             Input::Cos(angle) => angle.pair(|joint| self.joint(joint)).cos,
+            Input::PerSpeed(joint) => free("per speed", joint),
             Input::Entry(argument, joint) => free(argument.noun(), joint),
         }
     }

@@ -154,7 +154,9 @@ impl std::error::Error for Disproof {}
 /// Proves a program of a setting: against the full arm's formula with
 /// constants in place of what the setting fixes, whatever was merged.
 pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
-    if program.rows != setting.rows() {
+    // What is read of speeds is of the robot's widths, and no other.
+    let of_robot = program.clone().with_speeds(setting.speeds());
+    if program.rows != setting.rows() || program.speeds != of_robot.speeds {
         return Err(Disproof::Shape);
     }
     let yardstick = if setting.robot().joints.len() <= WRITTEN_LIMIT {
@@ -197,6 +199,9 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
 /// # Errors
 /// The first output that differs.
 pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
+    if a.speeds != b.speeds {
+        return Err(Disproof::Shape);
+    }
     let mut transcript = Transcript::new("two programs");
     transcript.program(a);
     transcript.program(b);

@@ -13,7 +13,7 @@ use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 
 use super::condition::Condition;
-use crate::function::{Function, Quantity, Sizes};
+use crate::function::{Argument, Function, Quantity, Sizes};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
@@ -124,6 +124,11 @@ impl Runtime {
                 sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>()
             };
             match input {
+                Input::PerSpeed(joint) => {
+                    let qd = state.entry(Argument::Velocity, joint);
+                    let sqrt = |x: &f64| libm::sqrt(*x);
+                    self.setting.per_speed(joint, &qd, f64::nearest, sqrt)
+                }
                 Input::Sin(sum) => libm::sincos(angle(sum)).0,
                 Input::Cos(sum) => libm::sincos(angle(sum)).1,
                 Input::Entry(argument, joint) => state.entry(argument, joint),

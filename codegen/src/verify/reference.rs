@@ -13,7 +13,7 @@ use dalembert_model::outputs::Axis;
 use dalembert_model::scalar::{Divide, Scalar, SinCosPair};
 use num_traits::Zero;
 
-use crate::function::{Columns, Function, Quantity};
+use crate::function::{Argument, Columns, Function, Quantity};
 use crate::program::{AngleSum, Input};
 use crate::scene::Setting;
 use crate::states::JointState;
@@ -73,6 +73,11 @@ impl<'s> Reference<'s> {
         let input = |input| match input {
             Input::Sin(angle) => sine(&pairs[joint(angle)].sin),
             Input::Cos(angle) => sine(&pairs[joint(angle)].cos),
+            Input::PerSpeed(joint) => {
+                let x = state.entry(Argument::Velocity, joint);
+                let qd = Known::sized(finite(x), x.abs());
+                self.setting.per_speed(joint, &qd, Known::of, Known::sqrt)
+            }
             Input::Entry(argument, joint) => {
                 let x = state.entry(argument, joint);
                 Known::sized(finite(x), x.abs())
@@ -135,6 +140,19 @@ impl Known {
             Wide::sincos(angle).map(|x| Known::sized(x.clone(), 1.0))
         });
         value.unwrap_or_else(|| Known::sized(Wide::from_exact(constant), f64::INFINITY))
+    }
+}
+
+impl Known {
+    /// The root of what is above zero: what x is off moves it by Δx/(2 √x); the
+    /// whole Δx/√x, since x is off itself.
+    fn sqrt(&self) -> Known {
+        let value = self.value.sqrt();
+        let size = match value.magnitude() {
+            0.0 => f64::INFINITY,
+            root => self.size / root.next_down(),
+        };
+        Known::sized(value, size)
     }
 }
 

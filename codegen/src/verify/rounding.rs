@@ -9,6 +9,7 @@
 
 use std::collections::BTreeMap;
 
+use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rounded};
 use num_traits::Signed;
 
@@ -127,7 +128,13 @@ impl<'a> Network<'a> {
         let pairs: Vec<(f64, f64)> = angles.collect();
         let place = |angle| trig.iter().position(|trig| trig.angle == angle);
         let pair = |angle| place(angle).and_then(|place| pairs.get(place));
+        let speed = |joint: usize| {
+            let own = self.program.speeds.iter().find(|own| own.joint == joint)?;
+            let (qd, square) = (state.qd.get(joint)?, f64::nearest(&own.square));
+            Some(per_speed(qd, &square, |x| libm::sqrt(*x)))
+        };
         let input = |input: Input| match input {
+            Input::PerSpeed(joint) => speed(joint).unwrap_or(f64::NAN),
             Input::Entry(argument, joint) => state.entry(argument, joint),
             Input::Sin(angle) => pair(angle).map_or(0.0, |pair| pair.0),
             Input::Cos(angle) => pair(angle).map_or(1.0, |pair| pair.1),

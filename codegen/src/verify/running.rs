@@ -10,19 +10,21 @@
 //! - of a constant: u·|c| + η, once; of a library's sine 2u·|s|, and what its angle
 //!   is off where that is a sum
 //! - of a polynomial's sine: the error that was proved
+//! - of 1/√(q̇² + w²): 4u of it
 //!
 //! It needs no box and no search. What it gives is far from what happens, but
 //! nothing that is right is ever beyond it.
 
 use std::collections::BTreeMap;
 
+use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::{Divide, Scalar};
 
 use crate::function::Argument;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
-use crate::program::{AngleSum, Input, Library, Program, ScalarType};
+use crate::program::{AngleSum, Input, Library, Program, ScalarType, Speed};
 use crate::sincos::AngleKernel;
 use crate::states::JointState;
 
@@ -136,6 +138,9 @@ fn errors_in<T: Machine>(
         trig.insert(Input::Sin(angle), sin);
         trig.insert(Input::Cos(angle), cos);
     }
+    for own in &program.speeds {
+        trig.insert(Input::PerSpeed(own.joint), speed::<T>(own, state));
+    }
     let input = |input: &Input| match *input {
         Input::Entry(argument, joint) => {
             let value = T::literal(state.entry(argument, joint));
@@ -149,7 +154,7 @@ fn errors_in<T: Machine>(
                 _ => Bounded::exact(value),
             })
         }
-        Input::Sin(_) | Input::Cos(_) => trig.get(input).copied(),
+        Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => trig.get(input).copied(),
     };
     let constant = |constant: &Exact| {
         let value = T::SCALAR.round(constant);
@@ -162,6 +167,21 @@ fn errors_in<T: Machine>(
         Some(results) => results.iter().map(|result| sound(result.error)).collect(),
         None => vec![f64::INFINITY; program.outputs.len()],
     }
+}
+
+/// One over a smoothed speed: a product, a constant and a sum of positive numbers,
+/// half of whose relative errors a root keeps, then a root and a quotient that
+/// round: 3 u, and a little more than that.
+fn speed<T: Machine>(own: &Speed, state: &JointState) -> Bounded<T> {
+    let qd = T::literal(state.entry(Argument::Velocity, own.joint));
+    let square = T::literal(T::SCALAR.round(&own.square));
+    let sum = qd.mul(&qd).add(&square).to_f64();
+    let value = per_speed(&qd, &square, |x| x.root());
+    let error = match square.to_f64() >= T::SCALAR.least_normal() && sum.is_finite() {
+        true => 4.0 * T::SCALAR.unit_roundoff() * value.to_f64() + least(T::SCALAR),
+        false => f64::INFINITY,
+    };
+    Bounded { value, error }
 }
 
 /// Sine and cosine of an angle, by a library or by a polynomial of its own.

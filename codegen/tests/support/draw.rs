@@ -73,6 +73,8 @@ impl Draw {
             } else {
                 self.milli(0, 900)
             },
+            coulomb: Rational::default(),
+            coulomb_width: Rational::default(),
             armature: if self.chance(2) {
                 Rational::default()
             } else {

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::friction::{self, Coulomb};
 use super::matrix::{Columns, Vector, plus, zero_vector};
 use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::{Scalar, SinCosPair};
@@ -44,6 +45,8 @@ pub struct Link<S> {
     pub inertia: Inertia<S>,
     /// Viscous damping b_i.
     pub viscous: S,
+    /// Coulomb friction, of a joint that has it.
+    pub coulomb: Option<Coulomb<S>>,
     /// SinCosPair inertia felt at the joint.
     pub armature: S,
 }
@@ -108,7 +111,28 @@ impl<S: Scalar> Arm<S> {
     }
 }
 
+impl<S: Clone> Arm<S> {
+    /// The same arm at velocities of which each r_i is this, where a joint has
+    /// Coulomb friction.
+    #[must_use]
+    pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Arm<S> {
+        let frictions = self.links.iter_mut().map(|link| &mut link.coulomb);
+        friction::at_speeds(frictions, per_speed);
+        self
+    }
+}
+
 impl<S: Scalar> Link<S> {
+    /// b_i + F_i r_i: what q̇_i is multiplied by.
+    pub fn damping(&self) -> S {
+        friction::damping(&self.viscous, self.coulomb.as_ref())
+    }
+
+    /// What friction grows by with the velocity: b_i + F_i w_i² r_i³.
+    pub fn damping_slope(&self) -> S {
+        friction::damping_slope(&self.viscous, self.coulomb.as_ref())
+    }
+
     /// A link without mass on a slide whose frame, at position zero, is the one
     /// before.
     pub fn still() -> Link<S> {
@@ -127,6 +151,7 @@ impl<S: Scalar> Link<S> {
             com: zero_vector(),
             inertia: Inertia::symmetric(|_, _| S::zero()),
             viscous: S::zero(),
+            coulomb: None,
             armature: S::zero(),
         }
     }
@@ -163,6 +188,7 @@ impl<S> Link<S> {
             com: self.com.each_ref().map(&mut f),
             inertia: self.inertia.map(&mut f),
             viscous: f(&self.viscous),
+            coulomb: self.coulomb.as_ref().map(|own| own.map(&mut f)),
             armature: f(&self.armature),
         }
     }

@@ -42,6 +42,7 @@ impl Part {
         let mut arm = arm.clone();
         for link in &mut arm.links {
             (link.armature, link.viscous) = (S::zero(), S::zero());
+            link.coulomb = None;
             match self {
                 Part::Rotation => link.mass = S::zero(),
                 Part::Translation => link.inertia = link.inertia.map(|_| S::zero()),

@@ -27,7 +27,7 @@ impl Formulation {
         )
     }
 
-    /// ∂τ/∂q̇, n×n, damping on its diagonal. What q̈ and gravity add to the
+    /// ∂τ/∂q̇, n×n, what friction grows by on its diagonal. What q̈ and gravity add to the
     /// torques does not depend on q̇ and is left out. Lagrange–Euler has it from
     /// the symbols: Σ_m (h_ikm + h_imk) q̇_m = 2 C_ik.
     pub fn torque_by_velocity<S: Scalar>(
@@ -40,7 +40,7 @@ impl Formulation {
             let mut rows = self.coriolis_matrix(arm, at, qd);
             for (i, (row, link)) in rows.iter_mut().zip(&arm.links).enumerate() {
                 row.iter_mut().for_each(|c| *c = twice(c));
-                row[i] = plus(&row[i], &link.viscous);
+                row[i] = plus(&row[i], &link.damping_slope());
             }
             return rows;
         }
@@ -65,7 +65,7 @@ pub fn by_position<S: Scalar>(
     })
 }
 
-/// ∂(h + b∘q̇)/∂q̇ of any h(q, q̇): joint by joint as its velocity grows at a
+/// ∂(h + (b + F∘r)∘q̇)/∂q̇ of any h(q, q̇): joint by joint as its velocity grows at a
 /// unit rate.
 pub fn by_velocity<S: Scalar>(
     velocity_terms: impl Fn(&Arm<Dual<S>>, &[DhVariables<Dual<S>>], &[Dual<S>]) -> Vec<Dual<S>>,
@@ -88,7 +88,7 @@ pub fn by_velocity<S: Scalar>(
         velocity_terms(&moving_arm, &at, &qd)
     });
     for (i, link) in arm.links.iter().enumerate() {
-        rows[i][i] = plus(&rows[i][i], &link.viscous);
+        rows[i][i] = plus(&rows[i][i], &link.damping_slope());
     }
     rows
 }

@@ -66,7 +66,8 @@ impl Formulation {
         contracted(&self.christoffel(arm, at), qd)
     }
 
-    /// D a + C v + c + b∘v, length n. A recursion gives C v, which is bilinear
+    /// D a + C v + c + (b + F∘r)∘v, length n: Coulomb friction is taken as the
+    /// damping that it is at q̇, as C is taken at q̇. A recursion gives C v, which is bilinear
     /// in q̇ and v, as h of half their sum less h of half their difference.
     pub fn passivity<S: Scalar>(
         self,
@@ -95,7 +96,7 @@ impl Formulation {
             ),
         };
         let links = load.iter().zip(&arm.links).zip(v);
-        let damped = links.map(|((load, link), v)| plus(load, &times(&link.viscous, v)));
+        let damped = links.map(|((load, link), v)| plus(load, &times(&link.damping(), v)));
         damped.collect()
     }
 

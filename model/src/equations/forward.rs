@@ -50,6 +50,18 @@ pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> 
     inverse.iter().map(row).collect()
 }
 
+/// The torques of Coulomb friction and what each grows by with its velocity;
+/// zero of a joint without.
+fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
+    let links = arm.links.iter().zip(qd);
+    links
+        .map(|(link, qd)| match &link.coulomb {
+            None => [S::zero(), S::zero()],
+            Some(coulomb) => [coulomb.torque(qd), coulomb.slope()],
+        })
+        .collect()
+}
+
 impl Formulation {
     /// q̈ of the joints that move under τ, zero of the others, which are held
     /// where they are.
@@ -112,16 +124,23 @@ impl Formulation {
             return [&by_position, &by_velocity].map(|slopes| against(&inverse, slopes));
         }
         let n = at.len();
-        let still =
-            |values: &[S]| -> Vec<Dual<S>> { values.iter().cloned().map(Dual::constant).collect() };
+        let rubbed = rubbed(arm, qd);
         let run = |rates: &[S], growth: &[S]| {
-            let (arm, at) = moving(arm, at, rates);
+            let (mut arm, at) = moving(arm, at, rates);
+            arm.links.iter_mut().for_each(|link| link.coulomb = None);
             let grown = qd.iter().zip(growth).map(|(value, rate)| Dual {
                 value: value.clone(),
                 rate: rate.clone(),
             });
             let grown: Vec<Dual<S>> = grown.collect();
-            articulated::forward_dynamics(&arm, &at, &grown, &still(tau), moves)
+            // Coulomb friction takes of the torques what it takes, and by its own slope.
+            let left = tau.iter().zip(&rubbed).zip(growth);
+            let left = left.map(|((tau, [torque, slope]), growth)| Dual {
+                value: minus(tau, torque),
+                rate: negative(&times(slope, growth)),
+            });
+            let left: Vec<Dual<S>> = left.collect();
+            articulated::forward_dynamics(&arm, &at, &grown, &left, moves)
         };
         let unit = |k: usize| {
             let mut unit = zeros(n);

@@ -111,11 +111,11 @@ pub(super) fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     }
 }
 
-/// The arm without viscous damping.
+/// The arm without friction.
 pub(super) fn undamped<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     let mut arm = arm.clone();
     for link in &mut arm.links {
-        link.viscous = S::zero();
+        (link.viscous, link.coulomb) = (S::zero(), None);
     }
     arm
 }

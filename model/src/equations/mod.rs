@@ -9,6 +9,7 @@
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
 //! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
 //! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
+//! | [`friction`] | what joints take of torque while they move |
 //! | [`factor`] | D = U diag(d) Uᵀ, solved and inverted |
 //! | [`articulated`] | q̈ by articulated bodies |
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
@@ -19,8 +20,8 @@
 //! | [`load`] | what a payload adds to regrouped parameters |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
-//! τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i in every form: armature is part of
-//! D_ii, viscous damping b_i of τ alone.
+//! τ_i = Σ_k D_ik q̈_k + h_i + c_i + (b_i + F_i r_i) q̇_i in every form: armature is
+//! part of D_ii, friction of τ alone.
 //!
 //! Slices of joint values are indexed from the base and as long as
 //! [`Arm::links`]; a shorter one panics.
@@ -38,6 +39,7 @@ pub mod energy;
 pub mod factor;
 mod formulation;
 pub mod forward;
+pub mod friction;
 mod from_robot;
 pub mod from_torques;
 pub mod kinematics;

@@ -210,6 +210,7 @@ fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
         link.com = zero_vector();
         link.inertia = Inertia::symmetric(|_, _| S::zero());
         link.viscous = S::zero();
+        link.coulomb = None;
         link.armature = S::zero();
     }
     empty

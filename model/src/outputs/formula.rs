@@ -58,6 +58,9 @@ pub struct Motion<S> {
     pub v: Vec<S>,
     /// Accelerations wished for.
     pub a: Vec<S>,
+    /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
+    /// that of a joint at rest ([`friction`](crate::equations::friction)).
+    pub per_speed: Vec<Option<S>>,
     /// Whether each joint moves; one that does not is held where it is.
     pub moves: Vec<bool>,
     /// What the hand carries, where that is an argument.
@@ -69,6 +72,7 @@ impl<S> Motion<S> {
     pub fn new(q: Vec<JointPosition<S>>, mut entries: impl FnMut(Argument) -> Vec<S>) -> Self {
         Motion {
             moves: alloc::vec![true; q.len()],
+            per_speed: q.iter().map(|_| None).collect(),
             q,
             qd: entries(Argument::Velocity),
             qdd: entries(Argument::Acceleration),
@@ -105,6 +109,10 @@ impl<S: Clone> Motion<S> {
             tau: pick(&self.tau),
             v: pick(&self.v),
             a: pick(&self.a),
+            per_speed: joints
+                .iter()
+                .map(|&joint| self.per_speed[joint].clone())
+                .collect(),
             moves: joints.iter().map(|&joint| self.moves[joint]).collect(),
             loading: self.loading.clone(),
         }
@@ -117,6 +125,7 @@ impl<S: Scalar> Motion<S> {
     pub fn with_still_link(mut self) -> Motion<S> {
         self.q.push(JointPosition::Prismatic(S::zero()));
         self.moves.push(false);
+        self.per_speed.push(None);
         for argument in Argument::JOINTS {
             if let Some(entries) = self.of_mut(argument) {
                 entries.push(S::zero());

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::ToString;
 use core::ops::Range;
 
-use num_traits::Zero;
+use num_traits::{One, Zero};
 use toml_span::Value;
 
 use super::places::Places;
@@ -15,7 +15,7 @@ use crate::placed::Placed;
 use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Placement, Position};
 
 /// The keys of a joint, in the order that robot files have them.
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 18] = [
     "name",
     "kind",
     "alpha",
@@ -30,6 +30,8 @@ const KEYS: [&str; 16] = [
     "com",
     "inertia",
     "viscous",
+    "coulomb",
+    "coulomb_width",
     "armature",
     "limits",
 ];
@@ -92,6 +94,8 @@ pub(super) fn read(
         com,
         inertia,
         viscous: fields.number(Field::Viscous),
+        coulomb: fields.number(Field::Coulomb),
+        coulomb_width: fields.coulomb_width(),
         armature: fields.number(Field::Armature),
         limits: fields.limits(kind),
     };
@@ -172,6 +176,17 @@ impl Fields<'_, '_, '_, '_, '_> {
         };
         let read = self.cx.number(value);
         self.keep(field, value, read, Rational::zero)
+    }
+
+    /// The width of Coulomb friction; of one that cannot be read nothing is said
+    /// but that.
+    fn coulomb_width(&mut self) -> Rational {
+        let field = Field::CoulombWidth;
+        let Some(value) = self.keys.get(field.key()) else {
+            return Rational::zero();
+        };
+        let read = self.cx.number(value);
+        self.keep(field, value, read, Rational::one)
     }
 
     /// An angle that is zero unless given.

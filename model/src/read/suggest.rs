@@ -6,7 +6,7 @@ use alloc::string::String;
 use crate::outputs::{BundleError, Function};
 
 /// What other tools and textbooks call the same thing.
-const OTHER_WORDS: [(&str, &str); 30] = [
+const OTHER_WORDS: [(&str, &str); 33] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -17,6 +17,9 @@ const OTHER_WORDS: [(&str, &str); 30] = [
     ("b", "viscous"),
     ("damping", "viscous"),
     ("friction", "viscous"),
+    ("coulomb_friction", "coulomb"),
+    ("dry_friction", "coulomb"),
+    ("width", "coulomb_width"),
     ("jm", "armature"),
     ("rotor", "armature"),
     ("rotor_inertia", "armature"),

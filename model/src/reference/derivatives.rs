@@ -22,7 +22,7 @@ impl<T: Float> Reference<T> {
         Ok(matrix(&rows))
     }
 
-    /// ∂τ/∂q̇, n×n, damping on its diagonal.
+    /// ∂τ/∂q̇, n×n, what friction grows by on its diagonal.
     pub fn torque_by_velocity(
         &self,
         q: &DVector<T>,
@@ -33,10 +33,15 @@ impl<T: Float> Reference<T> {
         let h = |arm: &_, at: &[_], qd: &[_]| -> Vec<_> {
             from_torques::velocity_terms(torques, arm, at, qd)
         };
-        Ok(matrix(&derivatives::by_velocity(h, &self.arm, &at, qd)))
+        Ok(matrix(&derivatives::by_velocity(
+            h,
+            &self.arm_at(qd),
+            &at,
+            qd,
+        )))
     }
 
-    /// D a + C v + c + b∘v, with C of the Christoffel symbols.
+    /// D a + C v + c + (b + F∘r)∘v, r of q̇, with C of the Christoffel symbols.
     pub fn passivity(
         &self,
         q: &DVector<T>,
@@ -48,8 +53,8 @@ impl<T: Float> Reference<T> {
         let qd = self.values("qd", qd)?;
         let [v, a] = [self.values("v", v)?, self.values("a", a)?];
         let mut tau = from_torques::passivity(torques, &self.arm, &at, qd, [v, a]);
-        for ((tau, link), v) in tau.iter_mut().zip(&self.arm.links).zip(v) {
-            *tau = tau.add(&link.viscous.mul(v));
+        for ((tau, link), v) in tau.iter_mut().zip(&self.arm_at(qd).links).zip(v) {
+            *tau = tau.add(&link.damping().mul(v));
         }
         Ok(DVector::from_vec(tau))
     }

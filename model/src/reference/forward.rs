@@ -6,7 +6,7 @@ use super::{Float, Reference, WrongLength, matrix};
 use crate::equations::Formulation;
 
 impl<T: Float> Reference<T> {
-    /// q̈ = D⁻¹ (τ − h − c − b∘q̇); infinities and NaN where D is singular.
+    /// q̈ = D⁻¹ (τ − h − c − (b + F∘r)∘q̇); infinities and NaN where D is singular.
     pub fn forward_dynamics(
         &self,
         q: &DVector<T>,
@@ -17,7 +17,7 @@ impl<T: Float> Reference<T> {
         let [qd, tau] = [self.values("qd", qd)?, self.values("tau", tau)?];
         let moves = alloc::vec![true; self.joints()];
         let recursion = Formulation::NewtonEulerLink;
-        let qdd = recursion.forward_dynamics(&self.arm, &at, qd, tau, &moves);
+        let qdd = recursion.forward_dynamics(&self.arm_at(qd), &at, qd, tau, &moves);
         Ok(DVector::from_vec(qdd))
     }
 
@@ -32,7 +32,7 @@ impl<T: Float> Reference<T> {
         let [qd, tau] = [self.values("qd", qd)?, self.values("tau", tau)?];
         let moves = alloc::vec![true; self.joints()];
         let recursion = Formulation::NewtonEulerLink;
-        let slopes = recursion.acceleration_slopes(&self.arm, &at, qd, tau, &moves);
+        let slopes = recursion.acceleration_slopes(&self.arm_at(qd), &at, qd, tau, &moves);
         Ok(slopes.map(|rows| matrix(&rows)))
     }
 

@@ -27,6 +27,8 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use num_traits::Zero;
+
 use crate::number::{Angle, Rational};
 
 pub use doubt::Doubt;
@@ -140,10 +142,22 @@ pub struct Joint {
     pub inertia: Inertia<Rational>,
     /// Viscous damping b_i, N·m·s/rad or N·s/m.
     pub viscous: Rational,
+    /// Coulomb friction F_i, N·m or N.
+    pub coulomb: Rational,
+    /// The speed w_i over which its sign is smoothed, rad/s or m/s: more than zero
+    /// where a joint has Coulomb friction.
+    pub coulomb_width: Rational,
     /// SinCosPair inertia felt at the joint, added to D_ii, kg·m² or kg.
     pub armature: Rational,
     /// Limits of motion and load, each optional.
     pub limits: Limits,
+}
+
+impl Joint {
+    /// Whether it has Coulomb friction.
+    pub fn has_coulomb(&self) -> bool {
+        !self.coulomb.is_zero()
+    }
 }
 
 /// A symmetric tensor; off-diagonals are the tensor's entries as they stand.

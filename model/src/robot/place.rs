@@ -52,6 +52,10 @@ pub enum Field {
     Inertia,
     /// Viscous damping.
     Viscous,
+    /// Coulomb friction.
+    Coulomb,
+    /// Over which speeds its sign is smoothed.
+    CoulombWidth,
     /// SinCosPair inertia.
     Armature,
     /// Range of positions, of the limits.
@@ -81,6 +85,8 @@ impl Field {
             Field::Com => "com",
             Field::Inertia => "inertia",
             Field::Viscous => "viscous",
+            Field::Coulomb => "coulomb",
+            Field::CoulombWidth => "coulomb_width",
             Field::Armature => "armature",
             Field::Position => "position",
             Field::Velocity => "velocity",

@@ -10,13 +10,16 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
 use super::body::Defect;
 use super::findings::{Finding, Findings};
 use super::{Convention, Doubt, Field, Joint, JointKind, Place, Placement, Position, Robot, units};
 use crate::number::parse::in_range;
-use crate::number::{Angle, Rational};
+use crate::number::{Angle, Rational, Rounded};
+
+/// The widths over which the sign of Coulomb friction may be smoothed.
+const WIDTHS: core::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 impl Robot {
     /// Everything that is wrong or odd about the robot; without an error among
@@ -144,6 +147,7 @@ impl Findings {
         }
         self.not_negative(at(Field::Mass), "mass", &joint.mass);
         self.not_negative(at(Field::Viscous), "viscous", &joint.viscous);
+        self.coulomb(index, joint);
         self.not_negative(at(Field::Armature), "armature", &joint.armature);
         let limits = &joint.limits;
         for (field, limit) in [
@@ -159,6 +163,34 @@ impl Findings {
             self.range(at(Field::Position), joint.kind, range);
         }
         self.body(at(Field::Inertia), joint);
+    }
+
+    /// Without a width the friction would jump where a joint stands still, and
+    /// have no slope there; the square of one is a number in f32, too.
+    fn coulomb(&mut self, index: usize, joint: &Joint) {
+        let at = |field| Place::Joint(index, field);
+        let unit = match joint.kind {
+            JointKind::Revolute => "rad/s",
+            JointKind::Prismatic => "m/s",
+        };
+        let help = format!(
+            "coulomb_width = 0.01, in {unit}: at this speed the friction is 1/√2 of `coulomb`, at \
+             ten times as much less than 0.5 % below it"
+        );
+        self.not_negative(at(Field::Coulomb), "coulomb", &joint.coulomb);
+        let width = &joint.coulomb_width;
+        if width.is_negative() {
+            let message = "coulomb_width is negative".to_owned();
+            self.error(at(Field::CoulombWidth), message, &help);
+        } else if width.is_zero() {
+            if joint.coulomb.is_positive() {
+                let message = "Coulomb friction without a `coulomb_width`".to_owned();
+                self.error(at(Field::Coulomb), message, &help);
+            }
+        } else if !WIDTHS.contains(&f64::nearest_rational(width)) {
+            let message = "a coulomb_width too large or too small".to_owned();
+            self.error(at(Field::CoulombWidth), message, &help);
+        }
     }
 
     fn size(&mut self, place: Place, value: &Rational) {
@@ -182,6 +214,7 @@ impl Findings {
             let help = match what {
                 "mass" => "a mass is zero or more, in kg",
                 "viscous" => "damping takes energy out: zero or more",
+                "coulomb" => "friction takes energy out: zero or more, in N·m or N",
                 "armature" => "a rotor's inertia is zero or more",
                 _ => "a limit bounds the size, in both directions: zero or more",
             };

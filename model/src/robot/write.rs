@@ -93,7 +93,12 @@ fn write_joint(text: &mut String, joint: &Joint) {
         "inertia",
         &list([&i.xx, &i.yy, &i.zz, &i.xy, &i.yz, &i.xz].map(number)),
     );
-    for (key, value) in [("viscous", &joint.viscous), ("armature", &joint.armature)] {
+    for (key, value) in [
+        ("viscous", &joint.viscous),
+        ("coulomb", &joint.coulomb),
+        ("coulomb_width", &joint.coulomb_width),
+        ("armature", &joint.armature),
+    ] {
         if !value.is_zero() {
             line(text, key, &number(value));
         }

@@ -105,6 +105,14 @@ impl Big {
         (!zero).then(|| Big(&self.0 / &other.0))
     }
 
+    /// The square root, rounded; zero of what is below zero.
+    pub fn sqrt(&self) -> Self {
+        match *self > Self::zero() {
+            true => Big(self.0.sqrt()),
+            false => Self::zero(),
+        }
+    }
+
     /// |self|
     pub fn abs(&self) -> Self {
         if *self < Self::zero() {
@@ -256,5 +264,8 @@ mod tests {
         assert_eq!(Big::from_f64(f64::NAN), None);
         assert_eq!(big("3").half().double(), big("3"));
         assert_eq!(Big::zero().div(&Big::zero()), None);
+        let root = big("2").sqrt();
+        assert!(root.mul(&root).sub(&big("2")).abs() < big("1e-133"));
+        assert_eq!(big("-2").sqrt(), Big::zero());
     }
 }

@@ -93,6 +93,7 @@ impl Extreme {
                     xz: inertia(5),
                 },
                 viscous: number(0.0),
+                coulomb: None,
                 armature: number(0.0),
             }
         };

@@ -94,6 +94,7 @@ fn link(json: &Value) -> Link<f64> {
             xz: rows[0][2],
         },
         viscous: 0.0,
+        coulomb: None,
         armature: 0.0,
     }
 }

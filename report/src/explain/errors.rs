@@ -9,7 +9,7 @@ use super::Explanation;
 use super::run::Runner;
 use super::steps::Code;
 use crate::stress::truth::Truth;
-use dalembert_codegen::function::{Function, Sizes};
+use dalembert_codegen::function::{Argument, Function, Sizes};
 use dalembert_codegen::program::{Input, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::JointState;
@@ -133,6 +133,10 @@ fn formula(
     let input = |input| match input {
         Input::Sin(angle) => pair(angle).0,
         Input::Cos(angle) => pair(angle).1,
+        Input::PerSpeed(joint) => {
+            let qd = state.entry(Argument::Velocity, joint);
+            setting.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+        }
         Input::Entry(argument, joint) => state.entry(argument, joint),
     };
     let posed = setting.posed(function, arm.clone(), input, f64::nearest);

@@ -43,7 +43,14 @@ impl<T: Machine> Runner<T> {
             found.map(|(_, pair)| *pair)
         };
         let at = |values: &[f64], joint: usize| values.get(joint).map(|&x| T::literal(x));
+        let speeds = &self.lowered.speeds;
+        let qd: Vec<T> = state.qd.iter().map(|&x| T::literal(x)).collect();
+        let speed = |joint: usize| {
+            let own = speeds.iter().find(|own| own.joint == joint)?;
+            own.run(&qd)
+        };
         let input = |input: &Input| match *input {
+            Input::PerSpeed(joint) => speed(joint),
             Input::Entry(argument, joint) => at(state.of(argument), joint),
             Input::Sin(angle) => pair(angle).map(|(sin, _)| sin),
             Input::Cos(angle) => pair(angle).map(|(_, cos)| cos),

@@ -101,6 +101,8 @@ pub fn chain(n: usize, seed: u64) -> Robot {
                 xz: decimal(-1, 1),
             },
             viscous: Rational::default(),
+            coulomb: Rational::default(),
+            coulomb_width: Rational::default(),
             armature: Rational::default(),
             limits: Limits::default(),
         }

@@ -48,6 +48,8 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
                 xz: number(xz)?,
             },
             viscous: number(&joint.viscous)?,
+            coulomb: number(&joint.coulomb)?,
+            coulomb_width: number(&joint.coulomb_width)?,
             armature: number(&joint.armature)?,
             ..joint.clone()
         })

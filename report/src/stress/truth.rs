@@ -75,6 +75,10 @@ impl Truth {
         let input = |input| match input {
             Input::Sin(sum) => pair(sum).0,
             Input::Cos(sum) => pair(sum).1,
+            Input::PerSpeed(joint) => {
+                let qd = finite(state.entry(Argument::Velocity, joint));
+                self.setting.per_speed(joint, &qd, number, Big::sqrt)
+            }
             Input::Entry(argument, joint) => finite(state.entry(argument, joint)),
         };
         let setting = &self.setting;

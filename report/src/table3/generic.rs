@@ -32,6 +32,8 @@ pub fn robot(n: usize) -> Robot {
                 xz: milli(10, 100),
             },
             viscous: Rational::default(),
+            coulomb: Rational::default(),
+            coulomb_width: Rational::default(),
             armature: Rational::default(),
             limits: Limits::default(),
         })

@@ -36,6 +36,7 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
             xz: value(),
         },
         viscous: Count::Zero,
+        coulomb: None,
         armature: Count::Zero,
     };
     let arm = Arm {

@@ -79,6 +79,8 @@ fn robot(json: &Value) -> Robot {
                 xz: exact(tensor[5]),
             },
             viscous: exact(0.0),
+            coulomb: exact(0.0),
+            coulomb_width: exact(0.0),
             armature: exact(0.0),
             limits: Limits::default(),
         }

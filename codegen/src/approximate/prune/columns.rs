@@ -284,6 +284,8 @@ fn at(input: Input, state: &JointState) -> f64 {
     match input {
         Input::Sin(sum) => libm::sin(angle(sum)),
         Input::Cos(sum) => libm::cos(angle(sum)),
+        // What reads it has no bounds and is not pruned.
+        Input::PerSpeed(_) => f64::NAN,
         Input::Entry(argument, joint) => state.entry(argument, joint),
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
         };
         let _ = writeln!(text, "    let {} = {value};", Place::STATE.pair(trig));
     }
-    function::write_body(text, program, around.scalar);
+    function::write_body(text, program, around.scalar, around.math);
     text.push_str("}\n");
 }
 
@@ -84,6 +84,7 @@ fn parameters(program: &Program, around: &Around<'_>) -> Vec<String> {
 fn reads(program: &Program, argument: Argument) -> bool {
     let is = |operand: &Operand| match operand {
         Operand::Input(Input::Entry(read, _)) => *read == argument,
+        Operand::Input(Input::PerSpeed(_)) => argument == Argument::Velocity,
         _ => false,
     };
     program.steps.iter().any(|s| is(&s.left) || is(&s.right))

@@ -3,6 +3,7 @@
 //! - this file: what a text says, and whether it is the program
 //! - `reader`: the statements, line by line
 //! - `sines`: sines and cosines as polynomials
+//! - `speed`: what is read of speeds
 //! - `together`: sines and cosines that one call gives
 //! - `given`: sines and cosines that a caller has
 //! - `part`: what wraps the statements of long functions
@@ -15,6 +16,7 @@ mod part;
 mod reader;
 mod result;
 mod sines;
+mod speed;
 mod together;
 
 use std::fmt;

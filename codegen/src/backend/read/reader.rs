@@ -5,6 +5,7 @@ use crate::backend::read::given;
 use crate::backend::read::index_of;
 use crate::backend::read::part::Wrap;
 use crate::backend::read::sines::Block;
+use crate::backend::read::speed;
 use crate::backend::read::together;
 use crate::function::Argument;
 use crate::program::text::input_name;
@@ -36,6 +37,7 @@ impl<'a> Reader<'a> {
                 scalar,
                 library: Library::Libm,
                 trig: Vec::new(),
+                speeds: Vec::new(),
                 steps: Vec::new(),
                 outputs: Vec::new(),
             },
@@ -80,6 +82,11 @@ impl<'a> Reader<'a> {
             && let Some(pair) = given::read(name, value, angles)
         {
             self.program.trig.push(pair?);
+            return Ok(());
+        }
+        if name.starts_with('r') {
+            let speed = speed::read(name, value, self.scalar, &self.program.speeds)?;
+            self.program.speeds.push(speed);
             return Ok(());
         }
         if value.contains('(') {
@@ -182,6 +189,11 @@ impl<'a> Reader<'a> {
                 return Err(format!("`{word}` is not computed yet"));
             }
             return Ok(Operand::Step(step - 1));
+        }
+        let mut speeds = self.program.speeds.iter();
+        let mut speeds = speeds.by_ref().map(|own| Input::PerSpeed(own.joint));
+        if let Some(own) = speeds.find(|own| word == input_name(*own)) {
+            return Ok(Operand::Input(own));
         }
         for trig in &self.program.trig {
             for (taken, input) in [

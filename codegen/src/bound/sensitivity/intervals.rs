@@ -18,7 +18,7 @@ use crate::interval::Interval;
 use crate::interval::rounding::{self, Forward};
 use crate::program::adjoint::{Leaf, backward};
 use crate::program::scalar_type::underflow;
-use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Step};
+use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Speed, Step};
 use crate::sincos::AngleKernel;
 use crate::sincos::proof::Errors;
 
@@ -46,6 +46,8 @@ pub(super) fn rounding(
 pub(in crate::bound) struct Constants {
     steps: Vec<[Option<(Interval, f64)>; 2]>,
     sines: Vec<(AngleSum, Errors)>,
+    /// What 1/√(q̇² + w²) of a joint may be, as it is computed.
+    speeds: Vec<(usize, Interval)>,
 }
 
 impl Constants {
@@ -62,12 +64,23 @@ impl Constants {
         Constants {
             steps: steps.map(|s| [found(&s.left), found(&s.right)]).collect(),
             sines: sines.iter().map(|sine| (sine.angle, sine.errors)).collect(),
+            speeds: program
+                .speeds
+                .iter()
+                .map(|own| speed(own, scalar))
+                .collect(),
         }
     }
 
     /// Of each step, its operands that are constants.
     pub(super) fn steps(&self) -> &[[Option<(Interval, f64)>; 2]] {
         &self.steps
+    }
+
+    /// What is read of a joint's speed.
+    fn speed(&self, joint: usize) -> Interval {
+        let found = self.speeds.iter().find(|(known, _)| *known == joint);
+        found.map_or(Interval::ALL, |(_, range)| *range)
     }
 
     /// What a polynomial is off at most; `None` for libm.
@@ -79,6 +92,14 @@ impl Constants {
             _ => found.1.cos,
         })
     }
+}
+
+/// From zero, where the velocity has no end, to 1/w at rest, with the 3 u that rounding
+/// may add and more.
+fn speed(own: &Speed, scalar: ScalarType) -> (usize, Interval) {
+    let most = 1.0 / Interval::exact(&own.square).low().sqrt();
+    let most = most * (1.0 + 8.0 * scalar.unit_roundoff());
+    (own.joint, Interval::new(0.0, most).unwrap_or(Interval::ALL))
 }
 
 /// Whether an operation does not round, but for underflow: a product with a
@@ -167,6 +188,8 @@ pub(super) fn read(
             };
             (exact.widened(error), error)
         }
+        // Nothing is claimed of how far the code is off.
+        Operand::Input(Input::PerSpeed(joint)) => (constants.speed(*joint), f64::INFINITY),
         Operand::Input(input) => (sub.input(*input), 0.0),
     }
 }

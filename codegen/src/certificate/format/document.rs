@@ -211,6 +211,7 @@ impl Document {
                 .collect::<Result<_, _>>()?,
             load: 0,
             trig: Vec::new(),
+            speeds: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
         })

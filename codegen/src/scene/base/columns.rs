@@ -55,13 +55,14 @@ pub(super) fn values(
         let input = |input| match input {
             Input::Sin(angle) => angle.pair(|joint| pairs[joint].clone()).sin,
             Input::Cos(angle) => angle.pair(|joint| pairs[joint].clone()).cos,
-            Input::Entry(..) => points.borrow_mut().field(),
+            Input::PerSpeed(_) | Input::Entry(..) => points.borrow_mut().field(),
         };
         let motion = setting.motion(input, constant);
         let arm = match setting.has(RuntimeParameter::Gravity) {
             true => (arm.clone()).with_gravity(&[(); 3].map(|()| points.borrow_mut().field())),
             false => arm.clone(),
         };
+        let arm = arm.at_speeds(&motion.per_speed);
         let entries = quantity.written(&Written {
             formulation: Formulation::NewtonEulerLink,
             arm: &arm,

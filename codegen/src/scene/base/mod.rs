@@ -80,6 +80,8 @@ pub enum NoBase {
     Irrational,
     /// A constant has no value modulo the prime.
     Unfit,
+    /// Coulomb friction is not linear in its parameters.
+    Friction,
 }
 
 impl fmt::Display for NoBase {
@@ -98,6 +100,12 @@ impl fmt::Display for NoBase {
                 "one base parameter depends on the others by a number that is no short fraction, \
                  as odd angles between slides and the first axis give: {full}"
             ),
+            NoBase::Friction => write!(
+                f,
+                "torques with Coulomb friction are not linear in its parameters, and no column has \
+                 them: leave `coulomb` out of the robot file and add the friction to the torques \
+                 yourself, or {full}, which is of links alone"
+            ),
             NoBase::Unfit => write!(
                 f,
                 "a parameter is divisible by 2^61 - 1, modulo which columns are compared: \
@@ -111,6 +119,9 @@ impl BaseParameters {
     /// Of a setting, for a quantity that is over them.
     pub(super) fn of(setting: &Setting, quantity: Quantity) -> Result<BaseParameters, NoBase> {
         let robot = setting.robot();
+        if setting.has_coulomb() {
+            return Err(NoBase::Friction);
+        }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
         let skeleton = Skeleton::with_columns(&arm, &setting.merged(), &of_links(n));

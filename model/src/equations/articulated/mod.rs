@@ -1,6 +1,6 @@
 //! Forward dynamics by articulated bodies: Featherstone, *Rigid Body Dynamics
 //! Algorithms* (2008), section 7.3, in the axes of each link's own frame, both
-//! DH conventions, rotors' inertia and viscous damping included.
+//! DH conventions, rotors' inertia and friction included.
 //!
 //! The articulated body i is link i with all that follows it, each joint free
 //! to move under its own torque. What it answers to an acceleration a of its
@@ -68,7 +68,7 @@ pub fn forward_dynamics<S: Divide>(
         let (whole, whole_bias) = step.at_joint(whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
         let pivot = plus(&step.feels(&push), &link.armature);
-        let damped = minus(&tau[i], &times(&link.viscous, &qd[i]));
+        let damped = minus(&tau[i], &times(&link.damping(), &qd[i]));
         let left = minus(&damped, &step.feels(&whole_bias));
         let inverse = match moves[i] {
             true => over(&S::one(), &pivot),

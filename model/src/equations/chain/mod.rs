@@ -43,6 +43,7 @@ pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 
 use super::SinCosPair;
+use super::friction::{self, Coulomb};
 use super::matrix::{Vector, difference, dot, opposite, plus, scaled, sum, times, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -89,6 +90,8 @@ pub struct ChainLink<S> {
     pub armature: S,
     /// Viscous damping b_i.
     pub viscous: S,
+    /// Coulomb friction, of a joint that has it.
+    pub coulomb: Option<Coulomb<S>>,
     /// Whether the frame may stay behind while the link turns: for a last
     /// link that is symmetric about its axis.
     pub spins_freely: bool,
@@ -120,6 +123,7 @@ impl<S: Scalar> Chain<S> {
                 free: zero_vector(),
                 armature: segment.armature.clone(),
                 viscous: segment.viscous.clone(),
+                coulomb: segment.coulomb.clone(),
                 spins_freely: false,
                 axes: regrouping.axes,
             });
@@ -178,6 +182,7 @@ impl<S> Chain<S> {
             free: link.free.each_ref().map(&mut f),
             armature: f(&link.armature),
             viscous: f(&link.viscous),
+            coulomb: link.coulomb.as_ref().map(|own| own.map(&mut f)),
             spins_freely: link.spins_freely,
             axes: link.axes,
         });
@@ -191,7 +196,28 @@ impl<S> Chain<S> {
     }
 }
 
+impl<S: Clone> Chain<S> {
+    /// The same chain at velocities of which each r_i is this, where a joint has
+    /// Coulomb friction.
+    #[must_use]
+    pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Chain<S> {
+        let frictions = self.links.iter_mut().map(|link| &mut link.coulomb);
+        friction::at_speeds(frictions, per_speed);
+        self
+    }
+}
+
 impl<S: Scalar> ChainLink<S> {
+    /// b_i + F_i r_i: what q̇_i is multiplied by.
+    pub fn damping(&self) -> S {
+        friction::damping(&self.viscous, self.coulomb.as_ref())
+    }
+
+    /// What friction grows by with the velocity: b_i + F_i w_i² r_i³.
+    pub fn damping_slope(&self) -> S {
+        friction::damping_slope(&self.viscous, self.coulomb.as_ref())
+    }
+
     /// Components from frame i−1 into frame i.
     fn inward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
         match at {

@@ -87,12 +87,15 @@ impl<S: Scalar> Mixed<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// D a + C v + c + b∘v, length n.
+    /// D a + C v + c + (b + F∘r)∘v, length n.
     pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
         let drive = |i: usize| {
             let link = &self.links[i];
-            plus(&times(&link.armature, &a[i]), &times(&link.viscous, &v[i]))
+            plus(
+                &times(&link.armature, &a[i]),
+                &times(&link.damping(), &v[i]),
+            )
         };
         self.torques(at, &motions, MomentForm::SecondMoments, drive)
     }

@@ -226,7 +226,7 @@ impl<S: Scalar> Chain<S> {
             let link = &self.links[i];
             plus(
                 &times(&link.armature, &qdd[i]),
-                &times(&link.viscous, &qd[i]),
+                &times(&link.damping(), &qd[i]),
             )
         };
         self.torques(at, &motions, couple, drive)

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 
 use super::probe::{Column, Probe, probes};
 use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
+use crate::equations::friction::Coulomb;
 use crate::equations::matrix::{Vector, plus, sum, zero_vector};
 use crate::equations::{Arm, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
@@ -52,6 +53,8 @@ pub struct Segment<S> {
     pub armature: S,
     /// Viscous damping b_i.
     pub viscous: S,
+    /// Coulomb friction, of a joint that has it.
+    pub coulomb: Option<Coulomb<S>>,
 }
 
 impl<S: Scalar> Skeleton<S> {
@@ -121,6 +124,7 @@ impl<S: Scalar> Skeleton<S> {
                 dh: (identity(), zero_vector()),
                 armature: link.armature.clone(),
                 viscous: link.viscous.clone(),
+                coulomb: link.coulomb.clone(),
             };
             match link.kind {
                 JointKind::Revolute => {

@@ -28,9 +28,9 @@ fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
     scaled(&link.mass, acceleration)
 }
 
-/// What the drive adds to the torque of the chain: b_i q̇_i and the armature's
+/// What the drive adds to the torque of the chain: friction and the armature's
 /// inertia.
 fn with_drive<S: Scalar>(link: &Link<S>, torque: &S, qd: &S, qdd: &S) -> S {
-    let damped = plus(torque, &times(&link.viscous, qd));
+    let damped = plus(torque, &times(&link.damping(), qd));
     plus(&damped, &times(&link.armature, qdd))
 }

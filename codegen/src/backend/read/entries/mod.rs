@@ -58,6 +58,7 @@ impl Lowered {
             batch::check(&text, &arguments)?;
         }
         Ok(Lowered {
+            speeds: given.speeds,
             steps: given.steps,
             outputs: given.outputs,
             ..single

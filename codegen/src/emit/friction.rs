@@ -1,0 +1,39 @@
+//! What a function says of Coulomb friction.
+
+use super::figures::decimal;
+use super::generated::GeneratedFunction;
+use crate::function::Argument;
+use crate::scene::Setting;
+
+/// The equation of the friction that is in it, joint by joint; nothing of functions
+/// that have none in them.
+pub(super) fn doc(generated: &GeneratedFunction, setting: &Setting) -> Vec<String> {
+    let program = &generated.program;
+    if program.speeds.is_empty() {
+        return Vec::new();
+    }
+    let arguments = generated.function.arguments();
+    let wished = arguments.contains(&Argument::ReferenceVelocity);
+    let mut lines = vec![
+        String::new(),
+        "With Coulomb friction: b_i stands for b_i + F_i r_i, r_i = 1/√(q̇_i² + w_i²), so that the"
+            .into(),
+        match wished {
+            false => {
+                "friction is F_i q̇_i/√(q̇_i² + w_i²). In the proof each r_i is a variable.".into()
+            }
+            true => {
+                "friction is F_i v_i/√(q̇_i² + w_i²). In the proof each r_i is a variable.".into()
+            }
+        },
+        String::new(),
+        "| joint | F | w |".into(),
+        "|---|---|---|".into(),
+    ];
+    for speed in &program.speeds {
+        let joint = &setting.robot().joints[speed.joint];
+        let (force, width) = (decimal(&joint.coulomb), decimal(&joint.coulomb_width));
+        lines.push(format!("| {} | {force} | {width} |", speed.joint + 1));
+    }
+    lines
+}

@@ -1,0 +1,43 @@
+//! What code reads of a joint's speed beside its velocity: r = 1/√(q̇² + w²), by
+//! which Coulomb friction is smoothed over a width w.
+
+use std::collections::BTreeSet;
+
+use dalembert_model::equations::friction::per_speed;
+use dalembert_model::number::Exact;
+
+use super::machine::Machine;
+use super::{Input, Literal, Operand, Output, Step};
+
+/// A joint whose r may be read. The code squares the velocity, adds the square of
+/// the width, takes the root and divides one by it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Speed<C = Exact> {
+    /// The joint, zero-based.
+    pub joint: usize,
+    /// w²: exact, or the literal that it was rounded to.
+    pub square: C,
+}
+
+/// What one of them costs: a product, a sum, a root and a quotient.
+pub(crate) const OPERATIONS: [usize; 4] = [1; 4];
+
+impl Speed<Literal> {
+    /// r as the code computes it, from the velocities; none if there is none of
+    /// the joint.
+    pub fn run<T: Machine>(&self, qd: &[T]) -> Option<T> {
+        let qd = qd.get(self.joint)?;
+        Some(per_speed(qd, &T::literal(self.square.0), |x| x.root()))
+    }
+}
+
+/// The joints whose r is read, ascending.
+pub(crate) fn read<C>(steps: &[Step<C>], outputs: &[Output<C>]) -> BTreeSet<usize> {
+    let operands = steps.iter().flat_map(|step| [&step.left, &step.right]);
+    let operands = operands.chain(outputs.iter().map(|output| &output.value));
+    let joint = |operand: &Operand<C>| match operand {
+        Operand::Input(Input::PerSpeed(joint)) => Some(*joint),
+        _ => None,
+    };
+    operands.filter_map(joint).collect()
+}

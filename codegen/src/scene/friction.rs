@@ -1,0 +1,51 @@
+//! Coulomb friction of a setting: what programs read of speeds, and who reads it.
+
+use dalembert_model::equations::friction::per_speed;
+use dalembert_model::number::{Exact, Rational};
+use dalembert_model::scalar::Divide;
+
+use super::Setting;
+use crate::program::Speed;
+
+impl Setting {
+    /// The width of a joint's friction; none of a joint without.
+    fn width(&self, joint: usize) -> Option<&Rational> {
+        let joint = self.robot().joints.get(joint)?;
+        joint.has_coulomb().then_some(&joint.coulomb_width)
+    }
+
+    /// The joints with Coulomb friction, and the squares of their widths.
+    pub fn speeds(&self) -> Vec<Speed> {
+        let of = |&joint: &usize| {
+            let width = self.width(joint)?;
+            let square = Exact::from(width * width);
+            Some(Speed { joint, square })
+        };
+        self.joints().iter().filter_map(of).collect()
+    }
+
+    /// Whether a joint has Coulomb friction.
+    pub fn has_coulomb(&self) -> bool {
+        self.robot().joints.iter().any(|joint| joint.has_coulomb())
+    }
+
+    /// 1/w of a joint that does not move, exactly.
+    pub(super) fn per_speed_at_rest(&self, joint: usize) -> Option<Exact> {
+        self.width(joint).map(|width| Exact::from(width.recip()))
+    }
+
+    /// 1/√(q̇² + w²) of a joint in a scalar that has roots; zero of one without
+    /// friction, which nothing reads.
+    pub fn per_speed<S: Divide>(
+        &self,
+        joint: usize,
+        qd: &S,
+        constant: impl Fn(&Exact) -> S,
+        sqrt: impl Fn(&S) -> S,
+    ) -> S {
+        match self.width(joint) {
+            None => S::zero(),
+            Some(width) => per_speed(qd, &constant(&Exact::from(width * width)), sqrt),
+        }
+    }
+}

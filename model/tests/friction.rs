@@ -1,0 +1,217 @@
+//! Coulomb friction: its torque by hand, its slopes by differences of 134 digits, and
+//! what it leaves alone.
+
+use dalembert_model::number::Rational;
+use dalembert_model::read::{Options, parse};
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::{Robot, write};
+use nalgebra::DVector;
+
+fn robot() -> Robot {
+    let source = include_str!("data/coulomb.toml");
+    parse(source, &Options::default()).unwrap().robot
+}
+
+fn without(robot: &Robot) -> Robot {
+    let mut robot = robot.clone();
+    for joint in &mut robot.joints {
+        joint.coulomb = Rational::default();
+        joint.coulomb_width = Rational::default();
+    }
+    robot
+}
+
+fn vector(values: [f64; 3]) -> DVector<f64> {
+    DVector::from_column_slice(&values)
+}
+
+/// What it is, the keys of the file apart.
+const FORCES: [f64; 3] = [2.5, 14.0, 0.0];
+const WIDTHS: [f64; 3] = [0.01, 1.0 / 300.0, 1.0];
+
+/// Far from rest in both directions, within the widths, and at rest.
+const VELOCITIES: [[f64; 3]; 4] = [
+    [1.5, -0.8, 2.0],
+    [-0.004, 0.002, -0.01],
+    [-70.0, 1e-9, 0.0],
+    [0.0, 0.0, 0.0],
+];
+
+/// F q̇/√(q̇² + w²) by the platform's own hypotenuse.
+fn by_hand(qd: &[f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| FORCES[i] * qd[i] / qd[i].hypot(WIDTHS[i]))
+}
+
+fn close(found: &DVector<f64>, expected: &DVector<f64>) {
+    let size = expected.amax().max(1.0);
+    let error = (found - expected).amax();
+    assert!(error < 1e-12 * size, "{found} {expected}");
+}
+
+/// τ has it beside everything else, and τ with it moves the arm as τ without it
+/// does; with v = q̇ and a = q̈ passivity is inverse dynamics.
+#[test]
+fn the_runtime_has_the_torque_of_the_textbook() {
+    let (with, plain) = (robot(), without(&robot()));
+    let [with, plain] = [&with, &plain].map(Reference::<f64>::from_robot);
+    let (q, qdd) = (vector([0.4, 0.1, -1.1]), vector([2.0, -3.0, 5.0]));
+    for velocities in VELOCITIES {
+        let (qd, friction) = (vector(velocities), vector(by_hand(&velocities)));
+        let tau = with.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        let rest = plain.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        close(&tau, &(&rest + &friction));
+        close(&with.passivity(&q, &qd, &qd, &qdd).unwrap(), &tau);
+        let tau = vector([3.0, -40.0, 0.5]);
+        let found = with.forward_dynamics(&q, &qd, &tau).unwrap();
+        let less = plain.forward_dynamics(&q, &qd, &(&tau - &friction));
+        close(&found, &less.unwrap());
+        // What is none of τ has no friction in it.
+        let parts = |arm: &Reference<f64>| {
+            let d = arm.inertia(&q).unwrap();
+            (d, arm.coriolis(&q, &qd).unwrap(), arm.gravity(&q).unwrap())
+        };
+        assert_eq!(parts(&with), parts(&plain));
+    }
+}
+
+/// Passivity takes the damping that the friction is at q̇, and of v the whole: with
+/// another v it is F v/√(q̇² + w²).
+#[test]
+fn passivity_takes_friction_as_a_damping() {
+    let (with, plain) = (robot(), without(&robot()));
+    let [with, plain] = [&with, &plain].map(Reference::<f64>::from_robot);
+    let [q, qd, v, a] = [
+        [0.4, 0.1, -1.1],
+        [0.02, -0.01, 2.0],
+        [-0.3, 0.2, 1.0],
+        [2.0, -3.0, 5.0],
+    ]
+    .map(vector);
+    let damped = |i: usize| FORCES[i] * v[i] / qd[i].hypot(WIDTHS[i]);
+    let rest = plain.passivity(&q, &qd, &v, &a).unwrap();
+    let expected = &rest + &vector(std::array::from_fn(damped));
+    close(&with.passivity(&q, &qd, &v, &a).unwrap(), &expected);
+}
+
+/// The written file is read back as the same robot, and a robot without friction has
+/// the text, and so the hash, that it had.
+#[test]
+fn files_keep_it() {
+    let robot = robot();
+    let text = write(&robot);
+    assert!(
+        text.contains("coulomb = 14\ncoulomb_width = \"1/300\"\n"),
+        "{text}"
+    );
+    assert_eq!(parse(&text, &Options::default()).unwrap().robot, robot);
+    let plain = without(&robot);
+    assert_ne!(plain.input_hash(), robot.input_hash());
+    assert!(!write(&plain).contains("coulomb_"));
+}
+
+/// A width alone is none: there is nothing that it smooths.
+#[test]
+fn a_width_without_a_force_changes_nothing() {
+    let (mut idle, plain) = (without(&robot()), without(&robot()));
+    idle.joints[0].coulomb_width = Rational::new(1.into(), 2.into());
+    assert_eq!(idle.validate(), []);
+    let [idle, plain] = [&idle, &plain].map(Reference::<f64>::from_robot);
+    let (q, qd, qdd) = (vector([0.4, 0.1, -1.1]), vector([1.0; 3]), vector([2.0; 3]));
+    assert_eq!(
+        idle.inverse_dynamics(&q, &qd, &qdd),
+        plain.inverse_dynamics(&q, &qd, &qdd)
+    );
+}
+
+#[cfg(feature = "bigfloat")]
+mod slopes {
+    use dalembert_model::equations::friction::per_speed;
+    use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
+    use dalembert_model::number::{Angle, Exact};
+    use dalembert_model::robot::JointKind;
+    use dalembert_model::scalar::big::Big;
+    use dalembert_model::scalar::{Divide, Scalar};
+
+    fn number(constant: &Exact) -> Big {
+        let value = constant.map(&mut |x| Some(Big::from_rational(x)), &mut |angle| {
+            let (sin, cos) = match angle {
+                Angle::PiTimes(multiple) => Big::sin_cos_pi(multiple),
+                Angle::Radians(radians) => Big::sin_cos_of(radians),
+            };
+            SinCosPair { sin, cos }
+        });
+        value.unwrap()
+    }
+
+    fn big(text: &str) -> Big {
+        Big::from_decimal(text).unwrap()
+    }
+
+    /// The arm at a velocity.
+    fn at_speed(qd: &[Big]) -> Arm<Big> {
+        let arm = Arm::from_robot(&super::robot(), &mut number);
+        let speeds = arm.links.iter().zip(qd).map(|(link, qd)| {
+            let own = link.coulomb.as_ref()?;
+            Some(per_speed(qd, &own.width.mul(&own.width), Big::sqrt))
+        });
+        let speeds: Vec<Option<Big>> = speeds.collect();
+        arm.at_speeds(&speeds)
+    }
+
+    fn differ(found: &[Vec<Big>], expected: &[Vec<Big>]) -> f64 {
+        let pairs = found.iter().flatten().zip(expected.iter().flatten());
+        pairs.fold(0.0, |most: f64, (found, expected)| {
+            most.max(found.sub(expected).abs().to_f64())
+        })
+    }
+
+    /// ∂τ/∂q̇ and ∂q̈/∂q̇ of all formulations are what τ and q̈ change by: central
+    /// differences over 2e-40, of which the rest is of the third derivative, below
+    /// 1e-66 here, and the digits lost are 40 of 134.
+    #[test]
+    fn slopes_are_differences() {
+        let position = [("0.4", true), ("0.1", false), ("-1.1", true)];
+        let (step, twice) = (big("1e-40"), big("2e-40"));
+        for velocities in super::VELOCITIES {
+            let qd = velocities.map(|x| Big::from_f64(x).unwrap());
+            let arm = at_speed(&qd);
+            let q = position.map(|(q, turns)| {
+                let (sin, cos) = big(q).sin_cos();
+                match turns {
+                    true => JointPosition::Revolute(SinCosPair { sin, cos }),
+                    false => JointPosition::Prismatic(big(q)),
+                }
+            });
+            assert_eq!(arm.links[1].kind, JointKind::Prismatic);
+            let at = arm.at(&q);
+            let [qdd, tau] = [["2", "-3", "5"], ["3", "-40", "0.5"]].map(|x| x.map(big));
+            let moves = [true; 3];
+            for form in Formulation::ALL {
+                let results = |qd: &[Big; 3]| {
+                    let arm = at_speed(qd);
+                    let tau_of = form.inverse_dynamics(&arm, &at, qd, &qdd);
+                    [tau_of, form.forward_dynamics(&arm, &at, qd, &tau, &moves)]
+                };
+                let found = [
+                    form.torque_by_velocity(&arm, &at, &qd),
+                    form.acceleration_slopes(&arm, &at, &qd, &tau, &moves)[1].clone(),
+                ];
+                let mut expected = [(); 2].map(|()| vec![vec![Big::zero(); 3]; 3]);
+                for k in 0..3 {
+                    let (mut more, mut less) = (qd.clone(), qd.clone());
+                    (more[k], less[k]) = (qd[k].add(&step), qd[k].sub(&step));
+                    let pairs = results(&more).into_iter().zip(results(&less));
+                    for (rows, (more, less)) in expected.iter_mut().zip(pairs) {
+                        for (i, row) in rows.iter_mut().enumerate() {
+                            row[k] = Divide::div(&more[i].sub(&less[i]), &twice);
+                        }
+                    }
+                }
+                for (found, expected) in found.iter().zip(&expected) {
+                    let error = differ(found, expected);
+                    assert!(error < 1e-60, "{form:?} at {velocities:?}: {error:e}");
+                }
+            }
+        }
+    }
+}
