@@ -18,7 +18,8 @@
 //! Joints that are revolute, continuous, prismatic or fixed, their limits (a limit
 //! of zero is none), damping as viscous friction, and rotors where a transmission's
 //! actuator has an inertia and a reduction. A continuous joint has no limits of
-//! position. Coulomb friction is said and left out. Links that are fixed to each
+//! position. Coulomb friction is said, with the
+//! lines that bring it, and left out: a URDF has no width to smooth it over. Links that are fixed to each
 //! other become one; what hangs on a link moves with it. A movable joint beside the
 //! chain must be [locked](Options::lock) or [left away](Options::without), unless it
 //! hangs on the base, which feels nothing. Joints that mimic others, planar and

@@ -92,8 +92,16 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems)
             "the Coulomb friction of joint `{}`, {}, is left out",
             joint.name, friction.text
         );
-        let help = "friction is viscous, of `damping`; add the rest to the torques";
-        problems.note(&friction.span, message, help);
+        let width = match joint.kind {
+            Kind::Prismatic => "0.01, in m/s",
+            _ => "0.01, in rad/s",
+        };
+        let help = format!(
+            "to have it in the torques, give the joint `coulomb = {}` and `coulomb_width = {width}`, \
+             the speed over which its sign is smoothed",
+            number(&friction.value)
+        );
+        problems.note(&friction.span, message, &help);
     }
     let mut limits = Vec::new();
     if let Some(range) = &joint.position {

@@ -91,6 +91,11 @@ fn the_file_says_what_the_urdf_says() {
         (20, "the limit of torque of joint `reach` is 0"),
     ];
     assert_eq!(notes, expected);
+    let help = imported.notes[0].help.as_deref().unwrap_or_default();
+    assert!(
+        help.contains("`coulomb = 0.25` and `coulomb_width = 0.01, in rad/s`"),
+        "{help}"
+    );
 }
 
 /// A locked finger weighs what it weighs, where it is.
