@@ -114,6 +114,10 @@ fn the_mistake_that_was_made_is_named() {
             Box::new(each(|joint| joint.viscous = Rational::default())),
         ),
         (
+            "`coulomb` is left out",
+            Box::new(each(|joint| joint.coulomb = Rational::default())),
+        ),
+        (
             "`armature` is left out",
             Box::new(each(|joint| joint.armature = Rational::default())),
         ),
@@ -130,11 +134,13 @@ fn the_mistake_that_was_made_is_named() {
             }),
         ),
     ] {
-        // Damping and armature that the file has.
+        // Friction and armature that the file has.
         let own = {
             let mut robot = robot("puma560");
             for joint in &mut robot.joints {
                 joint.viscous = Rational::new(1.into(), 3.into());
+                joint.coulomb = Rational::new(5.into(), 2.into());
+                joint.coulomb_width = Rational::new(1.into(), 10.into());
                 joint.armature = Rational::new(1.into(), 7.into());
             }
             robot

@@ -266,6 +266,9 @@ impl Causes {
         self.joints("the robot file's `viscous` is left out", |joint| {
             joint.viscous = Rational::zero();
         });
+        self.joints("the robot file's `coulomb` is left out", |joint| {
+            joint.coulomb = Rational::zero();
+        });
         self.joints("the robot file's `armature` is left out", |joint| {
             joint.armature = Rational::zero();
         });
