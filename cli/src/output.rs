@@ -43,6 +43,7 @@ pub fn counts(counts: &Counts) -> Value {
         "mul": counts.mul,
         "add": counts.add,
         "div": counts.div,
+        "sqrt": counts.sqrt,
         "sincos": counts.sincos,
         "trig_mul": counts.trig_mul,
         "trig_add": counts.trig_add,

@@ -172,15 +172,22 @@ pub fn scene(request: &Request) -> String {
 
 /// The table of operation counts.
 pub fn counts(generated: &Generated) -> String {
-    let head = ["function", "mul", "add", "div", "sincos", "from", "proof"];
-    let mut rows = vec![head.map(String::from).to_vec()];
+    let roots = generated.functions.iter().any(|f| f.counts.sqrt > 0);
+    let root = |cell: String| roots.then_some(cell);
+    let head = ["function", "mul", "add", "div"].map(String::from);
+    let tail = ["sincos", "from", "proof"].map(String::from);
+    let sqrt = root("sqrt".to_owned());
+    let mut rows: Vec<Vec<String>> = vec![head.into_iter().chain(sqrt).chain(tail).collect()];
     for function in &generated.functions {
         let counts = function.counts;
-        rows.push(vec![
+        let mut row = vec![
             function.function.to_string(),
             counts.mul.to_string(),
             counts.add.to_string(),
             counts.div.to_string(),
+        ];
+        row.extend(root(counts.sqrt.to_string()));
+        row.extend([
             counts.sincos.to_string(),
             match function.planned {
                 true => format!("{}, plan", function.source.name()),
@@ -191,6 +198,7 @@ pub fn counts(generated: &Generated) -> String {
                 None => "exact".to_owned(),
             },
         ]);
+        rows.push(row);
     }
     output::table(&rows, 2) + &sines(generated)
 }
