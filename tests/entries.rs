@@ -10,7 +10,8 @@ use dalembert::batch::{self, Function, Slice};
 mod generated;
 use generated::{puma560, puma560_f32};
 
-/// A joint slides, another turns for ever; a struct, a number and a quotient.
+/// A joint slides, another turns for ever, and both have Coulomb friction, whose root
+/// stands where the arithmetic does; a struct, a number and a quotient.
 /// Sums of angles beside the joints' own.
 macro_rules! arm {
     ($name:ident, $($clause:tt)*) => {
@@ -19,8 +20,8 @@ macro_rules! arm {
                 convention: standard;
                 gravity: [0, -9.81, 0];
                 joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-                joint { kind: revolute, a: 1, alpha: pi/2, mass: 2, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-                joint { kind: prismatic, mass: 1, com: [0, 0, 0.1], inertia: [0.1, 0.1, 0.1, 0, 0, 0] }
+                joint { kind: revolute, a: 1, alpha: pi/2, mass: 2, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0], coulomb: 2.5, coulomb_width: 0.01 }
+                joint { kind: prismatic, mass: 1, com: [0, 0, 0.1], inertia: [0.1, 0.1, 0.1, 0, 0, 0], viscous: 3, coulomb: 14, coulomb_width: 1/300 }
             }
             outputs: inverse_dynamics, gravity, manipulator_equation, kinetic_energy, forward_dynamics;
             entries: batch;
@@ -353,6 +354,31 @@ fn all_cores_have_the_same_bits() {
             .unwrap();
         for (k, one) in one.iter().enumerate() {
             assert!([all[0][k], all[1][k], all[2][k]].same(one), "{count}");
+        }
+    }
+}
+
+/// τ of a joint at full speed and at the width of its friction, against the same at
+/// rest: by hand F, F/√2 and b q̇, whoever computes the sines.
+#[test]
+fn friction_is_in_the_torques() {
+    let still = [0.0; 3];
+    let rest = together::inverse_dynamics(&still, &still, &still)[2];
+    let root = std::f64::consts::FRAC_1_SQRT_2;
+    for (qd, expected) in [
+        (100.0, 14.0 + 300.0),
+        (1.0 / 300.0, 14.0 * root + 0.01),
+        (-1.0 / 300.0, -14.0 * root - 0.01),
+        (0.0, 0.0),
+    ] {
+        let qd = [0.0, 0.0, qd];
+        for tau in [
+            together::inverse_dynamics(&still, &qd, &still),
+            alone::inverse_dynamics(&still, &qd, &still),
+            sums::inverse_dynamics(&still, &qd, &still),
+        ] {
+            // 1e-8 of F is what the width takes at 100 m/s.
+            assert!((tau[2] - rest - expected).abs() < 1e-7, "{qd:?}: {tau:?}");
         }
     }
 }

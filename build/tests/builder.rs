@@ -289,3 +289,33 @@ fn bundles_and_traits() {
         "{said}"
     );
 }
+
+/// Roots are called where sines are; a file that has no width is refused by its line.
+#[test]
+fn friction_is_smoothed_where_sines_are() {
+    let folder = folder("coulomb");
+    let path = folder.join("arm.rs");
+    let robot = fs::read_to_string(folder.join("arm.toml")).unwrap();
+    let with = |keys: &str| {
+        let text = robot.replacen("mass =", &format!("{keys}\nmass ="), 1);
+        fs::write(folder.join("arm.toml"), text).unwrap();
+    };
+    let generator = || {
+        let generator = generator(&folder).outputs([Output::InverseDynamics]);
+        generator.math("crate::own")
+    };
+    with("coulomb = 2.5\ncoulomb_width = 0.01");
+    generator().write_to(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let line = "let r1 = 1.0 / crate::own::sqrtf(qd[0] * qd[0] + 0.0001);";
+    assert_eq!(text.matches(line).count(), 1, "{text}");
+    with("coulomb = 2.5");
+    let error = generator().write_to(&path).unwrap_err().to_string();
+    for words in [
+        "Coulomb friction without a `coulomb_width`",
+        "arm.toml:",
+        "in rad/s",
+    ] {
+        assert!(error.contains(words), "{error}");
+    }
+}

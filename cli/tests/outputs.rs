@@ -253,3 +253,60 @@ fn gravity_of(arm: &str) -> [&str; 6] {
         "--save-plan",
     ]
 }
+
+/// A robot file with friction: roots have a column of their own, what cannot be is
+/// refused with the way around, and what is wrong with the keys by its line.
+#[test]
+fn friction_is_counted_or_refused() {
+    let (folder, arm) = arm("coulomb");
+    let robot = fs::read_to_string(&arm).unwrap();
+    let with = |keys: &str| {
+        let text = robot.replacen("mass =", &format!("{keys}\nmass ="), 1);
+        fs::write(&arm, text).unwrap();
+    };
+    with("coulomb = 2.5\ncoulomb_width = 0.01");
+    let counted = run(&["count", &arm, "--outputs", "inverse_dynamics,gravity"]);
+    assert_eq!(counted.code, 0, "{}", counted.err);
+    let lines: Vec<&str> = counted.out.lines().collect();
+    let words = |line: &str| {
+        line.split_whitespace()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        words(lines[2])[..6],
+        ["function", "mul", "add", "div", "sqrt", "sincos"]
+    );
+    assert_eq!(words(lines[3])[3..6], ["1", "1", "2"], "{}", counted.out);
+    assert_eq!(words(lines[4])[3..6], ["0", "0", "2"], "{}", counted.out);
+    let before = names(&folder);
+    let refusals = [
+        (
+            &["--outputs", "regressor"][..],
+            "torques with Coulomb friction are not linear in its parameters",
+        ),
+        (
+            &["--outputs", "inverse_dynamics", "--scene", "rough"][..],
+            "`inverse_dynamics`: it has Coulomb friction in it",
+        ),
+    ];
+    let tolerance = "tolerance = { value = 0.1, relative_to = \"actuator\" }";
+    let text = fs::read_to_string(&arm).unwrap();
+    fs::write(&arm, format!("{text}\n[scene.rough]\n{tolerance}\n")).unwrap();
+    for (arguments, words) in refusals {
+        let ran = run(&[&["generate", &arm][..], arguments].concat());
+        refused(&ran, words, &folder, &before);
+    }
+    for (keys, words) in [
+        (
+            "coulomb = 2.5",
+            "Coulomb friction without a `coulomb_width`",
+        ),
+        ("coulomb = -1\ncoulomb_width = 1", "coulomb is negative"),
+    ] {
+        with(keys);
+        let ran = run(&["generate", &arm]);
+        refused(&ran, words, &folder, &before);
+        assert!(ran.err.contains("arm.toml:"), "{}", ran.err);
+    }
+}
