@@ -291,7 +291,9 @@ fn friction_is_counted_or_refused() {
         ),
     ];
     let tolerance = "tolerance = { value = 0.1, relative_to = \"actuator\" }";
+    let limits = "limits = { velocity = 2, acceleration = 9, torque = 90, ";
     let text = fs::read_to_string(&arm).unwrap();
+    let text = text.replace("limits = {", limits);
     fs::write(&arm, format!("{text}\n[scene.rough]\n{tolerance}\n")).unwrap();
     for (arguments, words) in refusals {
         let ran = run(&[&["generate", &arm][..], arguments].concat());
