@@ -9,7 +9,7 @@ use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan;
 use dalembert_codegen::program::{
     AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output,
-    ScalarType, Step,
+    ScalarType, Speed, Step,
 };
 use dalembert_codegen::sincos::SinCos;
 use dalembert_report::processor::estimate::Estimate;
@@ -46,6 +46,7 @@ fn text(steps: &[(Operation, Term, Term)], outputs: &[(bool, Term)]) -> Lowered 
         scalar: ScalarType::F32,
         library: Library::Libm,
         trig: Vec::new(),
+        speeds: Vec::new(),
         steps: steps.collect(),
         outputs: outputs.collect(),
     }
@@ -134,6 +135,33 @@ fn alive_deep_and_paired_by_hand() {
     let path = &footprint.path;
     assert!(path.calls.is_empty());
     assert_eq!((path.f64(), path.branches()), ("none", "none"));
+}
+
+/// q̇ r by r = 1/√(q̇² + w²): a square, a sum, a root by libm, a quotient, a product. The
+/// chain begins behind the call: the quotient and the product.
+#[test]
+fn roots_are_calls() {
+    let rubs = Lowered {
+        speeds: vec![Speed {
+            joint: 0,
+            square: Literal(0.25),
+        }],
+        ..text(
+            &[(
+                Mul,
+                Operand::Input(Input::Entry(Argument::Velocity, 0)),
+                Operand::Input(Input::PerSpeed(0)),
+            )],
+            &[(false, t(1))],
+        )
+    };
+    let (footprint, estimate) = of(&rubs, &FOUR);
+    assert_eq!(footprint.operations(), 4);
+    assert_eq!(footprint.depth, 2);
+    assert_eq!(estimate.cycles, 10 + 3);
+    let calls: Vec<String> = footprint.path.calls.iter().map(|c| c.to_string()).collect();
+    assert_eq!(calls, ["libm::sqrtf"]);
+    assert!(footprint.path.branches().starts_with("in libm"));
 }
 
 /// With four registers nothing goes to the stack: three loads, five operations, a

@@ -24,7 +24,7 @@ pub fn of(generated: &Generated, named: &[&'static Target]) -> Vec<Footprint> {
 
 /// The model in a few lines; the guide's page on real time has the rest.
 const MODEL: &str = "
-mul, add, div: with those of polynomials; there are no square roots
+mul, add, div: with those of polynomials; square roots are calls
 alive: the greatest number of values alive at once, of those that are computed
 depth: the longest chain of operations; parallel: operations for each of it
 pairs: products that one sum alone reads; so many instructions fewer where a compiler

@@ -29,7 +29,8 @@ pub enum Deed {
     Operation(Operation),
     /// The other sign.
     Negation,
-    /// A call of a function of the library: an angle, its sine, its cosine or both.
+    /// A call of a function of the library: an angle, its sine, its cosine or both;
+    /// a square, its root.
     Call,
     /// A call of one for all angles, which are put into an array.
     CallTogether,
@@ -62,6 +63,7 @@ impl Flat {
     pub fn of(text: &Lowered) -> Flat {
         let mut writer = Writer::default();
         writer.sines(text);
+        writer.speeds(text);
         writer.steps(text);
         writer.flat
     }
@@ -211,6 +213,21 @@ impl Writer {
         }
         // An angle is the sum of one joint's at least.
         sum.unwrap_or_default()
+    }
+
+    /// One over the root of a velocity's square and a width's, for Coulomb friction.
+    fn speeds(&mut self, text: &Lowered) {
+        for speed in &text.speeds {
+            let qd = self.input(Input::Entry(Argument::Velocity, speed.joint));
+            let own = self.operation(Operation::Mul, qd, qd);
+            let width = self.constant(speed.square);
+            let sum = self.operation(Operation::Add, own, width);
+            let root = self.value(Home::Computed);
+            self.item(Deed::Call, vec![sum], vec![root]);
+            let one = self.constant(Literal(1.0));
+            let inverse = self.operation(Operation::Div, one, root);
+            self.inputs.insert(Input::PerSpeed(speed.joint), inverse);
+        }
     }
 
     fn polynomials(&mut self, trig: &LoweredTrig, angle: usize, kernel: &Kernel) {

@@ -26,6 +26,8 @@ pub struct HotPath {
     pub calls: Vec<Call>,
     /// Whose sines, if any are called.
     pub library: Option<Library>,
+    /// Whether libm's square roots are called, for Coulomb friction.
+    pub roots: bool,
 }
 
 impl HotPath {
@@ -55,6 +57,10 @@ impl HotPath {
                 }
             }
         }
+        calls.push(Call {
+            name: format!("libm::sqrt{suffix}"),
+            times: text.speeds.len(),
+        });
         if text.steps.len() > LONG {
             calls.push(Call {
                 name: "part".to_owned(),
@@ -66,12 +72,14 @@ impl HotPath {
             scalar: text.scalar,
             calls,
             library,
+            roots: !text.speeds.is_empty(),
         }
     }
 
     /// Where it branches.
     pub fn branches(&self) -> &'static str {
         match (self.library, self.scalar) {
+            (None, _) if self.roots => "in libm, where it has no instruction for roots",
             (None, _) => "none",
             (Some(Library::Libm), _) => "in libm",
             (Some(Library::Together), ScalarType::F64) => "one: angles beyond 8192 rad",
