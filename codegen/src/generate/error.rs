@@ -4,8 +4,10 @@ use std::fmt;
 
 use super::parameters::ParameterError;
 use crate::approximate::choose::ToleranceError;
+use crate::backend::read::TextError;
 use crate::certificate::Refuted;
 use crate::function::Function;
+use crate::program::Difference;
 use crate::program::ScalarType;
 use crate::scene::SettingError;
 use crate::scene::base::NoBase;
@@ -69,7 +71,7 @@ pub enum GenerateError {
     /// zero that is none.
     Vanishing(Function, String),
     /// The printed text is not the program: a defect of this library.
-    Text(Function, ScalarType, String),
+    Text(Function, ScalarType, TextDefect),
     /// The code was proved, and is wrong all the same at a state where it was
     /// run: a defect of this library, or a proof that was aimed at.
     Contradicted {
@@ -175,3 +177,29 @@ impl fmt::Display for GenerateError {
 }
 
 impl std::error::Error for GenerateError {}
+
+/// Why a printed text is not the program: a defect of this library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TextDefect {
+    /// Its module is not there.
+    NoModule,
+    /// It cannot be read back.
+    Unreadable(TextError),
+    /// What was read back is another program.
+    Differs(Difference),
+    /// What was read back costs something else.
+    Counts,
+}
+
+impl fmt::Display for TextDefect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TextDefect::NoModule => f.write_str("its module is not in the text"),
+            TextDefect::Unreadable(error) => error.fmt(f),
+            TextDefect::Differs(difference) => difference.fmt(f),
+            TextDefect::Counts => f.write_str("the counts of the text differ"),
+        }
+    }
+}
+
+impl std::error::Error for TextDefect {}

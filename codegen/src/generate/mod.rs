@@ -28,7 +28,6 @@ use dalembert_model::robot::Robot;
 
 pub use crate::approximate::choose::{ToleranceError, Unbounded};
 use crate::backend::entries::angles::Angles;
-use crate::backend::read::TextError;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
@@ -41,7 +40,7 @@ use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
-pub use error::GenerateError;
+pub use error::{GenerateError, TextDefect};
 use range::{check_constants, vanishing, warn_of_overflow};
 pub use request::{Prefer, Request};
 use search::{found, replay};
@@ -272,8 +271,8 @@ fn read_back(
     request: &Request,
     angles: &Angles,
 ) -> Result<Emitted, GenerateError> {
-    let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
-    let section = section.ok_or_else(|| fail("its module is not in the text".into()))?;
+    let fail = |why| GenerateError::Text(generated.function, scalar, why);
+    let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
     let (function, entries) = (generated.function, request.entries);
     let read = Lowered::parse_entries(
         section,
@@ -283,12 +282,12 @@ fn read_back(
         angles,
         generated.program.sizes(),
     )
-    .map_err(|error: TextError| fail(error.to_string()))?;
+    .map_err(|error| fail(TextDefect::Unreadable(error)))?;
     let library = request.math.library;
     read.matches(&generated.program, library, generated.sines(scalar))
-        .map_err(fail)?;
+        .map_err(|difference| fail(TextDefect::Differs(difference)))?;
     if read.counts() != generated.counts_in(scalar) {
-        return Err(fail("the counts of the text differ".into()));
+        return Err(fail(TextDefect::Counts));
     }
     Ok(Emitted {
         function: generated.function,

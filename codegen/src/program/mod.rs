@@ -5,7 +5,7 @@
 //! - [`scalar_type`]: the floats that code is printed in; constants rounded once
 //! - [`counts`]: what a program costs
 //! - `lowered`: the same over literals: each constant rounded once, sines by a
-//!   library or by the polynomials of a [`kernel`]
+//!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
@@ -16,6 +16,7 @@
 pub mod adjoint;
 pub mod columns;
 pub mod counts;
+mod difference;
 mod evaluate;
 pub mod input;
 pub mod kernel;
@@ -33,6 +34,7 @@ use dalembert_model::number::Exact;
 
 use crate::function::{Argument, Columns, Function, Sizes};
 pub use counts::Counts;
+pub use difference::Difference;
 pub use evaluate::evaluate;
 pub use input::{AngleSum, Input};
 pub use library::Library;

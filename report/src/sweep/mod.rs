@@ -11,6 +11,7 @@ pub mod rungs;
 
 use std::fmt;
 
+use dalembert_codegen::backend::read::TextError;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::program::{Counts, ScalarType};
 use dalembert_codegen::sincos;
@@ -137,7 +138,7 @@ pub fn mark(points: &mut [Point]) {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SweepError {
     /// A variant's text cannot be run.
-    Text(String),
+    Text(TextError),
     /// A kept rung cannot be used, or not be kept.
     Rung(String),
 }
@@ -145,7 +146,8 @@ pub enum SweepError {
 impl fmt::Display for SweepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            SweepError::Text(why) | SweepError::Rung(why) => f.write_str(why),
+            SweepError::Text(error) => error.fmt(f),
+            SweepError::Rung(why) => f.write_str(why),
         }
     }
 }
