@@ -1,8 +1,10 @@
 //! Straight-line code over literals: what is printed, read back and run.
 
+use dalembert_model::number::Exact;
+
 use super::kernel::Kernel;
 use super::{
-    AngleSum, Counts, Library, Literal, Operand, Operation, Output, Program, ScalarType, Step,
+    AngleSum, Counts, Input, Library, Literal, Operation, Output, Program, ScalarType, Step,
 };
 
 /// A program lowered to a scalar: every constant rounded once, and how each
@@ -41,26 +43,17 @@ impl Program {
         scalar: ScalarType,
         kernel: impl Fn(AngleSum) -> Option<&'k Kernel>,
     ) -> Lowered {
-        let operand = |operand: &Operand| match operand {
-            Operand::Input(input) => Operand::Input(*input),
-            Operand::Constant(value) => Operand::Constant(Literal(scalar.round(value))),
-            Operand::Step(index) => Operand::Step(*index),
-        };
+        let rounded = |value: &Exact| Literal(scalar.round(value));
+        let same = |input: &Input| *input;
         let trig = self.trig.iter().map(|trig| LoweredTrig {
             angle: trig.angle,
             sin: trig.sin,
             cos: trig.cos,
             kernel: kernel(trig.angle).cloned(),
         });
-        let steps = self.steps.iter().map(|step| Step {
-            operation: step.operation,
-            left: operand(&step.left),
-            right: operand(&step.right),
-        });
-        let outputs = self.outputs.iter().map(|output| Output {
-            negative: output.negative,
-            value: operand(&output.value),
-        });
+        let steps = self.steps.iter().map(|step| step.map(rounded, same));
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|output| output.map(rounded, same));
         Lowered {
             scalar,
             library: Library::Libm,
@@ -123,7 +116,7 @@ impl Lowered {
 mod tests {
     use super::*;
     use crate::function::Argument;
-    use crate::program::{Input, evaluate};
+    use crate::program::{Operand, evaluate};
 
     fn code() -> Lowered {
         let step = |left, right| Step {

@@ -9,6 +9,7 @@
 //! - [`library`]: who computes the sines that are called
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
+//! - `map`: the same over other constants and inputs
 //! - [`adjoint`]: backwards in any scalar: what a result changes by
 //! - [`text`]: operands and steps as plans and certificates write them
 //! - [`machine`]: floats that run as emitted code does
@@ -24,6 +25,7 @@ pub mod library;
 mod literal;
 mod lowered;
 pub mod machine;
+mod map;
 pub mod run;
 pub mod scalar_type;
 pub mod text;
