@@ -3,11 +3,10 @@
 use std::fmt;
 
 use super::parameters::ParameterError;
+use super::reason::{Contradiction, NoSines, TextDefect};
 use crate::approximate::choose::ToleranceError;
-use crate::backend::read::TextError;
 use crate::certificate::Refuted;
 use crate::function::Function;
-use crate::program::Difference;
 use crate::program::ScalarType;
 use crate::scene::SettingError;
 use crate::scene::base::NoBase;
@@ -49,7 +48,7 @@ pub enum GenerateError {
         value: String,
     },
     /// No polynomial gives a sine as exactly as was wanted.
-    SinCos(Function, String),
+    SinCos(Function, NoSines),
     /// A function would be too large to compile.
     TooLarge {
         /// Which function.
@@ -80,7 +79,7 @@ pub enum GenerateError {
         /// Its scalar.
         scalar: ScalarType,
         /// What was seen.
-        why: String,
+        why: Contradiction,
     },
     /// The base parameters cannot be written down.
     Base(Function, NoBase),
@@ -177,29 +176,3 @@ impl fmt::Display for GenerateError {
 }
 
 impl std::error::Error for GenerateError {}
-
-/// Why a printed text is not the program: a defect of this library.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum TextDefect {
-    /// Its module is not there.
-    NoModule,
-    /// It cannot be read back.
-    Unreadable(TextError),
-    /// What was read back is another program.
-    Differs(Difference),
-    /// What was read back costs something else.
-    Counts,
-}
-
-impl fmt::Display for TextDefect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            TextDefect::NoModule => f.write_str("its module is not in the text"),
-            TextDefect::Unreadable(error) => error.fmt(f),
-            TextDefect::Differs(difference) => difference.fmt(f),
-            TextDefect::Counts => f.write_str("the counts of the text differ"),
-        }
-    }
-}
-
-impl std::error::Error for TextDefect {}

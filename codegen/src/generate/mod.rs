@@ -8,7 +8,7 @@
 //! - `contradiction`: what was proved, tried
 //! - [`parameters`]: which parameters can be arguments
 //! - `range`: what a scalar cannot hold
-//! - [`error`]: why nothing was generated
+//! - [`error`]: why nothing was generated; [`reason`]: what it says of that
 
 mod contradiction;
 pub mod early;
@@ -17,6 +17,7 @@ pub mod in_scene;
 pub mod keep;
 pub mod parameters;
 mod range;
+pub mod reason;
 pub mod request;
 #[doc(hidden)]
 pub mod search;
@@ -40,8 +41,9 @@ use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
-pub use error::{GenerateError, TextDefect};
+pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
+pub use reason::{NoSines, TextDefect};
 pub use request::{Prefer, Request};
 use search::{found, replay};
 
@@ -255,11 +257,11 @@ fn sines(
         return Ok(Vec::new());
     }
     let error = error.unwrap_or(SinCos::ERROR);
-    let fail = |why: String| GenerateError::SinCos(generated.function, why);
+    let fail = |why| GenerateError::SinCos(generated.function, NoSines::TooAccurate(why));
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setting.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        Ok((scalar, sines.map_err(|why| fail(why.to_string()))?))
+        Ok((scalar, sines.map_err(fail)?))
     });
     all.collect()
 }
