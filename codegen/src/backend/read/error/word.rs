@@ -136,7 +136,7 @@ impl Kind {
     }
 
     /// A word that is none of these.
-    pub(in crate::backend::read) fn not(self, word: &str) -> WordFault {
+    pub fn not(self, word: &str) -> WordFault {
         WordFault::Not(word.to_owned(), self)
     }
 }
