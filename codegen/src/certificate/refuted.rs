@@ -133,7 +133,7 @@ pub enum Refuted {
         found: Split,
     },
     /// The text is as printed, but cannot be read: a defect of this library.
-    Unreadable(TextError),
+    Unreadable(Box<TextError>),
     /// Where the text was run, it errs more than is claimed.
     Ran {
         /// The output's name.

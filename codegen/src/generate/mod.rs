@@ -257,7 +257,7 @@ fn sines(
         return Ok(Vec::new());
     }
     let error = error.unwrap_or(SinCos::ERROR);
-    let fail = |why| GenerateError::SinCos(generated.function, NoSines::TooAccurate(why));
+    let fail = |why| GenerateError::SinCos(generated.function, NoSines::TooAccurate(Box::new(why)));
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setting.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
@@ -284,7 +284,7 @@ fn read_back(
         angles,
         generated.program.sizes(),
     )
-    .map_err(|error| fail(TextDefect::Unreadable(error)))?;
+    .map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
     let library = request.math.library;
     read.matches(&generated.program, library, generated.sines(scalar))
         .map_err(|difference| fail(TextDefect::Differs(difference)))?;

@@ -15,7 +15,7 @@ pub enum TextDefect {
     /// Its module is not there.
     NoModule,
     /// It cannot be read back.
-    Unreadable(TextError),
+    Unreadable(Box<TextError>),
     /// What was read back is another program.
     Differs(Difference),
     /// What was read back costs something else.
@@ -40,11 +40,11 @@ impl std::error::Error for TextDefect {}
 #[non_exhaustive]
 pub enum NoSines {
     /// None gives them as exactly as was wanted.
-    TooAccurate(TooAccurate),
+    TooAccurate(Box<TooAccurate>),
     /// An error was given for them in a scene with a tolerance, which decides.
     Decided,
     /// None is within the scene's tolerance.
-    Tolerance(NoPolynomials),
+    Tolerance(Box<NoPolynomials>),
 }
 
 impl fmt::Display for NoSines {

@@ -195,7 +195,7 @@ fn one(
                 let exact = frame.unedited(scalars, fineness);
                 all(&exact).map(|certificates| (exact, certificates))
             });
-            let fail = |why| GenerateError::SinCos(function, NoSines::Tolerance(why));
+            let fail = |why| GenerateError::SinCos(function, NoSines::Tolerance(Box::new(why)));
             let (admitted, certificates) = found.map_err(fail)?;
             Admitted {
                 certificates,

@@ -259,7 +259,7 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
         let text = Lowered::parse(&certificate.text, function, scalar).map_err(|error| {
-            GenerateError::Text(function, scalar, TextDefect::Unreadable(error))
+            GenerateError::Text(function, scalar, TextDefect::Unreadable(Box::new(error)))
         })?;
         Ok(Row {
             step: SearchStep::Tolerance,
