@@ -132,6 +132,7 @@ fn the_text_is_read_back_field_by_field() {
     let read = |text: &str| {
         let read = Lowered::parse(text, loads, ScalarType::F64).map_err(|e| e.to_string())?;
         read.matches(program, Library::Libm, &[])
+            .map_err(|difference| difference.to_string())
     };
     let text = &generated.text;
     assert_eq!(read(text), Ok(()));

@@ -159,7 +159,7 @@ fn a_plan_keeps_the_least_eigenvalue() {
         let line = format!("\n{line}\n# ");
         let worse = text.replacen("\neigenvalue ", &line, 1);
         let error = Plan::parse(&worse).unwrap_err();
-        assert!(error.message.contains(words), "{line}: {error}");
+        assert!(error.to_string().contains(words), "{line}: {error}");
     }
 }
 

@@ -73,6 +73,7 @@ fn a_text_with_other_sines_is_not_the_function() {
     let matches = |text: &str| {
         let read = Lowered::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
         read.matches(&function.program, Library::Libm, function.sines(scalar))
+            .map_err(|difference| difference.to_string())
     };
     assert_eq!(matches(&generated.text), Ok(()));
     let block = generated.text.find("let (s1, c1) = {").unwrap();

@@ -4,7 +4,7 @@
 use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::run::State;
-use dalembert_codegen::program::{Library, Lowered, ScalarType};
+use dalembert_codegen::program::{Difference, Library, Lowered, ScalarType};
 
 use crate::support;
 
@@ -22,7 +22,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 
 fn read(text: &str) -> Result<Lowered, (usize, String)> {
     Lowered::parse(text, Function::Gravity, ScalarType::F64)
-        .map_err(|error| (error.line, error.message))
+        .map_err(|error| (error.line, error.fault.to_string()))
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn all_angles_together_are_read() {
     let (alone, together) = (read(TEXT).unwrap(), read(&together()).unwrap());
     assert_eq!(together, alone.clone().calling(Library::Together));
     let differ = alone.difference(&together);
-    assert_eq!(differ.as_deref(), Some("the libraries of sines differ"));
+    assert_eq!(differ, Some(Difference::Library));
     assert_eq!(together.counts(), alone.counts());
     let q = [0.3f64, 1.1];
     let ([s1, _], [c1, c1p2]) = dalembert_sines::sincos(&[q[0], q[0] + q[1]]);

@@ -315,6 +315,7 @@ fn unknown_keys_are_errors_with_the_likely_word() {
         let FileError::Content(error) = read(file(keys).as_bytes(), 2).unwrap_err() else {
             panic!("{keys}");
         };
+        let error = error.to_string();
         assert!(
             error.starts_with("state 1: ") && error.contains(meant),
             "{keys}: {error}"

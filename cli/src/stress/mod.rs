@@ -115,7 +115,8 @@ fn text(robot: &Robot, rows: &[Row]) -> String {
                 );
             }
             Verdict::OutOfRange => {
-                let reason = row.reason.as_deref().unwrap_or_default();
+                let reason = row.reason.as_ref();
+                let reason = reason.map_or_else(String::new, ToString::to_string);
                 text += &format!("\nout of range: {place}: {reason}\n");
             }
         }
@@ -147,7 +148,7 @@ fn json(robot: &Robot, rows: &[Row]) -> Value {
             "condition_scaled": row.condition.scaled,
             "singular": row.condition.singular,
             "verdict": word(row.verdict).to_lowercase(),
-            "reason": row.reason,
+            "reason": row.reason.as_ref().map(ToString::to_string),
         })
     });
     json!({

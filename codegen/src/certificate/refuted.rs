@@ -5,6 +5,7 @@ use std::fmt;
 use dalembert_model::scene::Scale;
 
 use super::work::TooMuch;
+use crate::backend::read::error::TextError;
 use crate::bound::definite::Indefinite;
 use crate::bound::ranges::Finding;
 use crate::edits::BadEdit;
@@ -135,7 +136,7 @@ pub enum Refuted {
         found: Split,
     },
     /// The text is as printed, but cannot be read: a defect of this library.
-    Unreadable(String),
+    Unreadable(Box<TextError>),
     /// Where the text was run, it errs more than is claimed.
     Ran {
         /// The output's name.

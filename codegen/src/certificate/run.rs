@@ -55,7 +55,7 @@ pub(super) fn check_at(
 ) -> Result<Ran, Refuted> {
     let function = certificate.emitted.function;
     let text = Lowered::parse(&certificate.text, function, certificate.scalar)
-        .map_err(|error| Refuted::Unreadable(error.to_string()))?;
+        .map_err(|error| Refuted::Unreadable(Box::new(error)))?;
     let reference = Reference::new(setting);
     let mut random = Random::new(seed(certificate));
     let bounds = certificate.bounds.iter().zip(&certificate.scales);

@@ -9,7 +9,7 @@ use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use crate::plan::{self, Plan};
+use crate::plan::{self, Plan, PlanFileError};
 
 /// A robot file that was read.
 #[derive(Clone, Debug)]
@@ -88,8 +88,8 @@ pub enum RobotFileError {
         /// What the system says.
         error: String,
     },
-    /// The plan beside it cannot be read; the message names the file.
-    Plan(String),
+    /// The plan beside it cannot be read.
+    Plan(PlanFileError),
     /// It is not a robot.
     Wrong {
         /// The path as messages show it.
@@ -124,7 +124,7 @@ impl RobotFileError {
                 };
                 vec![format!("there is no file `{shown}`{help}")]
             }
-            RobotFileError::Plan(message) => vec![message.clone()],
+            RobotFileError::Plan(error) => vec![error.to_string()],
             RobotFileError::Unreadable { shown, error } => {
                 vec![format!("cannot read `{shown}`: {error}")]
             }

@@ -8,7 +8,7 @@ use dalembert_model::read::{closest, for_bundle};
 
 use crate::backend::Entries;
 use crate::emit::Interface;
-use crate::function::Function;
+use crate::function::{BundleError, Function};
 use crate::generate::Prefer;
 use crate::portfolio::Start;
 use crate::program::ScalarType;
@@ -132,14 +132,27 @@ pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
 ///
 /// assert_eq!(bundle("still=inertia+gravity").unwrap().name(), "still");
 /// let error = bundle("still=inertia+gravty").unwrap_err();
-/// assert_eq!(error, "unknown output `gravty`: did you mean `gravity`?");
+/// assert_eq!(error.to_string(), "unknown output `gravty`: did you mean `gravity`?");
 /// ```
 ///
 /// # Errors
 /// What is wrong with it, and the likely fix.
-pub fn bundle(text: &str) -> Result<Function, String> {
-    Function::parse(text).map_err(|error| format!("{}: {}", error.message(), for_bundle(&error)))
+pub fn bundle(text: &str) -> Result<Function, NoBundle> {
+    Function::parse(text).map_err(NoBundle)
 }
+
+/// Why a text makes no bundle. Other than the error by itself, it says which
+/// output was probably meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoBundle(pub BundleError);
+
+impl fmt::Display for NoBundle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.0.message(), for_bundle(&self.0))
+    }
+}
+
+impl std::error::Error for NoBundle {}
 
 /// A word that names nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,6 +5,7 @@
 //! against the robot's own recursion in 256 bits. How far it may be off follows
 //! from its own numbers ([`running`]); with a tolerance, from its certificate.
 
+use super::reason::Contradiction;
 use crate::certificate::Refuted;
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;
@@ -39,7 +40,7 @@ pub(super) fn check(
                     Refuted::Ran { .. } => GenerateError::Contradicted {
                         function: generated.function,
                         scalar: certificate.scalar,
-                        why: why.to_string(),
+                        why: Contradiction::Certificate(Box::new(why)),
                     },
                     other => GenerateError::Variant(generated.function, other),
                 })?;
@@ -89,9 +90,10 @@ fn contradicted(
     GenerateError::Contradicted {
         function: generated.function,
         scalar,
-        why: format!(
-            "{entry} is {error:.3e} off the robot's own recursion, and rounding is no more than \
-             {bound:.3e}"
-        ),
+        why: Contradiction::Recursion {
+            entry: entry.to_owned(),
+            error,
+            bound,
+        },
     }
 }

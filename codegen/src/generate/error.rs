@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::parameters::ParameterError;
+use super::reason::{Contradiction, NoSines, TextDefect};
 use crate::approximate::choose::ToleranceError;
 use crate::certificate::Refuted;
 use crate::function::Function;
@@ -47,7 +48,7 @@ pub enum GenerateError {
         value: String,
     },
     /// No polynomial gives a sine as exactly as was wanted.
-    SinCos(Function, String),
+    SinCos(Function, NoSines),
     /// A function would be too large to compile.
     TooLarge {
         /// Which function.
@@ -69,7 +70,7 @@ pub enum GenerateError {
     /// zero that is none.
     Vanishing(Function, String),
     /// The printed text is not the program: a defect of this library.
-    Text(Function, ScalarType, String),
+    Text(Function, ScalarType, TextDefect),
     /// The code was proved, and is wrong all the same at a state where it was
     /// run: a defect of this library, or a proof that was aimed at.
     Contradicted {
@@ -78,7 +79,7 @@ pub enum GenerateError {
         /// Its scalar.
         scalar: ScalarType,
         /// What was seen.
-        why: String,
+        why: Contradiction,
     },
     /// The base parameters cannot be written down.
     Base(Function, NoBase),

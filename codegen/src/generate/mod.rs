@@ -8,7 +8,7 @@
 //! - `contradiction`: what was proved, tried
 //! - [`parameters`]: which parameters can be arguments
 //! - `range`: what a scalar cannot hold
-//! - [`error`]: why nothing was generated
+//! - [`error`]: why nothing was generated; [`reason`]: what it says of that
 
 mod contradiction;
 pub mod early;
@@ -17,6 +17,7 @@ pub mod in_scene;
 pub mod keep;
 pub mod parameters;
 mod range;
+pub mod reason;
 pub mod request;
 #[doc(hidden)]
 pub mod search;
@@ -28,7 +29,6 @@ use dalembert_model::robot::Robot;
 
 pub use crate::approximate::choose::{ToleranceError, Unbounded};
 use crate::backend::entries::angles::Angles;
-use crate::backend::read::TextError;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
@@ -44,6 +44,7 @@ use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
+pub use reason::{NoSines, TextDefect};
 pub use request::{Prefer, Request};
 use search::{found, replay};
 
@@ -265,11 +266,11 @@ fn sines(
         return Ok(Vec::new());
     }
     let error = error.unwrap_or(SinCos::ERROR);
-    let fail = |why: String| GenerateError::SinCos(generated.function, why);
+    let fail = |why| GenerateError::SinCos(generated.function, NoSines::TooAccurate(Box::new(why)));
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setting.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        Ok((scalar, sines.map_err(|why| fail(why.to_string()))?))
+        Ok((scalar, sines.map_err(fail)?))
     });
     all.collect()
 }
@@ -281,8 +282,8 @@ fn read_back(
     request: &Request,
     angles: &Angles,
 ) -> Result<Emitted, GenerateError> {
-    let fail = |why: String| GenerateError::Text(generated.function, scalar, why);
-    let section = section.ok_or_else(|| fail("its module is not in the text".into()))?;
+    let fail = |why| GenerateError::Text(generated.function, scalar, why);
+    let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
     let (function, entries) = (generated.function, request.entries);
     let read = Lowered::parse_entries(
         section,
@@ -292,12 +293,12 @@ fn read_back(
         angles,
         generated.program.sizes(),
     )
-    .map_err(|error: TextError| fail(error.to_string()))?;
+    .map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
     let library = request.math.library;
     read.matches(&generated.program, library, generated.sines(scalar))
-        .map_err(fail)?;
+        .map_err(|difference| fail(TextDefect::Differs(difference)))?;
     if read.counts() != generated.counts_in(scalar) {
-        return Err(fail("the counts of the text differ".into()));
+        return Err(fail(TextDefect::Counts));
     }
     Ok(Emitted {
         function: generated.function,

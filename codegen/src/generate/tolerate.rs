@@ -12,7 +12,7 @@ use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
 use crate::function::Function;
-use crate::generate::{GenerateError, GeneratedFunction, Request};
+use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request};
 use crate::plan::Edited;
 use crate::portfolio::Start;
 use crate::program::{Program, ScalarType};
@@ -68,8 +68,8 @@ pub fn admitted<'p>(
     if matches!(request.sincos, SinCos::Polynomial { error: Some(_) })
         && let Some(program) = programs.first()
     {
-        let why = "a scene's tolerance decides how exact its sines are: give no error for them";
-        return Err(GenerateError::SinCos(program.function, why.into()));
+        let why = NoSines::Decided;
+        return Err(GenerateError::SinCos(program.function, why));
     }
     let frame = |program: &&'p Program| {
         let frame = ErrorBudget::new(setting, program, tolerance.relative_to);
@@ -195,10 +195,8 @@ fn one(
                 let exact = frame.unedited(scalars, fineness);
                 all(&exact).map(|certificates| (exact, certificates))
             });
-            let (admitted, certificates) = found.map_err(|why| {
-                let why = format!("no polynomials for its sines within the tolerance: {why}");
-                GenerateError::SinCos(function, why)
-            })?;
+            let fail = |why| GenerateError::SinCos(function, NoSines::Tolerance(Box::new(why)));
+            let (admitted, certificates) = found.map_err(fail)?;
             Admitted {
                 certificates,
                 ..admitted

@@ -7,15 +7,18 @@
 //!
 //! - this file: [`Plan`]: its entries and how one is found
 //! - [`mod@file`]: where it is kept
+//! - [`error`]: why one cannot be read
 //! - [`parse`], [`write`](Plan::write): the text; `variant` reads what a
 //!   tolerance left of a program
 
+pub mod error;
 pub mod file;
 pub mod parse;
 mod variant;
 pub(crate) mod write;
 
-pub use parse::PlanError;
+pub use error::{PlanError, PlanFault};
+pub use file::PlanFileError;
 
 use crate::edits;
 use crate::function::Function;

@@ -1,10 +1,9 @@
 //! Reads a plan. Whatever the text says, the program is proved before use;
 //! reading only makes sure that it is one.
 
-use std::fmt;
-
 use dalembert_model::robot::Robot;
 
+use super::error::{PlanError, PlanFault};
 use super::variant::Variant;
 use super::{Entry, Plan};
 use crate::function::{BundleError, Function};
@@ -13,23 +12,6 @@ use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
 use crate::scene::SceneKey;
 use crate::simplify::Stage;
-
-/// What is wrong with a plan's text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PlanError {
-    /// One-based line.
-    pub line: usize,
-    /// What is wrong and what was expected.
-    pub message: String,
-}
-
-impl fmt::Display for PlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.message)
-    }
-}
-
-impl std::error::Error for PlanError {}
 
 /// The longest plan that is read.
 pub const MAX_BYTES: usize = 64 << 20;
@@ -41,20 +23,19 @@ impl Plan {
     /// The first line that is not as [`Plan::write`] writes it.
     pub fn parse(text: &str) -> Result<Plan, PlanError> {
         if text.len() > MAX_BYTES {
-            let message = format!("the plan is longer than {MAX_BYTES} bytes");
-            return Err(PlanError { line: 1, message });
+            let fault = PlanFault::TooLong(MAX_BYTES);
+            return Err(PlanError { line: 1, fault });
         }
         let mut reader = Reader::default();
         for (index, line) in text.lines().enumerate() {
-            reader.line(line.trim()).map_err(|message| PlanError {
-                line: index + 1,
-                message,
-            })?;
+            let read = reader.line(line.trim());
+            let line = index + 1;
+            read.map_err(|fault| PlanError { line, fault })?;
         }
         let end = text.lines().count().max(1);
         reader
             .finish()
-            .map_err(|message| PlanError { line: end, message })
+            .map_err(|fault| PlanError { line: end, fault })
     }
 }
 
@@ -71,7 +52,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn line(&mut self, line: &str) -> Result<(), String> {
+    fn line(&mut self, line: &str) -> Result<(), PlanFault> {
         if line.is_empty() || line.starts_with('#') && !line.contains(' ') {
             return Ok(());
         }
@@ -95,11 +76,11 @@ impl Reader {
         match (words[0], &mut self.open) {
             ("plan", None) => {
                 if words[1..] != ["1"] {
-                    return Err("this version reads plans of version 1".into());
+                    return Err(PlanFault::Version);
                 }
                 self.versioned = true;
             }
-            _ if !self.versioned => return Err("expected `plan 1`".into()),
+            _ if !self.versioned => return Err(PlanFault::NoPlan),
             ("robot", None) => self.robot = words.get(1).map(|&w| w.to_owned()),
             ("input", None) => self.input = words.get(1).map(|&w| w.to_owned()),
             ("program", None) => self.open = Some(program(&words[1..])?),
@@ -113,31 +94,34 @@ impl Reader {
                 let step = read_step(&words, &entry.program)?;
                 entry.program.steps.push(step);
             }
-            (word, None) => return Err(format!("expected `program`, found `{word}`")),
+            (word, None) => return Err(PlanFault::NoProgram(word.to_owned())),
         }
         Ok(())
     }
 
-    fn finish(self) -> Result<Plan, String> {
+    fn finish(self) -> Result<Plan, PlanFault> {
         if self.open.is_some() {
-            return Err("the last program has no `return`".into());
+            return Err(PlanFault::Unreturned);
         }
         if self.variant.is_some() {
-            return Err("the last variant has not a `bound` for every result".into());
+            return Err(PlanFault::Unbounded);
         }
         Ok(Plan {
-            robot: self.robot.ok_or("there is no line `robot`")?,
-            input: self.input.ok_or("there is no line `input`")?,
+            robot: self.robot.ok_or(PlanFault::Missing("robot"))?,
+            input: self.input.ok_or(PlanFault::Missing("input"))?,
             entries: self.entries,
         })
     }
 }
 
-fn program(words: &[&str]) -> Result<Entry, String> {
+fn program(words: &[&str]) -> Result<Entry, PlanFault> {
     let &[function, start, scalar, source, joints] = words else {
-        return Err("expected a function, formulation, scalar, source and n".into());
+        return Err(PlanFault::Head);
     };
-    let unknown = |what: &str, word: &str| format!("`{word}` is no {what}");
+    let unknown = |what, word: &str| {
+        let word = word.to_owned();
+        PlanFault::Unknown { what, word }
+    };
     let joints = joints
         .parse()
         .ok()
@@ -145,7 +129,7 @@ fn program(words: &[&str]) -> Result<Entry, String> {
         .ok_or_else(|| unknown("number of joints", joints))?;
     let function = Function::parse(function).map_err(|error| match error {
         BundleError::Unknown(name) => unknown("function", &name),
-        error => error.message(),
+        error => PlanFault::Bundle(error),
     })?;
     Ok(Entry {
         scene: None,
@@ -170,13 +154,13 @@ fn program(words: &[&str]) -> Result<Entry, String> {
 }
 
 /// `scene NAME HASH ROWS ARGUMENTS`: what a scene leaves of the program.
-fn scene(words: &[&str], entry: &mut Entry) -> Result<(), String> {
+fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
     let &[name, hash, rows, arguments] = words else {
-        return Err("expected a scene's name, hash, rows and arguments".into());
+        return Err(PlanFault::Scene);
     };
     let program = &mut entry.program;
     if !program.steps.is_empty() {
-        return Err("the scene comes before the steps".into());
+        return Err(PlanFault::LateScene);
     }
     let row = |word: &str| {
         let number = word.parse::<usize>().ok()?.checked_sub(1)?;
@@ -185,7 +169,7 @@ fn scene(words: &[&str], entry: &mut Entry) -> Result<(), String> {
     let rows: Option<Vec<usize>> = rows.split(',').map(row).collect();
     program.rows = rows
         .filter(|rows| rows.len() <= program.joints)
-        .ok_or("expected joints such as `1,2,3`")?;
+        .ok_or(PlanFault::Rows)?;
     program
         .arguments
         .retain(|a| arguments.split(',').any(|word| word == a.name()));
@@ -196,17 +180,16 @@ fn scene(words: &[&str], entry: &mut Entry) -> Result<(), String> {
     Ok(())
 }
 
-fn stage(words: &[&str]) -> Result<Stage, String> {
-    let expected = || "expected a stage and four counts".to_owned();
-    let (name, counts) = words.split_first().ok_or_else(expected)?;
+fn stage(words: &[&str]) -> Result<Stage, PlanFault> {
+    let (name, counts) = words.split_first().ok_or(PlanFault::Stage)?;
     let counts: Vec<usize> = counts.iter().filter_map(|word| word.parse().ok()).collect();
     let &[mul, add, div, sincos] = counts.as_slice() else {
-        return Err(expected());
+        return Err(PlanFault::Stage);
     };
     let name = Stage::NAMES
         .into_iter()
         .find(|known| known == name)
-        .ok_or_else(|| format!("`{name}` is no stage"))?;
+        .ok_or_else(|| PlanFault::NoStage((*name).to_owned()))?;
     Ok(Stage {
         name,
         counts: Counts {

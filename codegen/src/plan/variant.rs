@@ -2,6 +2,7 @@
 //! its edits and, after `next`, what they gave; then the bounds, before them
 //! that of D's least eigenvalue where D was edited.
 
+use super::error::PlanFault;
 use super::{Edited, Entry};
 use crate::edits::text::read_edit;
 use crate::edits::{Edit, Stage, has_edits};
@@ -39,7 +40,7 @@ impl Variant {
     }
 
     /// Reads a line; the variant is whole with the last of its bounds.
-    pub(super) fn line(&mut self, line: &str, words: &[&str]) -> Result<Option<Edited>, String> {
+    pub(super) fn line(&mut self, line: &str, words: &[&str]) -> Result<Option<Edited>, PlanFault> {
         match (words[0], self.is_open) {
             ("edit", false) => {
                 let edit = line.split_once(' ').map_or("", |(_, edit)| edit);
@@ -68,13 +69,13 @@ impl Variant {
             }
             ("eigenvalue", false) if self.edits.is_empty() && self.bounds.is_empty() => {
                 if !self.has_edited_inertia() {
-                    return Err("no `eigenvalue` is needed: D is no output, or as it was".into());
+                    return Err(PlanFault::NeedlessEigenvalue);
                 }
                 self.lambda_min = Some(eigenvalue(&words[1..])?);
             }
             ("bound", false) if self.edits.is_empty() => {
                 if self.has_edited_inertia() && self.lambda_min.is_none() {
-                    return Err("expected `eigenvalue`: D is an output and was edited".into());
+                    return Err(PlanFault::NoEigenvalue);
                 }
                 self.bounds.push(bound(&words[1..])?);
                 if self.bounds.len() == self.program.outputs.len() {
@@ -86,17 +87,13 @@ impl Variant {
                     }));
                 }
             }
-            (word, false) => {
-                return Err(format!(
-                    "expected `edit`, `next`, `eigenvalue` or `bound`, found `{word}`"
-                ));
-            }
+            (word, false) => return Err(PlanFault::NoVariant(word.to_owned())),
         }
         Ok(None)
     }
 }
 
-fn bound(words: &[&str]) -> Result<Split, String> {
+fn bound(words: &[&str]) -> Result<Split, PlanFault> {
     match numbers(words)[..] {
         [model, sincos, rounding] if model >= 0.0 && sincos >= 0.0 && rounding >= 0.0 => {
             Ok(Split {
@@ -105,14 +102,14 @@ fn bound(words: &[&str]) -> Result<Split, String> {
                 rounding,
             })
         }
-        _ => Err("expected three numbers of zero or more".into()),
+        _ => Err(PlanFault::Bound),
     }
 }
 
-fn eigenvalue(words: &[&str]) -> Result<f64, String> {
+fn eigenvalue(words: &[&str]) -> Result<f64, PlanFault> {
     match numbers(words)[..] {
         [least] if least > 0.0 && least.is_finite() => Ok(least),
-        _ => Err("expected one number above zero".into()),
+        _ => Err(PlanFault::Eigenvalue),
     }
 }
 

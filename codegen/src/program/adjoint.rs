@@ -1,8 +1,10 @@
 //! The one backward pass: what a result changes by, for a change of each value
-//! that it is computed from, in any scalar.
+//! that it is computed from, in any scalar; and its step at many states at once.
 
 use dalembert_model::scalar::Divide;
 
+use super::columns::Column;
+use super::machine::Machine;
 use super::{Operand, Operation, Step};
 
 /// Where a step reads what no step computes.
@@ -18,6 +20,7 @@ pub struct Leaf<'p, C, I> {
 
 impl Operation {
     /// What an adjoint of the result is for the left and for the right operand.
+    #[inline]
     pub fn parts<S: Divide>(self, adjoint: &S, left: &S, right: &S) -> [S; 2] {
         match self {
             Operation::Add => [adjoint.clone(), adjoint.clone()],
@@ -28,6 +31,64 @@ impl Operation {
                 let by_left = adjoint.div(right);
                 let by_right = by_left.mul(&left.div(right)).neg();
                 [by_left, by_right]
+            }
+        }
+    }
+}
+
+impl Operation {
+    /// [`Operation::parts`] at every state, that of one side added to `sums`.
+    pub fn add_parts<T: Machine>(
+        self,
+        side: usize,
+        adjoints: &[T],
+        operands: [Column<'_, T>; 2],
+        sums: &mut [T],
+    ) {
+        // A loop an operation: what its derivative does not read, none reads.
+        macro_rules! add {
+            ($operation:expr) => {
+                add_each(adjoints, operands, sums, |adjoint, left, right| {
+                    $operation.parts(&adjoint, &left, &right)[side & 1]
+                })
+            };
+        }
+        match self {
+            Operation::Add => add!(Operation::Add),
+            Operation::Sub => add!(Operation::Sub),
+            Operation::Mul => add!(Operation::Mul),
+            Operation::Div => add!(Operation::Div),
+        }
+    }
+}
+
+#[inline]
+fn add_each<T: Machine>(
+    adjoints: &[T],
+    operands: [Column<'_, T>; 2],
+    sums: &mut [T],
+    part: impl Fn(T, T, T) -> T,
+) {
+    let pairs = sums.iter_mut().zip(adjoints);
+    match operands {
+        [Column::Each(left), Column::Each(right)] => {
+            for (((sum, &adjoint), &x), &y) in pairs.zip(left).zip(right) {
+                *sum = sum.add(&part(adjoint, x, y));
+            }
+        }
+        [Column::Each(left), Column::All(y)] => {
+            for ((sum, &adjoint), &x) in pairs.zip(left) {
+                *sum = sum.add(&part(adjoint, x, y));
+            }
+        }
+        [Column::All(x), Column::Each(right)] => {
+            for ((sum, &adjoint), &y) in pairs.zip(right) {
+                *sum = sum.add(&part(adjoint, x, y));
+            }
+        }
+        [Column::All(x), Column::All(y)] => {
+            for (sum, &adjoint) in pairs {
+                *sum = sum.add(&part(adjoint, x, y));
             }
         }
     }
@@ -158,5 +219,31 @@ mod tests {
             }
         }
         assert!(proved > 100, "{proved}");
+    }
+
+    /// At many states side by side, each gets the bits that it has alone.
+    #[test]
+    fn states_side_by_side_have_the_parts_of_each() {
+        let mut random = Random::new(0x51de);
+        let mut column = || -> Vec<f64> { (0..9).map(|_| random.unit() - 0.5).collect() };
+        let (adjoints, left, right, before) = (column(), column(), column(), column());
+        let each = [Column::Each(&left), Column::Each(&right)];
+        let one = [Column::All(0.3), Column::All(-0.7)];
+        let all = [each, one, [each[0], one[1]], [one[0], each[1]]];
+        let at = |column: Column<'_, f64>, state: usize| match column {
+            Column::Each(values) => values[state],
+            Column::All(value) => value,
+        };
+        for operation in Operation::ALL {
+            for (operands, side) in all.iter().flat_map(|&both| [(both, 0), (both, 1)]) {
+                let mut sums = before.clone();
+                operation.add_parts(side, &adjoints, operands, &mut sums);
+                for (k, sum) in sums.iter().enumerate() {
+                    let [x, y] = operands.map(|column| at(column, k));
+                    let alone = before[k] + operation.parts(&adjoints[k], &x, &y)[side];
+                    assert_eq!(sum.to_bits(), alone.to_bits(), "{operation:?} {side}");
+                }
+            }
+        }
     }
 }

@@ -49,13 +49,7 @@ impl Lowered {
                 Operand::Input(input) => Column::Each(at(states, &trig, input)),
             };
             let (left, right) = (read(&step.left), read(&step.right));
-            let out = &mut rest[..m];
-            match step.operation {
-                Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
-                Operation::Sub => zip(out, left, right, |x, y| x.sub(&y)),
-                Operation::Mul => zip(out, left, right, |x, y| x.mul(&y)),
-                Operation::Div => zip(out, left, right, |x, y| x.div(&y)),
-            }
+            step.operation.at_each(left, right, &mut rest[..m]);
         }
         let output = |output: &Output<Literal>| {
             let signed = |x: &T| if output.negative { x.neg() } else { *x };
@@ -109,10 +103,25 @@ fn at<'c, T>(states: &'c Columns<T>, trig: &'c BTreeMap<Input, Vec<T>>, input: I
     }
 }
 
-/// What an operation reads: a value of each state, or one for all.
-enum Column<'c, T> {
+/// What an operation reads.
+#[derive(Clone, Copy, Debug)]
+pub enum Column<'c, T> {
+    /// A value of each state.
     Each(&'c [T]),
+    /// One for all.
     All(T),
+}
+
+impl Operation {
+    /// The operation at every state, in one loop: no state waits for another.
+    pub fn at_each<T: Machine>(self, left: Column<'_, T>, right: Column<'_, T>, out: &mut [T]) {
+        match self {
+            Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
+            Operation::Sub => zip(out, left, right, |x, y| x.sub(&y)),
+            Operation::Mul => zip(out, left, right, |x, y| x.mul(&y)),
+            Operation::Div => zip(out, left, right, |x, y| x.div(&y)),
+        }
+    }
 }
 
 #[inline]

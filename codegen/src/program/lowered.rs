@@ -1,9 +1,10 @@
 //! Straight-line code over literals: what is printed, read back and run.
 
+use dalembert_model::number::Exact;
+
 use super::kernel::Kernel;
 use super::{
-    AngleSum, Counts, Library, Literal, Operand, Operation, Output, Program, ScalarType, Speed,
-    Step,
+    AngleSum, Counts, Input, Library, Literal, Operation, Output, Program, ScalarType, Speed, Step,
 };
 
 /// A program lowered to a scalar: every constant rounded once, and how each
@@ -44,11 +45,8 @@ impl Program {
         scalar: ScalarType,
         kernel: impl Fn(AngleSum) -> Option<&'k Kernel>,
     ) -> Lowered {
-        let operand = |operand: &Operand| match operand {
-            Operand::Input(input) => Operand::Input(*input),
-            Operand::Constant(value) => Operand::Constant(Literal(scalar.round(value))),
-            Operand::Step(index) => Operand::Step(*index),
-        };
+        let rounded = |value: &Exact| Literal(scalar.round(value));
+        let same = |input: &Input| *input;
         let trig = self.trig.iter().map(|trig| LoweredTrig {
             angle: trig.angle,
             sin: trig.sin,
@@ -59,15 +57,9 @@ impl Program {
             joint: own.joint,
             square: Literal(scalar.round(&own.square)),
         });
-        let steps = self.steps.iter().map(|step| Step {
-            operation: step.operation,
-            left: operand(&step.left),
-            right: operand(&step.right),
-        });
-        let outputs = self.outputs.iter().map(|output| Output {
-            negative: output.negative,
-            value: operand(&output.value),
-        });
+        let steps = self.steps.iter().map(|step| step.map(rounded, same));
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|output| output.map(rounded, same));
         Lowered {
             scalar,
             library: Library::Libm,
@@ -80,33 +72,6 @@ impl Program {
 }
 
 impl Lowered {
-    /// Where two differ; `None` if they are equal.
-    pub fn difference(&self, other: &Lowered) -> Option<String> {
-        let steps = self.steps.iter().zip(&other.steps);
-        let outputs = self.outputs.iter().zip(&other.outputs);
-        let differ = |what: &str, index: usize| Some(format!("{what}{index} differs"));
-        match self == other {
-            true => None,
-            false if self.scalar != other.scalar => Some("the scalars differ".into()),
-            false if self.library != other.library => Some("the libraries of sines differ".into()),
-            false if self.trig != other.trig => Some("the sines and cosines differ".into()),
-            false if self.speeds != other.speeds => Some("what is read of speeds differs".into()),
-            false if self.steps.len() != other.steps.len() => {
-                Some("the number of operations differs".into())
-            }
-            false if self.outputs.len() != other.outputs.len() => {
-                Some("the number of results differs".into())
-            }
-            false => match steps.enumerate().find(|(_, (a, b))| a != b) {
-                Some((index, _)) => differ("operation t", index + 1),
-                None => {
-                    let index = outputs.enumerate().find(|(_, (a, b))| a != b);
-                    differ("result ", index.map_or(0, |(index, _)| index))
-                }
-            },
-        }
-    }
-
     /// The same with another library for the angles that call one. One that
     /// takes all angles together is called after what is computed alone.
     #[must_use]
@@ -160,7 +125,7 @@ impl Lowered {
 mod tests {
     use super::*;
     use crate::function::Argument;
-    use crate::program::{Input, evaluate};
+    use crate::program::{Operand, evaluate};
 
     fn code() -> Lowered {
         let step = |left, right| Step {
@@ -216,7 +181,8 @@ mod tests {
         for (change, words) in changes {
             let mut other = code();
             change(&mut other);
-            assert_eq!(code().difference(&other).as_deref(), Some(words));
+            let found = code().difference(&other).map(|found| found.to_string());
+            assert_eq!(found.as_deref(), Some(words));
         }
     }
 

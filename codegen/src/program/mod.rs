@@ -6,10 +6,11 @@
 //! - [`scalar_type`]: the floats that code is printed in; constants rounded once
 //! - [`counts`]: what a program costs
 //! - `lowered`: the same over literals: each constant rounded once, sines by a
-//!   library or by the polynomials of a [`kernel`]
+//!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
+//! - `map`: the same over other constants and inputs
 //! - [`adjoint`]: backwards in any scalar: what a result changes by
 //! - [`text`]: operands and steps as plans and certificates write them
 //! - [`machine`]: floats that run as emitted code does
@@ -17,6 +18,7 @@
 pub mod adjoint;
 pub mod columns;
 pub mod counts;
+mod difference;
 mod evaluate;
 pub mod input;
 pub mod kernel;
@@ -24,6 +26,7 @@ pub mod library;
 mod literal;
 mod lowered;
 pub mod machine;
+mod map;
 pub mod run;
 pub mod scalar_type;
 pub mod speed;
@@ -35,6 +38,7 @@ use dalembert_model::number::Exact;
 
 use crate::function::{Argument, Columns, Function, Sizes};
 pub use counts::Counts;
+pub use difference::Difference;
 pub use evaluate::evaluate;
 pub use input::{AngleSum, Input};
 pub use library::Library;

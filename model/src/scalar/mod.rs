@@ -82,15 +82,19 @@ macro_rules! float_scalar {
             fn one() -> Self {
                 1.0
             }
+            #[inline]
             fn add(&self, other: &Self) -> Self {
                 self + other
             }
+            #[inline]
             fn sub(&self, other: &Self) -> Self {
                 self - other
             }
+            #[inline]
             fn mul(&self, other: &Self) -> Self {
                 self * other
             }
+            #[inline]
             fn neg(&self) -> Self {
                 -*self
             }
@@ -100,6 +104,7 @@ macro_rules! float_scalar {
         }
 
         impl Divide for $t {
+            #[inline]
             fn div(&self, other: &Self) -> Self {
                 self / other
             }

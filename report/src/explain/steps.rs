@@ -11,7 +11,7 @@ use dalembert_codegen::approximate::choose::Admitted;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::search::{self, Found};
-use dalembert_codegen::generate::{GenerateError, Request};
+use dalembert_codegen::generate::{GenerateError, Request, TextDefect};
 use dalembert_codegen::graph::{Folding, Graph};
 use dalembert_codegen::portfolio::tune::{self, Tuned};
 use dalembert_codegen::portfolio::{self, Start};
@@ -258,8 +258,9 @@ pub(super) fn searched(
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let text = Lowered::parse(&certificate.text, function, scalar)
-            .map_err(|error| GenerateError::Text(function, scalar, error.to_string()))?;
+        let text = Lowered::parse(&certificate.text, function, scalar).map_err(|error| {
+            GenerateError::Text(function, scalar, TextDefect::Unreadable(Box::new(error)))
+        })?;
         Ok(Row {
             step: SearchStep::Tolerance,
             counts: text.counts(),

@@ -1,5 +1,7 @@
 //! The matrix run on one robot.
 
+use std::fmt;
+
 use dalembert_model::robot::Robot;
 
 use super::category::{Category, Criterion};
@@ -66,7 +68,25 @@ pub struct Row {
     /// Pass or fail.
     pub verdict: Verdict,
     /// Why a verdict is [`Verdict::OutOfRange`].
-    pub reason: Option<String>,
+    pub reason: Option<RangeFault>,
+}
+
+/// What a scalar cannot hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RangeFault {
+    /// A constant, for which nothing is generated.
+    Constant(GenerateError),
+    /// A result.
+    Result(ScalarType),
+}
+
+impl fmt::Display for RangeFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RangeFault::Constant(error) => error.fmt(f),
+            RangeFault::Result(scalar) => write!(f, "a result is beyond the range of {scalar}"),
+        }
+    }
 }
 
 /// A robot and its programs.
@@ -74,7 +94,7 @@ struct Programs {
     robot: Robot,
     truth: Truth,
     /// By scalar, then by subject; the reason where there is none.
-    codes: Vec<(ScalarType, [Result<Code, String>; 2])>,
+    codes: Vec<(ScalarType, [Result<Code, GenerateError>; 2])>,
 }
 
 impl Programs {
@@ -87,8 +107,8 @@ impl Programs {
                 ..options.request.clone()
             };
             let emitted = match Code::emitted(&robot, &request) {
-                Ok(mut codes) => codes.pop().ok_or(String::new()),
-                Err(error @ GenerateError::Constant { .. }) => Err(error.to_string()),
+                Ok(mut codes) => codes.pop().ok_or(GenerateError::Empty),
+                Err(error @ GenerateError::Constant { .. }) => Err(error),
                 Err(error) => return Err(error),
             };
             codes.push((scalar, [Ok(Code::runtime(&robot, scalar)), emitted]));
@@ -144,7 +164,7 @@ fn one(category: &Category, programs: &Programs, options: &Options, rows: &mut V
                 state: JointState::default(),
                 condition: condition(programs, states.first(), *scalar),
                 verdict: Verdict::Pass,
-                reason: code.as_ref().err().cloned(),
+                reason: code.as_ref().err().cloned().map(RangeFault::Constant),
             };
             match code {
                 Ok(code) => {
@@ -178,7 +198,7 @@ fn fill<'a>(row: &mut Row, results: impl Iterator<Item = (&'a JointState, Deviat
         }
         if found.iter().any(|x| !x.is_finite()) {
             row.verdict = Verdict::OutOfRange;
-            row.reason = Some(format!("a result is beyond the range of {}", row.scalar));
+            row.reason = Some(RangeFault::Result(row.scalar));
         } else if row.verdict == Verdict::Pass && excess > 1.0 {
             row.verdict = Verdict::Fail;
         }

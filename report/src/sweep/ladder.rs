@@ -190,7 +190,7 @@ impl<'a> Ladder<'a> {
         certificate: &Certificate,
     ) -> Result<(Option<f64>, Option<String>), SweepError> {
         let falsification = falsify(certificate, self.options.samples, self.options.climbs, 1)
-            .map_err(|error| SweepError::Text(error.to_string()))?;
+            .map_err(SweepError::Text)?;
         let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
         let observed = (falsification.states > 0).then(largest);
         let violation = falsification.violation.map(|(index, state)| {

@@ -4,16 +4,19 @@
 //! - this file: a variant, and which variants another one beats
 //! - [`ladder`]: the variants, tolerance by tolerance
 //! - [`rungs`]: the variants of a tolerance kept, so that a run that was ended
-//!   goes on where it was
+//!   goes on where it was; [`fault`]: why they cannot be
 
+pub mod fault;
 pub mod ladder;
 pub mod rungs;
 
 use std::fmt;
 
+use dalembert_codegen::backend::read::TextError;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::program::{Counts, ScalarType};
 use dalembert_codegen::sincos;
+use fault::RungError;
 
 /// One variant.
 pub struct Point {
@@ -137,15 +140,16 @@ pub fn mark(points: &mut [Point]) {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SweepError {
     /// A variant's text cannot be run.
-    Text(String),
+    Text(TextError),
     /// A kept rung cannot be used, or not be kept.
-    Rung(String),
+    Rung(RungError),
 }
 
 impl fmt::Display for SweepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            SweepError::Text(why) | SweepError::Rung(why) => f.write_str(why),
+            SweepError::Text(error) => error.fmt(f),
+            SweepError::Rung(error) => error.fmt(f),
         }
     }
 }

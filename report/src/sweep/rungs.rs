@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use dalembert_codegen::certificate::format::{read, text_hash};
 use serde_json::{Value, json};
 
+use super::fault::{Damage, RungError, RungFault};
 use super::{Point, SweepError};
 
 /// The version of the format.
@@ -58,55 +59,51 @@ impl Rungs {
     /// It is of another run, or damaged.
     pub fn kept(&self, tolerance: f64) -> Result<Option<Rung>, SweepError> {
         let path = self.path(tolerance);
-        let fail = |why: &str| {
-            SweepError::Rung(format!(
-                "the rung `{}` of a run that was ended {why}\n  = help: delete it to search \
-                 for it again, or choose another folder",
-                path.display()
-            ))
+        let fail = |fault| {
+            let path = path.clone();
+            SweepError::Rung(RungError::Kept { path, fault })
         };
+        let unreadable = |error: std::io::Error| fail(RungFault::Unreadable(error.to_string()));
+        let damaged = |damage| fail(RungFault::Damaged(damage));
         let mut bytes = Vec::new();
         // Opening a pipe would wait for somebody who writes into it.
         match fs::metadata(&path) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(fail(&format!("cannot be read: {error}"))),
-            Ok(found) if !found.is_file() => return Err(fail("is no file")),
+            Err(error) => return Err(unreadable(error)),
+            Ok(found) if !found.is_file() => return Err(fail(RungFault::NoFile)),
             Ok(_) => {}
         }
         File::open(&path)
             .and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes))
-            .map_err(|error| fail(&format!("cannot be read: {error}")))?;
+            .map_err(unreadable)?;
         let json: Value = serde_json::from_slice(&bytes)
-            .map_err(|error| fail(&format!("is damaged: {error}")))?;
+            .map_err(|error| damaged(Damage::Json(error.to_string())))?;
         let text = |key: &str| json.get(key).and_then(Value::as_str);
         if json.get("rung").and_then(Value::as_u64) != Some(VERSION.into()) {
-            return Err(fail("is damaged: this version reads rungs of version 1"));
+            return Err(damaged(Damage::Version));
         }
         if text("run") != Some(&self.key) {
-            return Err(fail("is of another robot, scene, plan, version or options"));
+            return Err(fail(RungFault::OtherRun));
         }
         let body = json.get("body").unwrap_or(&Value::Null);
         if text("hash") != Some(&text_hash(&body.to_string())) {
-            return Err(fail("is damaged: its hash is not that of what it says"));
+            return Err(damaged(Damage::Hash));
         }
-        self.rung(tolerance, body)
-            .map(Some)
-            .map_err(|why| fail(&format!("is damaged: {why}")))
+        self.rung(tolerance, body).map(Some).map_err(damaged)
     }
 
-    fn rung(&self, tolerance: f64, body: &Value) -> Result<Rung, String> {
+    fn rung(&self, tolerance: f64, body: &Value) -> Result<Rung, Damage> {
         if body.get("tolerance").and_then(Value::as_f64) != Some(tolerance) {
-            return Err("it is of another tolerance".into());
+            return Err(Damage::Tolerance);
         }
-        let missing = |key: &str| format!("`{key}` is missing");
         let fruitful = body.get("fruitful").and_then(Value::as_bool);
         let points = body.get("points").and_then(Value::as_array);
         let point = |json: &Value| {
             let text = json.get("certificate").and_then(Value::as_str);
-            let text = text.ok_or_else(|| missing("certificate"))?;
-            let certificates = read(text).map_err(|error| error.to_string())?;
-            let [certificate] = <[_; 1]>::try_from(certificates)
-                .map_err(|_| "there is more than one certificate in a point".to_owned())?;
+            let text = text.ok_or(Damage::Missing("certificate"))?;
+            let certificates = read(text).map_err(Damage::Certificate)?;
+            let [certificate] =
+                <[_; 1]>::try_from(certificates).map_err(|_| Damage::Certificates)?;
             let number = |key: &str| json.get(key).and_then(Value::as_f64);
             Ok(Point {
                 observed: number("observed"),
@@ -114,11 +111,11 @@ impl Rungs {
                 ..Point::new(tolerance, certificate)
             })
         };
-        let points = points.ok_or_else(|| missing("points"))?.iter().map(point);
+        let points = points.ok_or(Damage::Missing("points"))?.iter().map(point);
         Ok(Rung {
             tolerance,
-            fruitful: fruitful.ok_or_else(|| missing("fruitful"))?,
-            points: points.collect::<Result<_, String>>()?,
+            fruitful: fruitful.ok_or(Damage::Missing("fruitful"))?,
+            points: points.collect::<Result<_, Damage>>()?,
         })
     }
 
@@ -151,8 +148,8 @@ impl Rungs {
             .and_then(|()| fs::write(&unfinished, text.to_string() + "\n"))
             .and_then(|()| fs::rename(&unfinished, &path));
         written.map_err(|error| {
-            let path = path.display();
-            SweepError::Rung(format!("`{path}` cannot be written: {error}"))
+            let error = error.to_string();
+            SweepError::Rung(RungError::Unwritten { path, error })
         })
     }
 

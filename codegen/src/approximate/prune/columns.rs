@@ -1,16 +1,23 @@
 //! A program and its edits run at many sampled states at once.
 //!
 //! Samples only rank candidates; what is admitted is certified.
+//!
+//! The operations are [`Step`]s, as in every program, and run as in
+//! [`program::columns`](crate::program::columns). Of their own are the edits,
+//! which lie over them: so a candidate is tried by running again what depends
+//! on one node, and nothing else, and is taken back as quickly.
 
 use std::collections::BTreeMap;
 
 use crate::edits::{Edit, EditSite};
-use crate::program::{Input, Operand, Operation, Program};
+use crate::program::columns::Column;
+use crate::program::run::angle_value;
+use crate::program::{Input, Operand, Output, Program, Step};
 use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational, Rounded};
 
-/// A node: an input or a step.
+/// What stands in a node's place. Edits know nodes: inputs and steps alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value {
     /// ±node
@@ -29,20 +36,13 @@ impl Value {
     }
 }
 
-/// One operation on nodes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Op {
-    pub operation: Operation,
-    pub left: Value,
-    pub right: Value,
-}
-
-/// A program with its inputs as the first nodes.
+/// A program with the values that its inputs take. Its nodes are the inputs,
+/// by which steps name them, then the steps; constants may change.
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
     pub inputs: Vec<Input>,
-    pub ops: Vec<Op>,
-    pub outputs: Vec<Value>,
+    pub steps: Vec<Step<f64, usize>>,
+    pub outputs: Vec<Output<f64, usize>>,
     pub samples: usize,
     /// Values of the inputs, node after node.
     pub columns: Vec<f64>,
@@ -50,7 +50,7 @@ pub(super) struct Nodes {
 
 impl Nodes {
     pub(super) fn new(program: &Program, states: &[JointState]) -> Nodes {
-        let mut inputs: BTreeMap<Input, u32> = BTreeMap::new();
+        let mut inputs: BTreeMap<Input, usize> = BTreeMap::new();
         let operands = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
         for operand in operands.chain(program.outputs.iter().map(|o| &o.value)) {
             if let Operand::Input(input) = operand {
@@ -58,30 +58,15 @@ impl Nodes {
             }
         }
         for (index, place) in inputs.values_mut().enumerate() {
-            *place = index as u32;
+            *place = index;
         }
-        let count = inputs.len() as u32;
-        let value = |operand: &Operand, negative: bool| match operand {
-            Operand::Input(input) => Value::Node(inputs[input], negative),
-            Operand::Step(index) => Value::Node(count + *index as u32, negative),
-            Operand::Constant(c) => {
-                let c = f64::nearest(c);
-                Value::Known(if negative { -c } else { c })
-            }
-        };
-        let ops = program.steps.iter().map(|step| Op {
-            operation: step.operation,
-            left: value(&step.left, false),
-            right: value(&step.right, false),
-        });
-        let ops = ops.collect();
+        let place = |input: &Input| inputs[input];
+        let steps = program.steps.iter();
         let outputs = program.outputs.iter();
-        let outputs = outputs.map(|o| value(&o.value, o.negative)).collect();
-        let inputs: Vec<Input> = inputs.into_keys().collect();
         let mut nodes = Nodes {
-            inputs,
-            ops,
-            outputs,
+            steps: steps.map(|step| step.map(f64::nearest, place)).collect(),
+            outputs: outputs.map(|out| out.map(f64::nearest, place)).collect(),
+            inputs: inputs.into_keys().collect(),
             samples: 0,
             columns: Vec::new(),
         };
@@ -97,12 +82,30 @@ impl Nodes {
         self.samples = states.len();
     }
 
+    /// The node that an operand reads, unless it is a constant.
+    pub(super) fn node_of(&self, operand: &Operand<f64, usize>) -> Option<usize> {
+        match operand {
+            Operand::Input(place) => Some(*place),
+            Operand::Step(step) => Some(self.inputs.len() + step),
+            Operand::Constant(_) => None,
+        }
+    }
+
+    /// An operand, or its negative, as it would stand in a node's place.
+    pub(super) fn value(&self, operand: &Operand<f64, usize>, negative: bool) -> Value {
+        match operand {
+            Operand::Input(place) => Value::Node(*place as u32, negative),
+            Operand::Step(step) => Value::Node((self.inputs.len() + step) as u32, negative),
+            Operand::Constant(c) => Value::Known(if negative { -c } else { *c }),
+        }
+    }
+
     /// The outputs, output after output.
     pub(super) fn values(&self, columns: &[f64]) -> Vec<f64> {
         let m = self.samples;
         let mut values = Vec::with_capacity(self.outputs.len() * m);
-        for value in &self.outputs {
-            match *value {
+        for output in &self.outputs {
+            match self.value(&output.value, output.negative) {
                 Value::Known(c) => values.extend(std::iter::repeat_n(c, m)),
                 Value::Node(node, negative) => {
                     let sign = if negative { -1.0 } else { 1.0 };
@@ -115,7 +118,7 @@ impl Nodes {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.inputs.len() + self.ops.len()
+        self.inputs.len() + self.steps.len()
     }
 
     /// The columns of every node under edits (one slot a node).
@@ -145,20 +148,36 @@ impl Nodes {
                 out.copy_from_slice(&self.columns[node * m..][..m]);
             }
             None => {
-                let op = self.ops[node - self.inputs.len()];
-                operate(op, before, m, out);
+                let step = &self.steps[node - self.inputs.len()];
+                let read = |operand| self.column(operand, before);
+                step.operation
+                    .at_each(read(&step.left), read(&step.right), out);
             }
+        }
+    }
+
+    /// What an operation reads, from the columns of the nodes before it.
+    pub(super) fn column<'c>(
+        &self,
+        operand: &Operand<f64, usize>,
+        before: &'c [f64],
+    ) -> Column<'c, f64> {
+        let m = self.samples;
+        match operand {
+            Operand::Input(place) => Column::Each(&before[place * m..][..m]),
+            Operand::Step(step) => Column::Each(&before[(self.inputs.len() + step) * m..][..m]),
+            Operand::Constant(c) => Column::All(*c),
         }
     }
 
     /// Constants that were changed, as short decimals.
     pub(super) fn shorten(&mut self, original: &Nodes) {
-        for (op, original) in self.ops.iter_mut().zip(&original.ops) {
+        for (step, original) in self.steps.iter_mut().zip(&original.steps) {
             for (now, was) in [
-                (&mut op.left, original.left),
-                (&mut op.right, original.right),
+                (&mut step.left, original.left),
+                (&mut step.right, original.right),
             ] {
-                if let (Value::Known(c), Value::Known(was)) = (now, was) {
+                if let (Operand::Constant(c), Operand::Constant(was)) = (now, was) {
                     *c = if (*c - was).abs() <= 1e-9 * was.abs() {
                         was
                     } else {
@@ -194,15 +213,15 @@ impl Nodes {
                 })
             })
             .collect();
-        for (step, (op, was)) in self.ops.iter().zip(&original.ops).enumerate() {
+        for (step, (new, was)) in self.steps.iter().zip(&original.steps).enumerate() {
             if edits[inputs + step].is_some() {
                 continue;
             }
             for (place, now, was) in [
-                (EditSite::Left(step), op.left, was.left),
-                (EditSite::Right(step), op.right, was.right),
+                (EditSite::Left(step), new.left, was.left),
+                (EditSite::Right(step), new.right, was.right),
             ] {
-                if let Value::Known(c) = now
+                if let Operand::Constant(c) = now
                     && now != was
                 {
                     all.push(Edit::constant(place, decimal(c)));
@@ -232,58 +251,10 @@ fn decimal(x: f64) -> Exact {
     })
 }
 
-fn operate(op: Op, before: &[f64], m: usize, out: &mut [f64]) {
-    let column = |node: u32| &before[node as usize * m..][..m];
-    let f = |x: f64, y: f64| match op.operation {
-        Operation::Add => x + y,
-        Operation::Sub => x - y,
-        Operation::Mul => x * y,
-        Operation::Div => x / y,
-    };
-    match (op.left, op.right) {
-        (Value::Node(a, _), Value::Node(b, _)) => {
-            let (a, b) = (column(a), column(b));
-            match op.operation {
-                Operation::Add => zip(out, a, b, |x, y| x + y),
-                Operation::Sub => zip(out, a, b, |x, y| x - y),
-                Operation::Mul => zip(out, a, b, |x, y| x * y),
-                Operation::Div => zip(out, a, b, |x, y| x / y),
-            }
-        }
-        (Value::Node(a, _), Value::Known(c)) => {
-            for (out, &x) in out.iter_mut().zip(column(a)) {
-                *out = f(x, c);
-            }
-        }
-        (Value::Known(c), Value::Node(b, _)) => {
-            for (out, &y) in out.iter_mut().zip(column(b)) {
-                *out = f(c, y);
-            }
-        }
-        (Value::Known(c), Value::Known(d)) => out.fill(f(c, d)),
-    }
-}
-
-#[inline]
-fn zip(out: &mut [f64], a: &[f64], b: &[f64], f: impl Fn(f64, f64) -> f64) {
-    for ((out, &x), &y) in out.iter_mut().zip(a).zip(b) {
-        *out = f(x, y);
-    }
-}
-
 fn at(input: Input, state: &JointState) -> f64 {
-    let angle = |angle: crate::program::AngleSum| {
-        angle.terms().fold(0.0, |sum, (joint, negative)| {
-            if negative {
-                sum - state.q[joint]
-            } else {
-                sum + state.q[joint]
-            }
-        })
-    };
     match input {
-        Input::Sin(sum) => libm::sin(angle(sum)),
-        Input::Cos(sum) => libm::cos(angle(sum)),
+        Input::Sin(sum) => libm::sin(angle_value(sum, &state.q)),
+        Input::Cos(sum) => libm::cos(angle_value(sum, &state.q)),
         // What reads it has no bounds and is not pruned.
         Input::PerSpeed(_) => f64::NAN,
         Input::Entry(argument, joint) => state.entry(argument, joint),

@@ -2,7 +2,7 @@
 //! building a graph.
 
 use super::columns::{Nodes, Value};
-use crate::program::{Input, Operation};
+use crate::program::{Input, Operand, Operation};
 
 /// A sine/cosine pair weighs as much as this many operations.
 pub(super) const SINCOS: u32 = 8;
@@ -34,8 +34,9 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
             live[node as usize] = true;
         }
     };
-    for &output in &nodes.outputs {
-        mark(output, folded, live);
+    for output in &nodes.outputs {
+        let value = nodes.value(&output.value, output.negative);
+        mark(value, folded, live);
     }
     let mut total = 0;
     for node in (inputs..nodes.len()).rev() {
@@ -104,20 +105,22 @@ fn signed(value: Value, negative: bool) -> Value {
 }
 
 fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
-    let op = nodes.ops[node - nodes.inputs.len()];
-    let resolve = |value: Value| match value {
-        Value::Node(node, negative) => signed(folded[node as usize].value, negative),
-        known => known,
+    let inputs = nodes.inputs.len();
+    let step = &nodes.steps[node - inputs];
+    let resolve = |operand: &Operand<f64, usize>| match operand {
+        Operand::Input(place) => folded[*place].value,
+        Operand::Step(step) => folded[inputs + step].value,
+        Operand::Constant(c) => Value::Known(*c),
     };
-    let (a, b) = (resolve(op.left), resolve(op.right));
-    let minus = op.operation == Operation::Sub;
+    let (a, b) = (resolve(&step.left), resolve(&step.right));
+    let minus = step.operation == Operation::Sub;
     let own = Value::Node(node as u32, false);
     let operation = Folded {
         value: own,
         operands: Some([a, b]),
         scaled: None,
     };
-    match (op.operation, a, b) {
+    match (step.operation, a, b) {
         (Operation::Mul, Value::Known(x), Value::Known(y)) => Folded::alias(Value::Known(x * y)),
         (_, Value::Known(x), Value::Known(y)) => {
             Folded::alias(Value::Known(if minus { x - y } else { x + y }))

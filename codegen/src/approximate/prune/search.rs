@@ -12,6 +12,7 @@ use crate::bound::{magnitude, sample};
 use crate::edits::{Stage, difference, has_edits};
 use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
+use crate::program::columns::Columns;
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::random::Random;
 use crate::simplify::{Effort, simplify};
@@ -275,19 +276,15 @@ impl Search<'_> {
     /// Positions where the error is large join the samples.
     fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
         let Some(last) = stages.last() else { return };
-        let mut full = Nodes::new(self.full, &[]);
-        let mut edited = Nodes::new(&last.program(Folding::Syntactic), &[]);
-        let block = self.motions.len();
+        let code = |program: &Program| program.lower(ScalarType::F64, |_| None);
+        let full = code(self.full);
+        let edited = code(&last.program(Folding::Syntactic));
         for output in 0..self.allowances.len() {
             let mut error = |state: &JointState| {
                 let states = self.motions.states(std::slice::from_ref(&state.q));
-                full.move_to(&states);
-                edited.move_to(&states);
-                let run = |nodes: &Nodes| nodes.values(&nodes.run(&vec![None; nodes.len()]));
-                let (x, y) = (run(&full), run(&edited));
-                let pairs = x[output * block..][..block]
-                    .iter()
-                    .zip(&y[output * block..]);
+                let states = Columns::<f64>::of(&states);
+                let (x, y) = (full.run_columns(&states), edited.run_columns(&states));
+                let pairs = x[output].iter().zip(&y[output]);
                 let mut error: Vec<f64> = pairs.map(|(x, y)| x - y).collect();
                 self.motions.monomials(&mut error);
                 self.motions.largest(&error)
@@ -312,8 +309,8 @@ fn within(ratios: &[f64]) -> bool {
 
 /// A program's outputs at states, output after output.
 fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
-    let nodes = Nodes::new(program, states);
-    nodes.values(&nodes.run(&vec![None; nodes.len()]))
+    let code = program.lower(ScalarType::F64, |_| None);
+    code.run_columns(&Columns::<f64>::of(states)).concat()
 }
 
 /// The last stage's edited program, simplified if asked.

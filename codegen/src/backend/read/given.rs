@@ -1,6 +1,7 @@
 //! The lines that give a caller's sines and cosines their names.
 
 use crate::backend::entries::angles::Angles;
+use crate::backend::read::error::SineFault;
 use crate::backend::read::index_of;
 use crate::program::{AngleSum, LoweredTrig};
 
@@ -10,16 +11,16 @@ pub(super) fn read(
     names: &str,
     value: &str,
     angles: &Angles,
-) -> Option<Result<LoweredTrig, String>> {
+) -> Option<Result<LoweredTrig, SineFault>> {
     let (names, values) = (pair(names), pair(value));
     let is_given = |value: &str| value.starts_with("sin[") || value.starts_with("cos[");
     is_given(values[0]).then(|| given(&names, &values, angles))
 }
 
-fn given(names: &[&str], values: &[&str], angles: &Angles) -> Result<LoweredTrig, String> {
+fn given(names: &[&str], values: &[&str], angles: &Angles) -> Result<LoweredTrig, SineFault> {
     let mut found: Option<LoweredTrig> = None;
     if names.len() != values.len() {
-        return Err("as many names as sines and cosines are expected".into());
+        return Err(SineFault::UnevenNames);
     }
     for (name, value) in names.iter().zip(values) {
         let (letter, array) = match value.starts_with('s') {
@@ -27,9 +28,14 @@ fn given(names: &[&str], values: &[&str], angles: &Angles) -> Result<LoweredTrig
             false => ('c', "cos"),
         };
         let angle = name.strip_prefix(letter).and_then(|name| name.parse().ok());
-        let angle: AngleSum = angle.ok_or_else(|| format!("`{name}` is no name of `{value}`"))?;
+        let given = || ((*name).to_owned(), (*value).to_owned());
+        let angle: AngleSum = angle.ok_or_else(|| {
+            let (name, value) = given();
+            SineFault::GivenName { name, value }
+        })?;
         if index_of(value, array).is_none_or(|at| angles.place(angle) != Some(at)) {
-            return Err(format!("`{name}` does not stand in `{value}`"));
+            let (name, value) = given();
+            return Err(SineFault::GivenPlace { name, value });
         }
         let trig = found.get_or_insert(LoweredTrig {
             angle,
@@ -42,11 +48,11 @@ fn given(names: &[&str], values: &[&str], angles: &Angles) -> Result<LoweredTrig
             _ => &mut trig.cos,
         };
         if trig.angle != angle || *taken {
-            return Err(format!("`{name}` is not the other one of its angle"));
+            return Err(SineFault::GivenPair((*name).to_owned()));
         }
         *taken = true;
     }
-    found.ok_or_else(|| "no sine or cosine is given".into())
+    found.ok_or(SineFault::NoneGiven)
 }
 
 /// `(a, b)` or `a`.

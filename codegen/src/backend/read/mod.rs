@@ -1,6 +1,7 @@
 //! Reads emitted functions back and compares them with their program.
 //!
 //! - this file: what a text says, and whether it is the program
+//! - [`error`]: why it is not
 //! - `reader`: the statements, line by line
 //! - `sines`: sines and cosines as polynomials
 //! - `speed`: what is read of speeds
@@ -11,6 +12,7 @@
 //! - `entries`: functions whose arithmetic stands in one of them
 
 mod entries;
+pub mod error;
 mod given;
 mod part;
 mod reader;
@@ -19,39 +21,11 @@ mod sines;
 mod speed;
 mod together;
 
-use std::fmt;
-
 use crate::function::Function;
-use crate::program::{Library, Lowered, Program, ScalarType};
+use crate::program::{Difference, Library, Lowered, Program, ScalarType};
 use crate::sincos::AngleKernel;
+pub use error::{TextError, TextFault};
 use reader::Reader;
-
-/// Why a text is not the program that it should be.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TextError {
-    /// One-based line of the text.
-    pub line: usize,
-    /// What is wrong.
-    pub message: String,
-}
-
-impl fmt::Display for TextError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "emitted line {}: {}", self.line, self.message)
-    }
-}
-
-impl std::error::Error for TextError {}
-
-impl TextError {
-    /// The same in a text of which so many lines come before.
-    fn after(self, lines: usize) -> TextError {
-        TextError {
-            line: self.line + lines,
-            ..self
-        }
-    }
-}
 
 impl Lowered {
     /// Reads the function of this name out of a module's text.
@@ -65,7 +39,7 @@ impl Lowered {
         let mut reader = Reader::new(scalar);
         let tail = statements(&mut reader, &lines[first + 1..], function.name());
         let read = tail.and_then(|(tail, end)| {
-            let at = |message| TextError { line: end, message };
+            let at = |fault| TextError::new(end, fault);
             let items = result::items(&tail, function).map_err(at)?;
             reader.finish(&items).map_err(at)
         });
@@ -80,7 +54,7 @@ impl Lowered {
         program: &Program,
         library: Library,
         sines: &[AngleKernel],
-    ) -> Result<(), String> {
+    ) -> Result<(), Difference> {
         let kernel = |angle| {
             let found = sines.iter().find(|sine| sine.angle == angle);
             found.map(|sine| &sine.kernel)
@@ -100,10 +74,7 @@ fn head(lines: &[&str], name: &str) -> Result<usize, TextError> {
         rest.is_some_and(|rest| rest.starts_with(['(', '<']))
     };
     let found = lines.iter().position(starts);
-    found.ok_or_else(|| TextError {
-        line: 1,
-        message: format!("there is no function `{name}`"),
-    })
+    found.ok_or_else(|| TextError::new(1, TextFault::NoFunction(name.to_owned())))
 }
 
 /// Reads the lines after a head: the statements, into the reader, and what the
@@ -115,10 +86,7 @@ fn statements(
 ) -> Result<(String, usize), TextError> {
     let mut tail = String::new();
     for (number, &line) in (1..).zip(lines) {
-        let at = |message| TextError {
-            line: number,
-            message,
-        };
+        let at = |fault| TextError::new(number, fault);
         if tail.is_empty() && reader.block(line).map_err(at)? {
             continue;
         }
@@ -126,7 +94,7 @@ fn statements(
             Some(statement) if tail.is_empty() => {
                 reader.statement(statement).map_err(at)?;
             }
-            Some(_) => return Err(at("a statement after the result".into())),
+            Some(_) => return Err(at(TextFault::AfterResult)),
             None if line == "}" && result::is_complete(&tail) => return Ok((tail, number)),
             None => {
                 tail.push_str(line);
@@ -134,8 +102,7 @@ fn statements(
             }
         }
     }
-    let message = format!("`{name}` does not end");
-    Err(TextError { line: 0, message })
+    Err(TextError::new(0, TextFault::Endless(name.to_owned())))
 }
 
 /// i of `name[i]`.

@@ -4,6 +4,7 @@
 //! takes them in the same way; so the statements in the order of the text are
 //! the program, and only the names of the wrapping are to be checked.
 
+use super::error::{Kind, TextFault, WordFault};
 use crate::function::Argument;
 
 /// What is open at a line.
@@ -35,14 +36,14 @@ impl Wrap {
     }
 
     /// Takes a line; whether it belongs to the wrapping.
-    pub(super) fn line(&mut self, line: &str) -> Result<bool, String> {
+    pub(super) fn line(&mut self, line: &str) -> Result<bool, TextFault> {
         let begins = line
             .strip_prefix("let ")
             .and_then(|l| l.strip_suffix(" = {"));
         let next = match (std::mem::take(self), begins) {
             (Wrap::None, Some(names)) if names.starts_with('[') => Wrap::Part(names.into()),
             (Wrap::None, Some(names)) => Wrap::Block(names.into()),
-            (_, Some(_)) => return Err("a block in a block".into()),
+            (_, Some(_)) => return Err(TextFault::Nested),
             (Wrap::Block(names), None) if line.starts_with('(') => {
                 handed_on(line, &names)?;
                 Wrap::BlockDone
@@ -57,10 +58,13 @@ impl Wrap {
             }
             (Wrap::PartDone(call), None) if line == "}" => Wrap::PartEnd(call),
             (Wrap::PartEnd(call), None) if line == call => Wrap::Called,
-            (Wrap::PartEnd(call), None) => return Err(format!("`{call}` expected, not `{line}`")),
+            (Wrap::PartEnd(expected), None) => {
+                let found = line.to_owned();
+                return Err(WordFault::Instead { expected, found }.into());
+            }
             (Wrap::BlockDone | Wrap::Called, None) if line == "};" => Wrap::None,
             (Wrap::BlockDone | Wrap::PartDone(_) | Wrap::Called, None) => {
-                return Err("the block does not end".into());
+                return Err(TextFault::Overlong);
             }
             (open, None) => {
                 *self = open;
@@ -72,17 +76,20 @@ impl Wrap {
     }
 }
 
-fn handed_on(line: &str, names: &str) -> Result<(), String> {
+fn handed_on(line: &str, names: &str) -> Result<(), TextFault> {
     if line == names {
         Ok(())
     } else {
-        Err(format!("the block hands on {line} as {names}"))
+        Err(TextFault::HandedOn {
+            inside: line.to_owned(),
+            outside: names.to_owned(),
+        })
     }
 }
 
 /// The call that passes every parameter of this head under its own name.
-fn call(head: &str) -> Result<String, String> {
-    let no_head = || format!("`{head}` is no head of a part");
+fn call(head: &str) -> Result<String, WordFault> {
+    let no_head = || Kind::PartHead.not(head);
     let parameters = head.strip_prefix("fn part(").ok_or_else(no_head)?;
     let (parameters, _) = parameters.split_once(") -> ").ok_or_else(no_head)?;
     let (arrays, values) = parameters.split_once('[').ok_or_else(no_head)?;
@@ -110,7 +117,7 @@ fn call(head: &str) -> Result<String, String> {
 mod tests {
     use super::*;
 
-    fn read(lines: &[&str]) -> Result<Vec<bool>, String> {
+    fn read(lines: &[&str]) -> Result<Vec<bool>, TextFault> {
         let mut wrap = Wrap::default();
         lines.iter().map(|line| wrap.line(line)).collect()
     }

@@ -1,6 +1,7 @@
 //! The statements of an emitted function, line by line.
 
 use crate::backend::entries::angles::Angles;
+use crate::backend::read::error::{Kind, Mark, SineFault, TextFault, WordFault};
 use crate::backend::read::given;
 use crate::backend::read::index_of;
 use crate::backend::read::part::Wrap;
@@ -56,7 +57,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether the line wraps statements and is none.
-    pub(super) fn block(&mut self, line: &str) -> Result<bool, String> {
+    pub(super) fn block(&mut self, line: &str) -> Result<bool, TextFault> {
         if let Some(block) = &mut self.sines {
             if let Some(trig) = block.line(line, self.scalar)? {
                 self.program.trig.push(trig);
@@ -72,9 +73,13 @@ impl<'a> Reader<'a> {
     }
 
     /// A line without `let `.
-    pub(super) fn statement(&mut self, line: &str) -> Result<(), String> {
-        let line = line.strip_suffix(';').ok_or("no `;` at the end")?;
-        let (name, value) = line.split_once(" = ").ok_or("no ` = `")?;
+    pub(super) fn statement(&mut self, line: &str) -> Result<(), TextFault> {
+        let line = line
+            .strip_suffix(';')
+            .ok_or(WordFault::Lacks(Mark::Semicolon))?;
+        let (name, value) = line
+            .split_once(" = ")
+            .ok_or(WordFault::Lacks(Mark::Equals))?;
         if let Some(angle) = name.strip_prefix('a') {
             return self.angle_sum(angle, value);
         }
@@ -94,15 +99,20 @@ impl<'a> Reader<'a> {
         }
         let number = format!("t{}", self.program.steps.len() + 1);
         if name != number {
-            return Err(format!("`{number}` is next, not `{name}`"));
+            let found = name.to_owned();
+            return Err(WordFault::Next {
+                expected: number,
+                found,
+            }
+            .into());
         }
         let mut words = value.split(' ');
         let (left, symbol, right) = match (words.next(), words.next(), words.next(), words.next()) {
             (Some(left), Some(symbol), Some(right), None) => (left, symbol, right),
-            _ => return Err(format!("`{value}` is not one operation")),
+            _ => return Err(Kind::OneOperation.not(value).into()),
         };
         let operation =
-            Operation::from_symbol(symbol).ok_or_else(|| format!("`{symbol}` is no operation"))?;
+            Operation::from_symbol(symbol).ok_or_else(|| Kind::Operation.not(symbol))?;
         let (left, right) = (self.operand(left)?, self.operand(right)?);
         self.program.steps.push(Step {
             operation,
@@ -112,33 +122,34 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn angle_sum(&mut self, name: &str, value: &str) -> Result<(), String> {
+    fn angle_sum(&mut self, name: &str, value: &str) -> Result<(), TextFault> {
         let mut words = value.split(' ');
-        let joint = |word: &str| index_of(word, "q").ok_or(format!("`{word}` is no position"));
+        let joint = |word: &str| index_of(word, "q").ok_or_else(|| Kind::Position.not(word));
         let first = words.next().unwrap_or_default();
         let mut sum = AngleSum::joint(joint(first)?);
         while let Some(sign) = words.next() {
             let negative = match sign {
                 "+" => false,
                 "-" => true,
-                other => return Err(format!("`{other}` is no sign")),
+                other => return Err(Kind::Sign.not(other).into()),
             };
             let term = joint(words.next().unwrap_or_default())?;
-            sum = sum.with(term, negative).ok_or("a joint twice in a sum")?;
+            sum = sum.with(term, negative).ok_or(SineFault::JointTwice)?;
         }
         if sum.to_string() != name {
-            return Err(format!("`a{name}` is the sum {sum}"));
+            let name = name.to_owned();
+            return Err(SineFault::Misnamed { name, sum }.into());
         }
         self.sums.push(sum);
         Ok(())
     }
 
-    fn trig(&mut self, name: &str, value: &str) -> Result<(), String> {
+    fn trig(&mut self, name: &str, value: &str) -> Result<(), TextFault> {
         if self.given.is_some() {
-            return Err(format!("`{value}` is no sine or cosine of the caller's"));
+            return Err(Kind::GivenSine.not(value).into());
         }
         if self.program.library == Library::Together {
-            return Err("a call after that of all angles together".into());
+            return Err(SineFault::AfterAll.into());
         }
         let together = together::read(name, value, self.scalar, &mut self.sums);
         if let Some(called) = together {
@@ -146,15 +157,17 @@ impl<'a> Reader<'a> {
             self.program.library = Library::Together;
             return Ok(());
         }
-        let (path, argument) = value.split_once('(').ok_or("no call")?;
-        let argument = argument.strip_suffix(')').ok_or("no `)`")?;
+        let (path, argument) = value.split_once('(').ok_or(WordFault::Lacks(Mark::Call))?;
+        let argument = argument
+            .strip_suffix(')')
+            .ok_or(WordFault::Lacks(Mark::Parenthesis))?;
         let angle = match index_of(argument, "q") {
             Some(joint) => AngleSum::joint(joint),
             None => self
                 .sums
                 .pop()
                 .filter(|sum| argument == format!("a{sum}"))
-                .ok_or_else(|| format!("`{argument}` is no angle"))?,
+                .ok_or_else(|| Kind::Angle.not(argument))?,
         };
         let call = path.rsplit("::").next().unwrap_or_default();
         let call = call
@@ -164,10 +177,11 @@ impl<'a> Reader<'a> {
             "sin" => (true, false, format!("s{angle}")),
             "cos" => (false, true, format!("c{angle}")),
             "sincos" => (true, true, format!("(s{angle}, c{angle})")),
-            _ => return Err(format!("`{path}` is no sine or cosine")),
+            _ => return Err(Kind::Sine.not(path).into()),
         };
         if name != expected {
-            return Err(format!("`{expected}` expected, not `{name}`"));
+            let found = name.to_owned();
+            return Err(WordFault::Instead { expected, found }.into());
         }
         self.program.trig.push(LoweredTrig {
             angle,
@@ -178,7 +192,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn operand(&self, word: &str) -> Result<Operand<Literal>, String> {
+    fn operand(&self, word: &str) -> Result<Operand<Literal>, TextFault> {
         for argument in Argument::ALL {
             if let Some(joint) = index_of(word, argument.name()) {
                 return Ok(Operand::Input(Input::Entry(argument, joint)));
@@ -186,7 +200,7 @@ impl<'a> Reader<'a> {
         }
         if let Some(step) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
             if step == 0 || step > self.program.steps.len() {
-                return Err(format!("`{word}` is not computed yet"));
+                return Err(Kind::Computed.not(word).into());
             }
             return Ok(Operand::Step(step - 1));
         }
@@ -211,7 +225,7 @@ impl<'a> Reader<'a> {
             .then(|| self.scalar.parse(word))
             .flatten()
             .map(|value| Operand::Constant(Literal(value)))
-            .ok_or_else(|| format!("`{word}` is neither a value nor a literal"))
+            .ok_or_else(|| Kind::Operand.not(word).into())
     }
 
     /// The sums of angles that no line has read.
@@ -220,12 +234,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The program with these results.
-    pub(super) fn finish(mut self, items: &[&str]) -> Result<Lowered, String> {
+    pub(super) fn finish(mut self, items: &[&str]) -> Result<Lowered, TextFault> {
         if !self.wrap.is_none() || self.sines.is_some() {
-            return Err("a block does not end".into());
+            return Err(TextFault::OpenBlock);
         }
-        if let Some(sum) = self.sums.first() {
-            return Err(format!("nothing reads `a{sum}`"));
+        if let Some(&sum) = self.sums.first() {
+            return Err(SineFault::Unread(sum).into());
         }
         for word in items {
             // A negative literal is a literal; a negated value is negated.

@@ -5,6 +5,7 @@
 
 use dalembert_model::outputs::Axis;
 
+use super::error::{Kind, TextFault, WordFault};
 use crate::function::Function;
 
 /// Whether every bracket that opens is closed again.
@@ -18,7 +19,7 @@ pub(super) fn is_complete(text: &str) -> bool {
 }
 
 /// The entries of the result, flat, in the order of the function's quantities.
-pub(super) fn items(text: &str, function: Function) -> Result<Vec<&str>, String> {
+pub(super) fn items(text: &str, function: Function) -> Result<Vec<&str>, TextFault> {
     let mut words = Words(text.trim());
     let mut items = Vec::new();
     match function.structure() {
@@ -40,7 +41,7 @@ pub(super) fn items(text: &str, function: Function) -> Result<Vec<&str>, String>
     }
     match words.next() {
         "" => Ok(items),
-        word => Err(format!("`{word}` after the result")),
+        word => Err(TextFault::Trailing(word.to_owned())),
     }
 }
 
@@ -50,12 +51,10 @@ fn array<'a>(
     words: &mut Words<'a>,
     axes: &[Axis],
     items: &mut Vec<&'a str>,
-) -> Result<usize, String> {
+) -> Result<usize, TextFault> {
     let Some((axis, inner)) = axes.split_first() else {
         return match words.next() {
-            word @ ("" | "[" | "]" | "{" | "}" | ":" | ",") => {
-                Err(format!("`{word}` is no entry of the result"))
-            }
+            word @ ("" | "[" | "]" | "{" | "}" | ":" | ",") => Err(Kind::Entry.not(word).into()),
             word => {
                 items.push(word);
                 Ok(1)
@@ -67,7 +66,7 @@ fn array<'a>(
     while words.peek() != "]" {
         let found = array(words, inner, items)?;
         if *each.get_or_insert(found) != found {
-            return Err("rows of different lengths".into());
+            return Err(TextFault::Ragged);
         }
         len += 1;
         if words.peek() != "]" {
@@ -76,9 +75,10 @@ fn array<'a>(
     }
     words.expect("]")?;
     match *axis {
-        Axis::Fixed(expected) if len != expected => Err(format!(
-            "an array of {expected} expected in the result, not of {len}"
-        )),
+        Axis::Fixed(expected) if len != expected => Err(TextFault::Length {
+            expected,
+            found: len,
+        }),
         _ => Ok(len * each.unwrap_or(0)),
     }
 }
@@ -113,10 +113,13 @@ impl<'a> Words<'a> {
         word
     }
 
-    fn expect(&mut self, expected: &str) -> Result<(), String> {
+    fn expect(&mut self, expected: &str) -> Result<(), WordFault> {
         match self.next() {
             word if word == expected => Ok(()),
-            word => Err(format!("`{expected}` expected in the result, not `{word}`")),
+            word => Err(WordFault::InsteadInResult {
+                expected: expected.to_owned(),
+                found: word.to_owned(),
+            }),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The blocks that compute sines and cosines by polynomials.
 
+use super::error::{Kind, Mark, SineFault, TextFault, WordFault};
 use crate::program::kernel::{ANGLE, Kernel, Term, Value, literal};
 use crate::program::{AngleSum, LoweredTrig, Operation, ScalarType};
 
@@ -55,46 +56,60 @@ impl Block {
         &mut self,
         line: &str,
         scalar: ScalarType,
-    ) -> Result<Option<LoweredTrig>, String> {
+    ) -> Result<Option<LoweredTrig>, TextFault> {
         match (line.strip_prefix("let "), self.done) {
-            (Some(statement), false) => self.statement(statement, scalar).map(|()| None),
-            (None, false) => self.result(line, scalar).map(|()| None),
+            (Some(statement), false) => {
+                self.statement(statement, scalar)?;
+                Ok(None)
+            }
+            (None, false) => {
+                self.result(line, scalar)?;
+                Ok(None)
+            }
             (None, true) if line == "};" => Ok(Some(LoweredTrig {
                 angle: self.angle,
                 sin: self.sin,
                 cos: self.cos,
                 kernel: Some(std::mem::take(&mut self.kernel)),
             })),
-            _ => Err("the block of an angle does not end".into()),
+            _ => Err(SineFault::OpenBlock.into()),
         }
     }
 
-    fn statement(&mut self, line: &str, scalar: ScalarType) -> Result<(), String> {
-        let line = line.strip_suffix(';').ok_or("no `;` at the end")?;
-        let (name, value) = line.split_once(" = ").ok_or("no ` = `")?;
+    fn statement(&mut self, line: &str, scalar: ScalarType) -> Result<(), WordFault> {
+        let line = line
+            .strip_suffix(';')
+            .ok_or(WordFault::Lacks(Mark::Semicolon))?;
+        let (name, value) = line
+            .split_once(" = ")
+            .ok_or(WordFault::Lacks(Mark::Equals))?;
         let number = format!("x{}", self.kernel.steps.len() + 1);
         if name != number {
-            return Err(format!("`{number}` is next, not `{name}`"));
+            let found = name.to_owned();
+            return Err(WordFault::Next {
+                expected: number,
+                found,
+            });
         }
         let words: Vec<&str> = value.split(' ').collect();
         let [left, symbol, right] = words.as_slice() else {
-            return Err(format!("`{value}` is not one operation"));
+            return Err(Kind::OneOperation.not(value));
         };
         // A polynomial does not divide.
         let operation = Operation::from_symbol(symbol)
             .filter(|operation| *operation != Operation::Div)
-            .ok_or_else(|| format!("`{symbol}` is no operation of a polynomial"))?;
+            .ok_or_else(|| Kind::PolynomialOperation.not(symbol))?;
         let (left, right) = (self.term(left, scalar)?, self.term(right, scalar)?);
         self.kernel.push(operation, left, right);
         Ok(())
     }
 
-    fn result(&mut self, line: &str, scalar: ScalarType) -> Result<(), String> {
+    fn result(&mut self, line: &str, scalar: ScalarType) -> Result<(), WordFault> {
         if self.sin && self.cos {
             let pair = line.strip_prefix('(').and_then(|l| l.strip_suffix(')'));
             let (sin, cos) = pair
                 .and_then(|pair| pair.split_once(", "))
-                .ok_or_else(|| format!("`{line}` is no sine and cosine"))?;
+                .ok_or_else(|| Kind::Pair.not(line))?;
             self.kernel.sin = Some(self.value(sin, scalar)?);
             self.kernel.cos = Some(self.value(cos, scalar)?);
         } else {
@@ -109,7 +124,7 @@ impl Block {
         Ok(())
     }
 
-    fn value(&self, word: &str, scalar: ScalarType) -> Result<Value, String> {
+    fn value(&self, word: &str, scalar: ScalarType) -> Result<Value, WordFault> {
         // A negative literal is a literal; a negated value is negated.
         match word.strip_prefix('-') {
             Some(rest) if !rest.starts_with(|c: char| c.is_ascii_digit()) => Ok(Value {
@@ -120,7 +135,7 @@ impl Block {
         }
     }
 
-    fn term(&self, word: &str, scalar: ScalarType) -> Result<Term, String> {
+    fn term(&self, word: &str, scalar: ScalarType) -> Result<Term, WordFault> {
         if word == self.argument {
             return Ok(ANGLE);
         }
@@ -128,7 +143,7 @@ impl Block {
             let step = step.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
             return match step {
                 Some(step) if step < self.kernel.steps.len() => Ok(Term::Step(step)),
-                _ => Err(format!("`{word}` is not computed yet")),
+                _ => Err(Kind::Computed.not(word)),
             };
         }
         // As in the other lines: an integer would be another type in Rust.
@@ -136,6 +151,6 @@ impl Block {
             .then(|| scalar.parse(word))
             .flatten()
             .map(literal)
-            .ok_or_else(|| format!("`{word}` is neither the angle, a value nor a literal"))
+            .ok_or_else(|| Kind::PolynomialOperand.not(word))
     }
 }

@@ -1,5 +1,6 @@
 //! The line that calls a library for all angles at once.
 
+use crate::backend::read::error::{Kind, Mark, SineFault, TextFault, WordFault};
 use crate::backend::read::index_of;
 use crate::program::{AngleSum, LoweredTrig, ScalarType};
 
@@ -11,7 +12,7 @@ pub(super) fn read(
     value: &str,
     scalar: ScalarType,
     sums: &mut Vec<AngleSum>,
-) -> Option<Result<Vec<LoweredTrig>, String>> {
+) -> Option<Result<Vec<LoweredTrig>, TextFault>> {
     let (path, arguments) = value.split_once("(&[")?;
     Some(calls(names, path, arguments, scalar, sums))
 }
@@ -22,20 +23,22 @@ fn calls(
     arguments: &str,
     scalar: ScalarType,
     sums: &mut Vec<AngleSum>,
-) -> Result<Vec<LoweredTrig>, String> {
-    let arguments = arguments.strip_suffix("])").ok_or("no `])`")?;
+) -> Result<Vec<LoweredTrig>, TextFault> {
+    let arguments = arguments
+        .strip_suffix("])")
+        .ok_or(WordFault::Lacks(Mark::Bracket))?;
     let call = path.rsplit("::").next().unwrap_or_default();
     if call.strip_suffix(scalar.math_suffix()) != Some("sincos") {
-        return Err(format!("`{path}` is not `sincos` of this scalar"));
+        return Err(Kind::Sincos.not(path).into());
     }
     let pair = names.strip_prefix("([").and_then(|n| n.strip_suffix("])"));
     let (sin, cos) = pair
         .and_then(|pair| pair.split_once("], ["))
-        .ok_or_else(|| format!("`{names}` are no sines and cosines"))?;
+        .ok_or_else(|| Kind::Pairs.not(names))?;
     let (sin, cos): (Vec<&str>, Vec<&str>) = (sin.split(", ").collect(), cos.split(", ").collect());
     let arguments: Vec<&str> = arguments.split(", ").collect();
     if sin.len() != arguments.len() || cos.len() != arguments.len() {
-        return Err("as many sines, cosines and angles are expected".into());
+        return Err(SineFault::Uneven.into());
     }
     let mut formed = std::mem::take(sums).into_iter();
     let mut all = Vec::new();
@@ -45,7 +48,7 @@ fn calls(
             None => formed
                 .next()
                 .filter(|sum| argument == format!("a{sum}"))
-                .ok_or_else(|| format!("`{argument}` is no angle"))?,
+                .ok_or_else(|| Kind::Angle.not(argument))?,
         };
         let trig = LoweredTrig {
             angle,
@@ -54,24 +57,27 @@ fn calls(
             kernel: None,
         };
         if !trig.sin && !trig.cos {
-            return Err(format!("neither sine nor cosine of `{argument}` is taken"));
+            return Err(SineFault::Untaken(argument.to_owned()).into());
         }
         all.push(trig);
     }
     match formed.next() {
-        Some(sum) => Err(format!("the sine of `a{sum}` is not called")),
+        Some(sum) => Err(SineFault::Uncalled(sum).into()),
         None => Ok(all),
     }
 }
 
 /// Whether a place has the name that it must have, or none.
-fn taken(name: &str, letter: char, angle: AngleSum) -> Result<bool, String> {
+fn taken(name: &str, letter: char, angle: AngleSum) -> Result<bool, SineFault> {
     if name == "_" {
         return Ok(false);
     }
     let expected = format!("{letter}{angle}");
     match name == expected {
         true => Ok(true),
-        false => Err(format!("`{expected}` or `_` expected, not `{name}`")),
+        false => Err(SineFault::Name {
+            expected,
+            found: name.to_owned(),
+        }),
     }
 }

@@ -16,7 +16,12 @@
 //! interval arithmetic does, and so does replacing a variable by its range.
 //!
 //! Which monomials occur is decided once, from the graph alone; a sub-box is
-//! then a flat run over arrays.
+//! then a flat run over arrays. That run is no
+//! [`Program`](crate::program::Program): a coefficient is the sum of up to
+//! hundreds of products, and adding them in place keeps one interval for it,
+//! where straight-line code would keep two for each product. And the product of
+//! a coefficient with itself is its square, which an operation on two values
+//! that do not know each other cannot see.
 //!
 //! - `compile`: which monomials occur
 //! - `evaluate`: their coefficients over a sub-box

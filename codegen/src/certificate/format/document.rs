@@ -3,6 +3,7 @@
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
 
+use super::error::{FormatFault, Listed};
 use super::polynomials::Polynomials;
 use super::program::{Listing, StageListing};
 use super::{Ends, VERSION};
@@ -115,25 +116,19 @@ impl Document {
     }
 
     /// The claim, if the file says nothing else.
-    pub(super) fn certificate(&self) -> Result<Certificate, String> {
+    pub(super) fn certificate(&self) -> Result<Certificate, FormatFault> {
         if self.certificate != VERSION {
-            return Err(format!(
-                "certificates of version {VERSION} are read, not of version {}: \
-                 make it again with this version's `generate` or `tradeoff`",
-                self.certificate
-            ));
+            return Err(FormatFault::Version(self.certificate));
         }
         let certificate = self.parse()?;
         let again = Document::of(&certificate);
         match self.differs(&again) {
             None => Ok(certificate),
-            Some(field) => Err(format!(
-                "`{field}` is not what this version writes for such a certificate"
-            )),
+            Some(field) => Err(FormatFault::Field(field)),
         }
     }
 
-    fn parse(&self) -> Result<Certificate, String> {
+    fn parse(&self) -> Result<Certificate, FormatFault> {
         let function = known("function", &self.function, |text| {
             Function::parse(text).ok()
         })?;
@@ -146,13 +141,13 @@ impl Document {
                 hash: hash.clone(),
             }),
             (None, None) => None,
-            _ => return Err("`scene` and `scene_hash` belong together".into()),
+            _ => return Err(FormatFault::HalfScene),
         };
         let empty = self.empty(function)?;
-        let emitted = self.emitted.program("emitted", &empty)?;
+        let emitted = self.emitted.program(Listed::Emitted, &empty)?;
         let mut stages = Vec::new();
         for (index, stage) in self.stages.iter().enumerate() {
-            stages.push(stage.stage(index, &empty)?);
+            stages.push(stage.stage(Listed::Stage(index + 1), &empty)?);
         }
         let sines = self.polynomials.iter().map(|p| p.sines(scalar));
         Ok(Certificate {
@@ -171,7 +166,7 @@ impl Document {
             emitted,
             text: self.text.clone(),
             library: self.library(),
-            sines: sines.collect::<Result<_, String>>()?,
+            sines: sines.collect::<Result<_, FormatFault>>()?,
             bounds: self.bounds()?,
             lambda_min: self.lambda_min,
         })
@@ -187,23 +182,22 @@ impl Document {
     }
 
     /// A program of this function, with nothing in it.
-    fn empty(&self, function: Function) -> Result<Program, String> {
+    fn empty(&self, function: Function) -> Result<Program, FormatFault> {
         let joints = self.position.len();
         if !(1..=Robot::MAX_JOINTS).contains(&joints) {
-            let most = Robot::MAX_JOINTS;
-            return Err(format!("`position` needs 1 to {most} ranges, one a joint"));
+            return Err(FormatFault::Joints);
         }
         let row = |&row: &usize| (1..=joints).contains(&row).then(|| row - 1);
         let rows: Option<Vec<usize>> = self.rows.iter().map(row).collect();
         let rows = rows.filter(|rows| rows.len() <= joints);
         let argument = |word: &String| {
             let named = Argument::from_name(word).filter(|a| Argument::STATE.contains(a));
-            named.ok_or_else(|| format!("`arguments`: `{word}` is none of q, qd and qdd"))
+            named.ok_or_else(|| FormatFault::Argument(word.clone()))
         };
         Ok(Program {
             function,
             joints,
-            rows: rows.ok_or("`rows`: expected the numbers of joints, from 1")?,
+            rows: rows.ok_or(FormatFault::Rows)?,
             arguments: self
                 .arguments
                 .iter()
@@ -217,10 +211,10 @@ impl Document {
         })
     }
 
-    fn bounds(&self) -> Result<Vec<Split>, String> {
+    fn bounds(&self) -> Result<Vec<Split>, FormatFault> {
         let (model, sincos, rounding) = (&self.model, &self.sincos, &self.rounding);
         if model.len() != sincos.len() || model.len() != rounding.len() {
-            return Err("`model`, `sincos` and `rounding` differ in length".into());
+            return Err(FormatFault::Bounds);
         }
         let parts = model.iter().zip(sincos).zip(rounding);
         let bounds = parts.map(|((model, sincos), rounding)| Split {
@@ -250,8 +244,15 @@ impl Document {
     }
 }
 
-fn known<T>(field: &str, word: &str, find: impl Fn(&str) -> Option<T>) -> Result<T, String> {
-    find(word).ok_or_else(|| format!("`{field}`: `{word}` is not known"))
+fn known<T>(
+    field: &'static str,
+    word: &str,
+    find: impl Fn(&str) -> Option<T>,
+) -> Result<T, FormatFault> {
+    find(word).ok_or_else(|| {
+        let word = word.to_owned();
+        FormatFault::Unknown { field, word }
+    })
 }
 
 fn scale(word: &str) -> Option<Scale> {
@@ -261,10 +262,10 @@ fn scale(word: &str) -> Option<Scale> {
         .map(|(_, scale)| scale)
 }
 
-fn ranges(field: &str, ends: &[Ends]) -> Result<Vec<Interval>, String> {
+fn ranges(field: &'static str, ends: &[Ends]) -> Result<Vec<Interval>, FormatFault> {
     let range = |(index, &[low, high]): (usize, &Ends)| {
-        Interval::new(low, high)
-            .ok_or_else(|| format!("`{field}`: range {} ends before it begins", index + 1))
+        let number = index + 1;
+        Interval::new(low, high).ok_or(FormatFault::Range { field, number })
     };
     ends.iter().enumerate().map(range).collect()
 }

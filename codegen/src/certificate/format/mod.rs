@@ -1,6 +1,7 @@
 //! Certificates as JSON: one, or a list of them.
 //!
 //! - `document`: the fields, derived for reading and writing alike
+//! - `error`: why a text is none
 //! - `program`: programs as lists of lines; `polynomials`: sines' code
 //!
 //! Reading is strict. A key that is unknown, missing or there twice is
@@ -10,15 +11,14 @@
 //! sines from their own code; the printed text is only ever compared.
 
 mod document;
+mod error;
 mod polynomials;
 mod program;
-
-use std::fmt;
 
 use super::Certificate;
 use document::Document;
 pub use document::text_hash;
-use serde_json::error::Category;
+pub use error::{FormatError, FormatFault};
 
 /// The version of the format.
 pub const VERSION: u32 = 2;
@@ -32,47 +32,6 @@ pub const MAX_CERTIFICATES: usize = 16;
 /// A range: both ends are numbers.
 type Ends = [f64; 2];
 
-/// Why a text is no certificate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FormatError {
-    /// Line and column, one-based, if the JSON itself is at fault.
-    pub at: Option<(usize, usize)>,
-    /// What is wrong and what was expected.
-    pub message: String,
-}
-
-impl fmt::Display for FormatError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for FormatError {}
-
-impl From<String> for FormatError {
-    fn from(message: String) -> Self {
-        FormatError { at: None, message }
-    }
-}
-
-impl From<serde_json::Error> for FormatError {
-    fn from(error: serde_json::Error) -> Self {
-        let words = error.to_string();
-        // The place is reported by itself.
-        let place = format!(" at line {} column {}", error.line(), error.column());
-        let words = words.strip_suffix(&place).unwrap_or(&words);
-        let message = match error.classify() {
-            Category::Data => format!("this is no certificate of format {VERSION}: {words}"),
-            _ => format!("this is no JSON, which a certificate is: {words}"),
-        };
-        FormatError {
-            at: Some((error.line(), error.column())),
-            message: message
-                + "\n  = help: `dalembert generate` in a scene with a tolerance writes certificates",
-        }
-    }
-}
-
 /// Reads a certificate, or a list of them. Nothing that it says is believed:
 /// that is for [`Certificate::check`] to decide.
 ///
@@ -80,18 +39,16 @@ impl From<serde_json::Error> for FormatError {
 /// What is not as [`write`] writes it.
 pub fn read(text: &str) -> Result<Vec<Certificate>, FormatError> {
     if text.len() > MAX_BYTES {
-        let most = MAX_BYTES >> 20;
-        return Err(format!("the file is longer than {most} MiB, the most that is read").into());
+        return Err(FormatFault::TooLong.into());
     }
     let documents: Vec<Document> = match text.trim_start().starts_with('[') {
         true => serde_json::from_str(text)?,
         false => vec![serde_json::from_str(text)?],
     };
     match documents.len() {
-        0 => return Err("there is no certificate in it".to_owned().into()),
+        0 => return Err(FormatFault::Empty.into()),
         n if n > MAX_CERTIFICATES => {
-            let message = format!("{n} certificates in one file; {MAX_CERTIFICATES} at most");
-            return Err(message.into());
+            return Err(FormatFault::TooMany(n).into());
         }
         _ => {}
     }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Ends;
+use super::error::{FormatFault, PolynomialFault};
 use crate::interval::Interval;
 use crate::program::AngleSum;
 use crate::program::Operation;
@@ -54,27 +55,27 @@ impl Polynomials {
 
     /// The claim. What kind of polynomials they are is for people; the proof
     /// is of the steps.
-    pub(super) fn sines(&self, scalar: ScalarType) -> Result<AngleKernel, String> {
+    pub(super) fn sines(&self, scalar: ScalarType) -> Result<AngleKernel, FormatFault> {
         let of = &self.angle;
-        let fail = |why: String| format!("`polynomials` of `{of}`: {why}");
-        let angle: AngleSum = of.parse().map_err(|()| fail("this is no angle".into()))?;
+        let fail = |fault| FormatFault::Polynomials(of.clone(), fault);
+        let angle: AngleSum = of.parse().map_err(|()| fail(PolynomialFault::Angle))?;
         let [low, high] = self.range;
         let mut kernel = Kernel::default();
         for (index, line) in self.steps.iter().enumerate() {
             let step = read_step(line, index, scalar);
-            let step = step.ok_or_else(|| fail(format!("x{}: `{line}`", index + 1)))?;
+            let step = step.ok_or_else(|| fail(PolynomialFault::Step(index + 1, line.clone())))?;
             kernel.steps.push(step);
         }
         let result = |word: &Option<String>| match word {
             None => Ok(None),
             Some(word) => read_value(word, kernel.steps.len(), scalar)
                 .map(Some)
-                .ok_or_else(|| fail(format!("`{word}` is no value"))),
+                .ok_or_else(|| fail(PolynomialFault::Value(word.clone()))),
         };
         let (sin, cos) = (result(&self.sine)?, result(&self.cosine)?);
         Ok(AngleKernel {
             angle,
-            range: Interval::new(low, high).ok_or_else(|| fail("`range` is empty".into()))?,
+            range: Interval::new(low, high).ok_or_else(|| fail(PolynomialFault::Range))?,
             form: String::new(),
             kernel: Kernel { sin, cos, ..kernel },
             errors: Errors {

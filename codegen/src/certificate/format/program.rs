@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::error::{FormatFault, Listed};
 use crate::certificate::work;
 use crate::edits::Stage;
-use crate::edits::text;
+use crate::edits::text::{self, EditFault};
 use crate::program::text::{read_results, read_step, without_quotient, write_operand};
 use crate::program::{Output, Program, Step};
 
@@ -41,22 +42,21 @@ impl Listing {
     }
 
     /// The program, of the same function, rows and arguments as an empty one.
-    pub(super) fn program(&self, what: &str, empty: &Program) -> Result<Program, String> {
+    pub(super) fn program(&self, of: Listed, empty: &Program) -> Result<Program, FormatFault> {
         let count = self.steps.len();
         if count > work::MAX_STEPS {
-            let most = work::MAX_STEPS;
-            return Err(format!("`{what}` has {count} steps; {most} are the most"));
+            return Err(FormatFault::Steps(of, count));
         }
         let mut program = empty.clone();
         for (index, line) in self.steps.iter().enumerate() {
             let words: Vec<&str> = line.split(' ').collect();
             let read = read_step(&words, &program);
             let read = read.and_then(without_quotient);
-            let read = read.map_err(|why| format!("`{what}`, t{}: {why}", index + 1))?;
+            let read = read.map_err(|fault| FormatFault::Step(of, index + 1, fault))?;
             program.steps.push(read);
         }
         let words: Vec<&str> = self.results.iter().map(String::as_str).collect();
-        read_results(&words, &mut program).map_err(|why| format!("`{what}`, results: {why}"))?;
+        read_results(&words, &mut program).map_err(|fault| FormatFault::Results(of, fault))?;
         Ok(program)
     }
 }
@@ -69,19 +69,17 @@ impl StageListing {
         }
     }
 
-    pub(super) fn stage(&self, index: usize, empty: &Program) -> Result<Stage, String> {
-        let what = format!("stage {}", index + 1);
-        let program = self.program.program(&what, empty)?;
+    pub(super) fn stage(&self, of: Listed, empty: &Program) -> Result<Stage, FormatFault> {
+        let program = self.program.program(of, empty)?;
         if self.edits.len() > work::MAX_EDITS {
-            let (count, most) = (self.edits.len(), work::MAX_EDITS);
-            return Err(format!("`{what}` has {count} edits; {most} are the most"));
+            return Err(FormatFault::Edits(of, self.edits.len()));
         }
         let edits = self
             .edits
             .iter()
             .map(|edit| text::read_edit(edit, &program));
-        let edits: Result<Vec<_>, String> = edits.collect();
-        let edits = edits.map_err(|why| format!("`{what}`, edits: {why}"))?;
+        let edits: Result<Vec<_>, EditFault> = edits.collect();
+        let edits = edits.map_err(|fault| FormatFault::Edit(of, fault))?;
         Ok(Stage { program, edits })
     }
 }

@@ -15,7 +15,7 @@ mod products;
 
 use super::columns::{Nodes, Value};
 use super::motions::Motions;
-use crate::program::Operation;
+use crate::program::Operand;
 use adjoints::adjoints;
 pub(super) use products::{LANES, dot};
 use products::{gram, subtract, transposed};
@@ -57,29 +57,24 @@ impl Fit {
         let adjoints = adjoints(nodes, edits, columns);
         let (m, inputs) = (nodes.samples, nodes.inputs.len());
         let (stride, outputs) = (nodes.len() * m, nodes.outputs.len());
-        for (index, op) in nodes.ops.iter().enumerate() {
+        for (index, step) in nodes.steps.iter().enumerate() {
             let node = inputs + index;
             if !live[node] || edits[node].is_some() {
                 continue;
             }
-            let (right, other, constant) = match (op.left, op.right) {
-                (Value::Known(c), Value::Node(other, _)) => (false, other as usize, c),
-                (Value::Node(other, _), Value::Known(c)) => (true, other as usize, c),
+            let (right, constant) = match (step.left, step.right) {
+                (Operand::Constant(_), Operand::Constant(_)) => continue,
+                (Operand::Constant(c), _) => (false, c),
+                (_, Operand::Constant(c)) => (true, c),
                 _ => continue,
             };
-            let minus = op.operation == Operation::Sub && right;
+            let side = usize::from(right);
+            let read = [&step.left, &step.right].map(|operand| nodes.column(operand, columns));
             let mut column = vec![0.0; outputs * m];
             for output in 0..outputs {
                 let adjoint = &adjoints[output * stride + node * m..][..m];
                 let out = &mut column[output * m..][..m];
-                let factor = &columns[other * m..][..m];
-                for ((out, adjoint), factor) in out.iter_mut().zip(adjoint).zip(factor) {
-                    *out = match op.operation {
-                        Operation::Mul => adjoint * factor,
-                        _ if minus => -adjoint,
-                        _ => *adjoint,
-                    };
-                }
+                step.operation.add_parts(side, adjoint, read, out);
             }
             motions.monomials(&mut column);
             for (x, w) in column.iter_mut().zip(weights) {

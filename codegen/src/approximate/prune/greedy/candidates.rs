@@ -21,14 +21,11 @@ pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Val
         values.push(Value::Known(f64::from(mid as f32)));
     }
     if let Some(index) = node.checked_sub(nodes.inputs.len()) {
-        let op = nodes.ops[index];
-        if op.operation != Operation::Mul {
-            values.push(op.left);
-            values.push(match (op.operation, op.right) {
-                (Operation::Sub, Value::Node(right, _)) => Value::Node(right, true),
-                (Operation::Sub, Value::Known(c)) => Value::Known(-c),
-                (_, right) => right,
-            });
+        let step = &nodes.steps[index];
+        if step.operation != Operation::Mul {
+            let minus = step.operation == Operation::Sub;
+            values.push(nodes.value(&step.left, false));
+            values.push(nodes.value(&step.right, minus));
         }
     }
     values

@@ -134,7 +134,7 @@ impl<'a> Greedy<'a> {
                 let Some(Ranked { node, value, .. }) = best else {
                     break;
                 };
-                let kept = state.nodes.ops.clone();
+                let kept = state.nodes.steps.clone();
                 state.edits[node] = Some(value);
                 let edited = state.nodes.run(&state.edits);
                 let fresh = self.fit(state, &edited);
@@ -142,7 +142,7 @@ impl<'a> Greedy<'a> {
                 if self.potential(&self.errors(&state.nodes, &columns)).worst > 1.0 {
                     // Constants cannot make up for it as hoped.
                     state.edits[node] = None;
-                    state.nodes.ops = kept;
+                    state.nodes.steps = kept;
                     columns = state.nodes.run(&state.edits);
                     refused[node] = true;
                 } else {
@@ -187,9 +187,9 @@ impl<'a> Greedy<'a> {
         let mut state = state.clone();
         self.price(&state);
         let inputs = state.nodes.inputs.len();
-        for (index, was) in original.ops.iter().enumerate() {
+        for (index, was) in original.steps.iter().enumerate() {
             if !self.scratch.live()[inputs + index] {
-                state.nodes.ops[index] = *was;
+                state.nodes.steps[index] = *was;
             }
         }
         state.nodes.edits(original, &state.edits)

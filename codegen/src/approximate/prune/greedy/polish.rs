@@ -1,8 +1,8 @@
 //! Constants corrected for what is left out.
 
 use super::{Greedy, State, TINY};
-use crate::approximate::prune::columns::Value;
 use crate::approximate::prune::fit::Fit;
+use crate::program::Operand;
 
 impl Greedy<'_> {
     /// Corrects constants until the worst error shrinks no more.
@@ -13,18 +13,18 @@ impl Greedy<'_> {
         self.price(state);
         let mut columns = state.nodes.run(&state.edits);
         let worst = self.potential(&self.errors(&state.nodes, &columns)).worst;
-        let mut best = (worst, state.nodes.ops.clone());
+        let mut best = (worst, state.nodes.steps.clone());
         for _ in 0..rounds {
             let fit = self.fit(state, &columns);
             columns = self.correct(state, columns, &fit);
             let errors = self.errors(&state.nodes, &columns);
             let worst = self.potential(&errors).worst;
             if worst < best.0 {
-                best = (worst, state.nodes.ops.clone());
+                best = (worst, state.nodes.steps.clone());
             }
             self.reweigh(state, &errors, worst);
         }
-        state.nodes.ops = best.1;
+        state.nodes.steps = best.1;
     }
 
     /// Rows with large errors count more next time (Lawson).
@@ -84,11 +84,14 @@ impl Greedy<'_> {
         for (error, weight) in errors.iter_mut().zip(&self.weights) {
             *error *= weight;
         }
-        let kept = state.nodes.ops.clone();
-        for ((op, right), change) in fit.changes(&errors) {
-            let op = &mut state.nodes.ops[op];
-            let operand = if right { &mut op.right } else { &mut op.left };
-            if let Value::Known(c) = operand {
+        let kept = state.nodes.steps.clone();
+        for ((step, right), change) in fit.changes(&errors) {
+            let step = &mut state.nodes.steps[step];
+            let operand = match right {
+                true => &mut step.right,
+                false => &mut step.left,
+            };
+            if let Operand::Constant(c) = operand {
                 *c += change;
             }
         }
@@ -97,7 +100,7 @@ impl Greedy<'_> {
         if worst < before || worst <= 1.0 && before <= 1.0 {
             return after;
         }
-        state.nodes.ops = kept;
+        state.nodes.steps = kept;
         columns
     }
 }

@@ -5,6 +5,7 @@ use super::measure::Attempt;
 use super::{Greedy, Ranked, State};
 use crate::approximate::prune::columns::Value;
 use crate::approximate::prune::fit::{Fit, LANES};
+use crate::program::Operand;
 use crate::random::Random;
 
 /// Errors in units of the allowance at which a candidate is not looked at any
@@ -107,13 +108,16 @@ impl Greedy<'_> {
         for k in node..nodes.len() {
             let is_dirty =
                 |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n as usize]);
+            let reads_dirty = |operand: &Operand<f64, usize>| {
+                nodes.node_of(operand).is_some_and(|node| self.dirty[node])
+            };
             let dirty = k == node
                 || match state.edits[k] {
                     Some(value) => is_dirty(value),
                     None if k < inputs => false,
                     None => {
-                        let op = nodes.ops[k - inputs];
-                        is_dirty(op.left) || is_dirty(op.right)
+                        let step = &nodes.steps[k - inputs];
+                        reads_dirty(&step.left) || reads_dirty(&step.right)
                     }
                 };
             if dirty {

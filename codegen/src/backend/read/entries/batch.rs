@@ -4,6 +4,7 @@
 use super::call::{expect, parameters};
 use super::{Text, TextError, result, statements};
 use crate::backend::read::Reader;
+use crate::backend::read::error::EntryFault;
 use crate::function::{Function, Sizes};
 
 /// Checks them.
@@ -21,10 +22,9 @@ pub(super) fn check(text: &Text<'_>, arguments: &[String]) -> Result<(), TextErr
         let found = path.split_once(&format!("::{driver}::<"));
         let found = found.and_then(|(_, rest)| Some(rest.split_once(", ")?.0));
         if found.is_none() || kind.is_some_and(|kind| Some(kind) != found) {
-            return Err(TextError {
-                line: first + 2,
-                message: format!("`{driver}` of the function's own type expected, not `{line}`"),
-            });
+            let line = line.to_owned();
+            let fault = EntryFault::Driver { driver, line };
+            return Err(TextError::new(first + 2, fault));
         }
         kind = found;
     }
@@ -32,14 +32,14 @@ pub(super) fn check(text: &Text<'_>, arguments: &[String]) -> Result<(), TextErr
 }
 
 fn implementation(text: &Text<'_>, kind: &str, passed: &str) -> Result<(), TextError> {
-    let missing = |what: &str| TextError {
-        line: 1,
-        message: format!("`{kind}` has no {what}"),
+    let missing = |part: &'static str| {
+        let kind = kind.to_owned();
+        TextError::new(1, EntryFault::Lacks { kind, part })
     };
     let end = format!(" for {kind} {{");
     let start = text.lines.iter().position(|line| line.ends_with(&end));
     let start = start.ok_or_else(|| missing("implementation"))?;
-    let method = |name: &str| {
+    let method = |name: &'static str| {
         let head = format!("fn {name}<const L: usize>(");
         let rest = &text.lines[start..];
         let at = rest.iter().position(|line| line.starts_with(&head));
@@ -63,14 +63,11 @@ fn implementation(text: &Text<'_>, kind: &str, passed: &str) -> Result<(), TextE
     let mut none = Reader::new(text.scalar);
     let (tail, _) = statements(&mut none, &text.lines[state + 1..], "state")
         .map_err(|error| error.after(state + 1))?;
-    let at = |message| TextError {
-        line: state + 1,
-        message,
-    };
-    let items = result::items(&tail, text.function).map_err(at)?;
+    let items = result::items(&tail, text.function);
+    let items = items.map_err(|fault| TextError::new(state + 1, fault))?;
     let places = places(text.function, text.sizes);
     if items.len() != places.len() {
-        return Err(at("a result of another arm".into()));
+        return Err(TextError::new(state + 1, EntryFault::OtherArm));
     }
     let expected: Vec<String> = places
         .iter()

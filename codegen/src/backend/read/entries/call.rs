@@ -2,6 +2,7 @@
 
 use super::TextError;
 use crate::backend::entries::angles::Angles;
+use crate::backend::read::error::WordFault;
 use crate::program::LoweredTrig;
 
 /// A call of `NAME_with_sincos`.
@@ -52,9 +53,12 @@ pub(super) fn parameters(head: &str) -> impl Iterator<Item = &str> {
 pub(super) fn expect(found: &str, expected: &str, line: usize) -> Result<(), TextError> {
     match found == expected {
         true => Ok(()),
-        false => Err(TextError {
+        false => Err(TextError::new(
             line,
-            message: format!("`{expected}` expected, not `{found}`"),
-        }),
+            WordFault::Instead {
+                expected: expected.to_owned(),
+                found: found.to_owned(),
+            },
+        )),
     }
 }

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use super::call::{Call, expect, parameters};
 use super::{Reader, Text, TextError};
+use crate::backend::read::error::{EntryFault, Kind, TextFault};
 use crate::function::Argument;
 use crate::program::Lowered;
 
@@ -40,11 +41,8 @@ impl<'a> Lines<'a> {
         expect(line, expected, self.number())
     }
 
-    fn error(&self, message: impl Into<String>) -> TextError {
-        TextError {
-            line: self.number(),
-            message: message.into(),
-        }
+    fn error(&self, fault: impl Into<TextFault>) -> TextError {
+        TextError::new(self.number(), fault)
     }
 }
 
@@ -68,11 +66,11 @@ pub(super) fn check(
 
     let sines = sines(&mut lines, text)?;
     if sines.trig != single.trig || sines.library != single.library {
-        return Err(lines.error("the sines are not those of one state"));
+        return Err(lines.error(EntryFault::OtherSines));
     }
     let line = lines.take();
     if !(line.starts_with("let mut results = ") && line.ends_with(';')) {
-        return Err(lines.error(format!("the results expected, not `{line}`")));
+        return Err(lines.error(EntryFault::NoResults(line.to_owned())));
     }
     lines.expect("for l in 0..L {")?;
     let columns = arguments.iter().map(|argument| {
@@ -97,12 +95,12 @@ pub(super) fn check(
         });
         match place {
             Some(place) if places.insert(place) => {}
-            Some(_) => return Err(lines.error("a number of the result twice")),
-            None => return Err(lines.error(format!("`{line}` gives a lane no result"))),
+            Some(_) => return Err(lines.error(EntryFault::Twice)),
+            None => return Err(lines.error(EntryFault::NoLane(line.to_owned()))),
         }
     }
     if places.len() != outputs {
-        return Err(lines.error(format!("{outputs} numbers of the result expected")));
+        return Err(lines.error(EntryFault::Count(outputs)));
     }
     lines.expect("}")?;
     lines.expect("results")?;
@@ -124,16 +122,16 @@ fn sines(lines: &mut Lines<'_>, text: &Text<'_>) -> Result<Lowered, TextError> {
         lines.expect("for l in 0..L {")?;
         let filled = in_lanes(lines, &mut reader)?;
         if filled != arrays {
-            return Err(lines.error("other arrays are filled than there are"));
+            return Err(lines.error(EntryFault::OtherArrays));
         }
     }
     if lines.peek().starts_with("let ([") {
         let call = lines.take().replacen("_lanes(&[", "(&[", 1);
         let statement = call.strip_prefix("let ").unwrap_or_default();
         let read = reader.statement(statement);
-        read.map_err(|message| lines.error(message))?;
+        read.map_err(|fault| lines.error(fault))?;
     }
-    reader.finish(&[]).map_err(|message| lines.error(message))
+    reader.finish(&[]).map_err(|fault| lines.error(fault))
 }
 
 /// A loop over lanes, as what it says of one; the arrays that it fills.
@@ -148,20 +146,20 @@ fn in_lanes(lines: &mut Lines<'_>, reader: &mut Reader<'_>) -> Result<Vec<String
             let names = names.trim_start_matches('(').trim_end_matches(')');
             for name in names.split(", ") {
                 let array = name.strip_suffix("[l]");
-                let array = array.ok_or_else(|| lines.error(format!("`{name}` is no lane")))?;
+                let array = array.ok_or_else(|| lines.error(Kind::Lane.not(name)))?;
                 filled.push(array.to_owned());
             }
             statement = format!("let {statement}");
         }
         let block = reader.block(&statement);
-        if block.map_err(|message| lines.error(message))? {
+        if block.map_err(|fault| lines.error(fault))? {
             continue;
         }
         let Some(statement) = statement.strip_prefix("let ") else {
-            return Err(lines.error(format!("`{line}` is no sine or cosine")));
+            return Err(lines.error(Kind::Sine.not(line)));
         };
         let read = reader.statement(statement);
-        read.map_err(|message| lines.error(message))?;
+        read.map_err(|fault| lines.error(fault))?;
     }
     lines.expect("}")?;
     Ok(filled)

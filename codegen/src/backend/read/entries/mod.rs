@@ -10,6 +10,7 @@ mod batch;
 mod call;
 mod lanes;
 
+use super::error::EntryFault;
 use super::{Reader, TextError, head, result, statements};
 use crate::backend::Entries;
 use crate::backend::entries::angles::Angles;
@@ -99,10 +100,7 @@ impl<'a> Text<'a> {
         let mut reader = Reader::given(self.scalar, self.angles);
         let (tail, end) =
             statements(&mut reader, lines, &name).map_err(|error| error.after(first + 1))?;
-        let at = |message| TextError {
-            line: first + 1 + end,
-            message,
-        };
+        let at = |fault| TextError::new(first + 1 + end, fault);
         // In their order as in the call, or names would trade places.
         let mut expected: Vec<String> = self.names()?;
         expected.extend(["sin", "cos"].map(String::from));
@@ -131,7 +129,7 @@ impl<'a> Text<'a> {
             statements(&mut reader, lines, name).map_err(|error| error.after(first + 1))?;
         let line = first + 1 + end;
         let sines = reader.finish(&[]);
-        let sines = sines.map_err(|message| TextError { line, message })?;
+        let sines = sines.map_err(|fault| TextError::new(line, fault))?;
         let arguments = self.names()?;
         let call = Call {
             name,
@@ -154,13 +152,10 @@ impl<'a> Text<'a> {
         };
         match sorted(&given.trig) == sorted(&single.trig) {
             true => Ok(()),
-            false => Err(TextError {
-                line: 1,
-                message: format!(
-                    "`{}` does not compute the sines that it reads",
-                    self.function
-                ),
-            }),
+            false => Err(TextError::new(
+                1,
+                EntryFault::OtherAngles(self.function.name().to_owned()),
+            )),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Operands and steps as plans and certificates write them: inputs as emitted
 //! code names them, `t1` for the first step, `#` before a constant, `~` before
-//! a negated result.
+//! a negated result. `fault` says why a line is none of these.
+
+mod fault;
 
 use std::fmt::Write;
 
@@ -8,6 +10,7 @@ use dalembert_model::number::Exact;
 
 use super::{AngleSum, Input, Operand, Operation, Output, Program, Step};
 use crate::function::Argument;
+pub use fault::LineFault;
 
 /// How emitted code names an input.
 pub fn input_name(input: Input) -> String {
@@ -43,7 +46,7 @@ pub(crate) fn write_steps(text: &mut String, program: &Program) {
 }
 
 /// The results that end a program.
-pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), String> {
+pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), LineFault> {
     for word in words {
         let (negative, word) = match word.strip_prefix('~') {
             Some(rest) => (true, rest),
@@ -55,19 +58,19 @@ pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), 
     let expected = program.function.outputs(program.sizes());
     if program.outputs.len() != expected {
         let found = program.outputs.len();
-        return Err(format!("expected {expected} results, found {found}"));
+        return Err(LineFault::Results { expected, found });
     }
     program.collect_trig();
     Ok(())
 }
 
 /// A step from its words.
-pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, String> {
+pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineFault> {
     let &[left, symbol, right] = words else {
-        return Err("expected an operation such as `t1 + s2`".into());
+        return Err(LineFault::Step);
     };
     let operation =
-        Operation::from_symbol(symbol).ok_or_else(|| format!("`{symbol}` is no operation"))?;
+        Operation::from_symbol(symbol).ok_or_else(|| LineFault::Operation((*symbol).to_owned()))?;
     Ok(Step {
         operation,
         left: read_operand(left, program)?,
@@ -79,31 +82,31 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, Strin
 ///
 /// # Errors
 /// Nothing is certified of a program that divides.
-pub(crate) fn without_quotient(step: Step) -> Result<Step, String> {
+pub(crate) fn without_quotient(step: Step) -> Result<Step, LineFault> {
     match step.operation {
-        Operation::Div => Err("a quotient, of which no bound is known".into()),
+        Operation::Div => Err(LineFault::Quotient),
         _ => Ok(step),
     }
 }
 
 /// An operand of a program's next step.
-pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, String> {
+pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, LineFault> {
     if let Some(constant) = word.strip_prefix('#') {
         return constant
             .parse::<Exact>()
             .map(Operand::Constant)
-            .map_err(|error| error.to_string());
+            .map_err(LineFault::Constant);
     }
     if let Some(index) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
         return match index {
             1.. if index <= program.steps.len() => Ok(Operand::Step(index - 1)),
-            _ => Err(format!("`{word}` is not computed yet")),
+            _ => Err(LineFault::Later(word.to_owned())),
         };
     }
     input(word)
         .filter(|input| input_fits(*input, program))
         .map(Operand::Input)
-        .ok_or_else(|| format!("`{word}` is neither an input, a step nor a constant"))
+        .ok_or_else(|| LineFault::Operand(word.to_owned()))
 }
 
 fn input(word: &str) -> Option<Input> {

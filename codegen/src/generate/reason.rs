@@ -1,0 +1,100 @@
+//! Reasons that an error gives: what is wrong with a text, with sines, and with
+//! code that was run.
+
+use std::fmt;
+
+use crate::approximate::choose::NoPolynomials;
+use crate::backend::read::TextError;
+use crate::certificate::Refuted;
+use crate::program::Difference;
+use crate::sincos::TooAccurate;
+
+/// Why a printed text is not the program: a defect of this library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TextDefect {
+    /// Its module is not there.
+    NoModule,
+    /// It cannot be read back.
+    Unreadable(Box<TextError>),
+    /// What was read back is another program.
+    Differs(Difference),
+    /// What was read back costs something else.
+    Counts,
+}
+
+impl fmt::Display for TextDefect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TextDefect::NoModule => f.write_str("its module is not in the text"),
+            TextDefect::Unreadable(error) => error.fmt(f),
+            TextDefect::Differs(difference) => difference.fmt(f),
+            TextDefect::Counts => f.write_str("the counts of the text differ"),
+        }
+    }
+}
+
+impl std::error::Error for TextDefect {}
+
+/// Why there are no polynomials for sines.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoSines {
+    /// None gives them as exactly as was wanted.
+    TooAccurate(Box<TooAccurate>),
+    /// An error was given for them in a scene with a tolerance, which decides.
+    Decided,
+    /// None is within the scene's tolerance.
+    Tolerance(Box<NoPolynomials>),
+}
+
+impl fmt::Display for NoSines {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoSines::TooAccurate(error) => error.fmt(f),
+            NoSines::Decided => f.write_str(
+                "a scene's tolerance decides how exact its sines are: give no error for them",
+            ),
+            NoSines::Tolerance(why) => write!(
+                f,
+                "no polynomials for its sines within the tolerance: {why}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoSines {}
+
+/// What was seen where proved code was run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contradiction {
+    /// It errs more than its certificate allows.
+    Certificate(Box<Refuted>),
+    /// It errs more than rounding can.
+    Recursion {
+        /// The result's name.
+        entry: String,
+        /// How far it is off the robot's own recursion.
+        error: f64,
+        /// The most that rounding explains.
+        bound: f64,
+    },
+}
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Contradiction::Certificate(refuted) => refuted.fmt(f),
+            Contradiction::Recursion {
+                entry,
+                error,
+                bound,
+            } => write!(
+                f,
+                "{entry} is {error:.3e} off the robot's own recursion, and rounding is no more \
+                 than {bound:.3e}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Contradiction {}

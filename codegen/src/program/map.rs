@@ -1,0 +1,35 @@
+//! The same code over other constants and inputs.
+
+use super::{Operand, Output, Step};
+
+impl<C, I> Operand<C, I> {
+    /// The same value, its constant or input named otherwise.
+    pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Operand<D, J> {
+        match self {
+            Operand::Input(name) => Operand::Input(input(name)),
+            Operand::Constant(value) => Operand::Constant(constant(value)),
+            Operand::Step(index) => Operand::Step(*index),
+        }
+    }
+}
+
+impl<C, I> Step<C, I> {
+    /// The same operation on operands that are named otherwise.
+    pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Step<D, J> {
+        Step {
+            operation: self.operation,
+            left: self.left.map(&constant, &input),
+            right: self.right.map(&constant, &input),
+        }
+    }
+}
+
+impl<C, I> Output<C, I> {
+    /// The same result, its value named otherwise.
+    pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Output<D, J> {
+        Output {
+            negative: self.negative,
+            value: self.value.map(constant, input),
+        }
+    }
+}
