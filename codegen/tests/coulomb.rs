@@ -36,7 +36,8 @@ const RUBBED: [Function; 5] = [
     Function::InverseDynamicsDerivatives,
     Function::ForwardDynamicsDerivatives,
 ];
-const PLAIN: [Function; 5] = [
+const PLAIN: [Function; 6] = [
+    Function::Coriolis,
     Function::ManipulatorEquation,
     Function::DynamicCoefficients,
     Function::KineticEnergy,
@@ -93,7 +94,7 @@ fn states(setting: &Setting, count: usize) -> Vec<JointState> {
 #[test]
 fn code_is_as_accurate_as_without() {
     let robot = arm();
-    let functions = [RUBBED, PLAIN].concat();
+    let functions = [&RUBBED[..], &PLAIN].concat();
     let generated = of(&robot, &request(&functions));
     let setting = Setting::whole(&robot);
     let (states, runtime) = (states(&setting, 200), Runtime::new(&robot));
@@ -164,7 +165,8 @@ fn every_formulation_has_it() {
     }
 }
 
-/// Robots that nobody chose, both conventions: what reads friction is proved of each.
+/// Robots that nobody chose, both conventions: what reads friction is proved of each,
+/// and h, which must not.
 #[test]
 fn random_robots_are_proved() {
     let mut draw = Draw(Random::new(0x636f_756c));
@@ -177,7 +179,8 @@ fn random_robots_are_proved() {
             }
         }
         let (states, runtime) = (states(&Setting::whole(&robot), 40), Runtime::new(&robot));
-        for emitted in of(&robot, &request(&RUBBED[..3])).emitted {
+        let functions = [&RUBBED[..3], &PLAIN[..1]].concat();
+        for emitted in of(&robot, &request(&functions)).emitted {
             for measure in emitted.against_runtime(&runtime, &states) {
                 assert!(measure.in_units() < BOUND, "{robot:?}: {measure:?}");
             }

@@ -58,7 +58,7 @@ impl Formula for Coriolis {
         let mut still = chain.clone();
         still.gravity = zero_vector();
         for link in &mut still.links {
-            link.viscous = S::zero();
+            (link.viscous, link.coulomb) = (S::zero(), None);
         }
         Some(still.inverse_dynamics(at.at, &at.motion.qd, &rest, form.spin, form.couple))
     }
