@@ -211,6 +211,7 @@ fn functions(
                 | GenerateError::Disproved(function, _)
                 | GenerateError::Tolerance(function, _)
                 | GenerateError::Variant(function, _)
+                | GenerateError::Edited(function, _)
                 | GenerateError::Text(function, ..)
                 | GenerateError::Namesakes(_, function)
                 | GenerateError::Vanishing(function, _) => Some(*function),

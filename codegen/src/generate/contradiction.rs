@@ -42,7 +42,7 @@ pub(super) fn check(
                         scalar: certificate.scalar,
                         why: Contradiction::Certificate(Box::new(why)),
                     },
-                    other => GenerateError::Variant(generated.function, other),
+                    other => GenerateError::Edited(generated.function, other),
                 })?;
             }
             continue;

@@ -89,6 +89,9 @@ pub enum GenerateError {
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
     Variant(Function, Refuted),
+    /// What was left out within a tolerance is not what the edits say: a defect of
+    /// this library.
+    Edited(Function, Refuted),
 }
 
 impl fmt::Display for GenerateError {
@@ -163,7 +166,8 @@ impl fmt::Display for GenerateError {
                 why,
             } => write!(
                 f,
-                "`{function}` in {scalar} was proved, but not when it was run: {why}"
+                "`{function}` in {scalar} passed its proof, but gave a wrong result when it was run: {why}; \
+                 please report this defect of dalembert"
             ),
             GenerateError::Base(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Parameter(why) => why.fmt(f),
@@ -171,6 +175,11 @@ impl fmt::Display for GenerateError {
             GenerateError::Variant(function, why) => {
                 write!(f, "the plan's variant of `{function}`: {why}")
             }
+            GenerateError::Edited(function, why) => write!(
+                f,
+                "what was left out of `{function}` is not what was written down: {why}; please report \
+                 this defect of dalembert"
+            ),
         }
     }
 }

@@ -166,9 +166,10 @@ fn one(
     };
     let admitted = match usable(&frame, &tolerances, scalars, request)? {
         Some(kept) => kept,
-        None => frame
-            .choose(&tolerances, scalars, &settings, fineness)
-            .map_err(fail)?,
+        None => {
+            let found = frame.choose(&tolerances, scalars, &settings, fineness);
+            proved(&frame, found.map_err(fail)?)?
+        }
     };
     // Always as fine, so that a plan's variant gets the sines that it got when
     // it was found.
@@ -207,6 +208,16 @@ fn one(
         *certificate = certificate.calling(request.math.library);
     }
     Ok(admitted)
+}
+
+/// A variant that was just found is the exact program with its edits: proved, as it is
+/// of one that a plan kept. The scalars share both.
+fn proved(frame: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
+    let programs = found.certificates.first();
+    match programs.map(|certificate| certificate.check_programs(frame.setting)) {
+        Some(Err(why)) => Err(GenerateError::Edited(frame.exact.function, why)),
+        _ => Ok(found),
+    }
 }
 
 /// Another regrouping may be looked for only where the start may be any.
