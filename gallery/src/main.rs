@@ -16,7 +16,7 @@ fn main() -> ExitCode {
         [] => false,
         [word] if word == "--check" => true,
         _ => {
-            eprintln!("error: the only argument there is: --check");
+            eprintln!("error: the only argument known: --check");
             return ExitCode::from(2);
         }
     };

@@ -28,7 +28,7 @@
 /// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
 /// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. The chance of a miss is that of one attempt to be lucky.
+/// can choose them. A miss is a wrong program that passes; its probability is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod panda {
@@ -38,7 +38,7 @@ pub const N: usize = 7;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 261 mul, 257 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 40, 259 bits, chance of a miss below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 40, coefficients of at most 259 bits, a wrong program passes with probability below 1e-63).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 7], qd: &[f64; 7], qdd: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -571,7 +571,7 @@ pub fn inverse_dynamics(q: &[f64; 7], qd: &[f64; 7], qdd: &[f64; 7]) -> [f64; 7]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 46 mul, 30 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 12, 137 bits, chance of a miss below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 137 bits, a wrong program passes with probability below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -662,7 +662,7 @@ pub fn gravity(q: &[f64; 7]) -> [f64; 7] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 144 mul, 157 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 221 bits, chance of a miss below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 221 bits, a wrong program passes with probability below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f64; 7]) -> [[f64; 7]; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -986,7 +986,7 @@ pub fn inertia(q: &[f64; 7]) -> [[f64; 7]; 7] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 251 mul, 237 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 42, 426 bits, chance of a miss below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 42, coefficients of at most 426 bits, a wrong program passes with probability below 1e-62).
 #[must_use]
 pub fn coriolis(q: &[f64; 7], qd: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1500,7 +1500,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 401 mul, 365 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 32, 282 bits, chance of a miss below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 32, coefficients of at most 282 bits, a wrong program passes with probability below 1e-63).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 7], qd: &[f64; 7]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -2304,7 +2304,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 652 mul, 510 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 482 bits, chance of a miss below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 482 bits, a wrong program passes with probability below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 7]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -3592,7 +3592,7 @@ pub fn dynamic_coefficients(q: &[f64; 7]) -> DynamicCoefficients {
 /// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
 /// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. The chance of a miss is that of one attempt to be lucky.
+/// can choose them. A miss is a wrong program that passes; its probability is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod panda_f32 {
@@ -3602,7 +3602,7 @@ pub const N: usize = 7;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 261 mul, 257 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 40, 259 bits, chance of a miss below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 40, coefficients of at most 259 bits, a wrong program passes with probability below 1e-63).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 7], qd: &[f32; 7], qdd: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4135,7 +4135,7 @@ pub fn inverse_dynamics(q: &[f32; 7], qd: &[f32; 7], qdd: &[f32; 7]) -> [f32; 7]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 46 mul, 30 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 12, 137 bits, chance of a miss below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 137 bits, a wrong program passes with probability below 1e-64).
 #[must_use]
 pub fn gravity(q: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4226,7 +4226,7 @@ pub fn gravity(q: &[f32; 7]) -> [f32; 7] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 144 mul, 157 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 221 bits, chance of a miss below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 221 bits, a wrong program passes with probability below 1e-63).
 #[must_use]
 pub fn inertia(q: &[f32; 7]) -> [[f32; 7]; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4550,7 +4550,7 @@ pub fn inertia(q: &[f32; 7]) -> [[f32; 7]; 7] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 251 mul, 237 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 42, 426 bits, chance of a miss below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 42, coefficients of at most 426 bits, a wrong program passes with probability below 1e-62).
 #[must_use]
 pub fn coriolis(q: &[f32; 7], qd: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -5064,7 +5064,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 401 mul, 365 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 32, 282 bits, chance of a miss below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 32, coefficients of at most 282 bits, a wrong program passes with probability below 1e-63).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 7], qd: &[f32; 7]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -5868,7 +5868,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 652 mul, 510 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 28, 482 bits, chance of a miss below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 482 bits, a wrong program passes with probability below 1e-62).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 7]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

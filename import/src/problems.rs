@@ -106,8 +106,8 @@ pub(crate) fn instead<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> S
     match closest(name, &names) {
         Some(meant) => format!("did you mean `{meant}`?"),
         None if names.len() > MAX_NAMES => {
-            format!("there is: {}, …", names[..MAX_NAMES].join(", "))
+            format!("known: {}, …", names[..MAX_NAMES].join(", "))
         }
-        None => format!("there is: {}", names.join(", ")),
+        None => format!("known: {}", names.join(", ")),
     }
 }

@@ -174,7 +174,7 @@ fn refusals_name_the_joint_and_the_way_out() {
         (mimic, hand.clone(), &["arm.urdf:11", "joint `turn` of the chain mimics `reach`", "--lock turn=0"]),
         (kind("planar"), hand.clone(), &["joint `reach` of the chain is planar", "--base lower"]),
         (kind("floating"), hand.clone(), &["arm.urdf:18:3", "joint `reach` of the chain is floating"]),
-        (kind("ball"), hand.clone(), &["arm.urdf:18", "`ball` is no type of joint", "there is: revolute"]),
+        (kind("ball"), hand.clone(), &["arm.urdf:18", "`ball` is no type of joint", "known: revolute"]),
         (ARM.into(), with(|o| o.tip = Some("hnad".into())), &["--tip: there is no link `hnad`", "did you mean `hand`?"]),
         (ARM.into(), with(|o| o.base = Some("hand".into())), &["no joint moves between link `hand` and link `hand`"]),
         (ARM.into(), with(|o| { o.base = Some("thumb".into()); o.without.clear(); }), &["link `hand` does not hang on link `thumb`"]),

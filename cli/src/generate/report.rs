@@ -194,8 +194,8 @@ pub fn counts(generated: &Generated) -> String {
                 false => function.source.name().to_owned(),
             },
             match function.proof.miss() {
-                Some(exponent) => format!("exact, miss < 1e{exponent}"),
-                None => "exact".to_owned(),
+                Some(exponent) => format!("proved, p(wrong) < 1e{exponent}"),
+                None => "proved".to_owned(),
             },
         ]);
         rows.push(row);

@@ -174,10 +174,10 @@ impl fmt::Display for ToleranceError {
             ToleranceError::Scale(why) => why.fmt(f),
             ToleranceError::Work { limit, scene } => write!(
                 f,
-                "what the tolerance allows was not found within {limit} units of work, about as \
-                 much as may be done while a compiler waits: run `dalembert generate ROBOT.toml \
-                 --scene {scene} --effort thorough --save-plan` once; with its plan nothing is \
-                 searched for"
+                "the search for a program within the tolerance was stopped: it takes too long for a \
+                 compilation (more than {limit} units of work). Run `dalembert generate ROBOT.toml \
+                 --scene {scene} --effort thorough --save-plan` once: macro and build script then take the \
+                 program from its plan"
             ),
             ToleranceError::Indefinite(why) => write!(f, "the full model: {why}"),
             ToleranceError::Above {

@@ -186,7 +186,8 @@ impl fmt::Display for Refuted {
                 )
             }
             Refuted::Shape => f.write_str(
-                "a list is not as long as it should be, or a step reads one that is not before it",
+                "the certificate is malformed: a list has the wrong length, or a step reads a step that does \
+                 not come before it",
             ),
             Refuted::Work(much) => much.fmt(f),
             Refuted::Signature { program, what } => {

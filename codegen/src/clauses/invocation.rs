@@ -256,7 +256,7 @@ fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
     let meant = closest(&word, &CLAUSES);
     let help = match meant {
         Some(meant) => format!("did you mean `{meant}`?"),
-        None => format!("there is: {}", CLAUSES.join(", ")),
+        None => format!("known: {}", CLAUSES.join(", ")),
     };
     errors.say(key, &format!("unknown clause `{word}`"), &help);
     meant

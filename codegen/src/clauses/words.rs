@@ -177,7 +177,7 @@ impl UnknownWord {
     pub fn help(&self) -> String {
         match self.meant {
             Some(meant) => format!("did you mean `{meant}`?"),
-            None => format!("there is: {}", self.known.join(", ")),
+            None => format!("known: {}", self.known.join(", ")),
         }
     }
 }
@@ -218,7 +218,7 @@ mod tests {
     fn unknown_words() {
         for (text, shown) in [
             ("f46", "unknown scalar `f46`: did you mean `f64`?"),
-            ("double", "unknown scalar `double`: there is: f64, f32"),
+            ("double", "unknown scalar `double`: known: f64, f32"),
         ] {
             assert_eq!(
                 parse::<ScalarType>(text).map_err(|e| e.to_string()),

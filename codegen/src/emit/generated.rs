@@ -26,8 +26,8 @@ pub struct GeneratedFunction {
     pub sines: Vec<(ScalarType, Sines)>,
     /// Counts of the formula as executed, then after each step.
     pub stages: Vec<Stage>,
-    /// That it is right; with a tolerance, that the program is that it was
-    /// made from.
+    /// The proof of the exact program. With a tolerance, `program` is another one that was made from
+    /// it; this proof is not about that.
     pub proof: Proof,
     /// What the limit on rounding errors cost, if it did: a cheaper program
     /// that the preference for operations takes.

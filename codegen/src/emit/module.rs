@@ -276,13 +276,13 @@ fn header(
         true => [
             "Every function was proved before anything was left out of it: with exact",
             "constants it equals the equations of motion at random points modulo random primes.",
-            "What was left out, within the scene's tolerance, each function says.",
+            "Each function lists what was then left out of it, within the scene's tolerance.",
         ],
     };
     lines.extend(proved.map(String::from));
     let drawn = [
         "Primes and points follow from the SHA-256 of robot, scene and program, so that nobody",
-        "can choose them. The chance of a miss is that of one attempt to be lucky.",
+        "can choose them. A miss is a wrong program that passes; its probability is for one program.",
     ];
     lines.extend(drawn.map(String::from));
     lines
@@ -355,9 +355,11 @@ fn function_doc(
     if generated.program.divides() {
         lines.push(String::new());
         lines.push(
-            "Divides by what D is eliminated to, which is positive wherever D is: it fails".into(),
+            "Divides by the pivots of D, which are positive wherever D is positive definite. Where a".into(),
         );
-        lines.push("where a joint moves no inertia, with infinities and NaN.".into());
+        lines.push(
+            "joint moves no inertia a pivot is zero, and results are infinite or NaN.".into(),
+        );
     }
     lines.extend(friction::doc(generated, setting));
     lines.extend(arguments::doc(generated.function, setting));

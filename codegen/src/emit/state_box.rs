@@ -72,8 +72,8 @@ impl StateBox {
         }
         text.push_str(
             "}\n\n\
-             /// Whether a state is inside [`BOX`], ends included: only there what the functions of\n\
-             /// this module say of their errors is true. A state with a NaN is not inside.\n\
+             /// Whether a state is inside [`BOX`], ends included. The error bounds of this module's\n\
+             /// functions hold only there. A state with a NaN is not inside.\n\
              #[must_use]\n",
         );
         let parameters = self.columns.iter().map(|(argument, column)| {

@@ -21,10 +21,10 @@ pub(super) fn describe(admitted: &Admitted, setting: &Setting, scalar: ScalarTyp
     };
     let mut lines = vec![String::new()];
     lines.push(
-        "Certified: inside the box, |this code - the full model| ≤ E·T, of which each cause has"
+        "Certified: inside the box, |this code - the full model| ≤ E·T. The last three columns"
             .into(),
     );
-    lines.push("its part. Ask [`in_box`] whether a state is inside.".into());
+    lines.push("split E by cause. [`in_box`] says whether a state is inside.".into());
     let quantities = certificate.emitted.function.quantities();
     lines.extend(scale::sentences(certificate.relative_to, quantities));
     lines.push(String::new());

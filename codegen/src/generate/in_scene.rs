@@ -31,7 +31,7 @@ impl UnknownScene {
         match (&self.meant, self.known.as_slice()) {
             (Some(meant), _) => format!("did you mean `{meant}`?"),
             (None, []) => format!("its file has none: add a table [scene.{}]", self.found),
-            (None, known) => format!("there is: {}", known.join(", ")),
+            (None, known) => format!("known scenes: {}", known.join(", ")),
         }
     }
 }

@@ -36,8 +36,9 @@ impl fmt::Display for ParameterError {
         match self {
             ParameterError::Unregrouped(function) => write!(
                 f,
-                "`{function}` depends on more of a payload than joints feel, and `load` has no \
-                 more: leave it out here, or give the payload in a scene"
+                "`{function}` depends on parameters of the payload that have no effect on joint torques, \
+                 and `load` does not have these: generate `{function}` without `payload`, or give the \
+                 payload in a scene"
             ),
             ParameterError::Formulation(start) => write!(
                 f,

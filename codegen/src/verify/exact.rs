@@ -112,13 +112,16 @@ impl fmt::Display for Proof {
         };
         write!(
             f,
-            "equals {formula} at random points modulo {} random primes of 63 bits \
-             (degree {}, {} bits, ",
+            "equals {formula} at {} random points, each modulo a random prime of 63 bits \
+             (degree at most {}, coefficients of at most {} bits, ",
             self.primes, self.degree, self.height
         )?;
         match self.miss() {
-            Some(exponent) => write!(f, "chance of a miss below 1e{exponent})"),
-            None => f.write_str("no chance of a miss)"),
+            Some(exponent) => write!(
+                f,
+                "a wrong program passes with probability below 1e{exponent})"
+            ),
+            None => f.write_str("no wrong program passes)"),
         }
     }
 }

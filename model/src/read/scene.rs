@@ -254,7 +254,7 @@ impl Reader<'_, '_, '_> {
                 (None, None) if names.is_empty() => {
                     format!("the joints have no names: count them from 1 to {n}")
                 }
-                (None, None) => format!("there is: {}", names.join(", ")),
+                (None, None) => format!("known: {}", names.join(", ")),
             };
             let message = format!("there is no joint {}", quote(text));
             self.cx.sink.error(span, message, &help);
