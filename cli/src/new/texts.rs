@@ -34,7 +34,8 @@ pub(super) fn manifest(name: &str, dependency: &str) -> String {
          [dependencies]\ndalembert = {{ {dependency} }}\n\n\
          [dev-dependencies]\nnalgebra = {{ version = \"0.35\", default-features = false }}\n\n\
          # The macro searches and proves while it expands.\n\
-         [profile.dev.build-override]\nopt-level = 3\n\n[workspace]\n"
+         [profile.dev.build-override]\nopt-level = 3\n\n\
+         [profile.release.build-override]\nopt-level = 3\n\n[workspace]\n"
     )
 }
 
