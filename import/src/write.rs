@@ -92,13 +92,13 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems)
             "the Coulomb friction of joint `{}`, {}, is left out",
             joint.name, friction.text
         );
-        let width = match joint.kind {
-            Kind::Prismatic => "0.01, in m/s",
-            _ => "0.01, in rad/s",
+        let unit = match joint.kind {
+            Kind::Prismatic => "m/s",
+            _ => "rad/s",
         };
         let help = format!(
-            "to have it in the torques, give the joint `coulomb = {}` and `coulomb_width = {width}`, \
-             the speed over which its sign is smoothed",
+            "to have it in the torques, give the joint `coulomb = {}` and `coulomb_width = 0.01`, \
+             the speed in {unit} over which its sign is smoothed",
             number(&friction.value)
         );
         problems.note(&friction.span, message, &help);

@@ -93,7 +93,7 @@ fn the_file_says_what_the_urdf_says() {
     assert_eq!(notes, expected);
     let help = imported.notes[0].help.as_deref().unwrap_or_default();
     assert!(
-        help.contains("`coulomb = 0.25` and `coulomb_width = 0.01, in rad/s`"),
+        help.contains("`coulomb = 0.25` and `coulomb_width = 0.01`, the speed in rad/s"),
         "{help}"
     );
 }
