@@ -36,6 +36,17 @@ pub(crate) fn file(
         &mut text,
         &format!("Base axes are those of {base}; gravity is taken to pull against its z."),
     );
+    let locked = options.lock.iter();
+    let locked = locked.map(|(joint, value)| format!("--lock {joint}={value}"));
+    let without = options.without.iter();
+    let without = without.map(|link| format!("--without {link}"));
+    let chosen: Vec<String> = locked.chain(without).collect();
+    if !chosen.is_empty() {
+        comment(
+            &mut text,
+            &format!("What hangs on it: {}.", chosen.join(" ")),
+        );
+    }
     if !snaps.is_empty() {
         comment(
             &mut text,
