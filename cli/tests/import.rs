@@ -27,7 +27,7 @@ fn a_chain_becomes_a_robot_file_that_counts() {
     for part in [
         "ur5.urdf:",
         "is taken for pi/2",
-        "what that changes in the torques is bounded: ≤ ",
+        "the torques change by: ≤ ",
         "of the effort limits",
         "wrist_3_joint: ≤ ",
         "--exact takes every digit as it stands",
