@@ -155,7 +155,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         for (index, joint) in urdf.joints.iter().enumerate() {
             let ends = [&joint.parent, &joint.child].map(|(name, span)| {
                 let found = links.get(name.as_str()).copied();
-                if found.is_none() {
+                if found.is_none() && !urdf.unread.contains(name) {
                     let message = format!("there is no link `{name}`");
                     let help = instead(name, urdf.links.iter().map(|link| link.name.as_str()));
                     tree.problems.error(span, message, &help);
@@ -216,7 +216,11 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         let found = links.iter().position(|link| link.name == name);
         if found.is_none() {
             let message = format!("{option}: there is no link `{name}`");
-            let help = instead(name, links.iter().map(|link| link.name.as_str()));
+            let mut joints = self.urdf.joints.iter();
+            let help = match joints.find(|joint| joint.name == name) {
+                Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
+                None => instead(name, links.iter().map(|link| link.name.as_str())),
+            };
             self.problems.error(&self.urdf.span, message, &help);
         }
         found

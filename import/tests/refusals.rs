@@ -185,6 +185,7 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.into(), with(|o| o.lock = vec![("reach".into(), "0.41".into())]), &["arm.urdf:20:19", "--lock reach=0.41: the joint's limits are 0 to 0.4"]),
         (ARM.replacen("<limit effort=\"1\"", "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"", 1), open.clone(), &["add --lock finger=0.01, or"]),
         (ARM.into(), with(|o| o.lock = vec![("stand".into(), "0".into())]), &["a fixed joint has no position"]),
+        (ARM.into(), with(|o| o.without = vec!["finger".into()]), &["--without: there is no link `finger`", "`finger` is a joint; its link is `thumb`"]),
         (ARM.into(), with(|o| o.without = vec!["lower".into()]), &["--without lower: the chain passes through it"]),
         (ARM.replace("<mass value=\"2\"/>", ""), hand.clone(), &["arm.urdf:15:5", "the inertial of link `upper` has no <mass>"]),
         (ARM.replace("<mass value=\"2\"/>", "<mass value=\"-2\"/>"), hand.clone(), &["the mass of link `upper` is negative"]),
@@ -221,6 +222,9 @@ fn all_at_once() {
         .replace("type=\"prismatic\"", "type=\"slider\"");
     let text = refused(&source, &at_the_hand());
     assert_eq!(text.matches("error: ").count(), 5, "{text}");
+    // Nothing is said of the joints at a link that could not be read.
+    let text = refused(&ARM.replace("<mass value=\"2\"/>", ""), &at_the_hand());
+    assert_eq!(text.matches("error: ").count(), 1, "{text}");
 }
 
 /// Impossible and missing inertials are taken, and named with their lines.

@@ -10,6 +10,7 @@ mod joint;
 mod link;
 mod number;
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use roxmltree::{Document, Node};
@@ -31,6 +32,8 @@ pub(crate) struct Urdf {
     /// The start tag of the robot.
     pub(crate) span: Range<usize>,
     pub(crate) links: Vec<Link>,
+    /// The names of those that something is wrong with, which was said.
+    pub(crate) unread: BTreeSet<String>,
     pub(crate) joints: Vec<Joint>,
 }
 
@@ -96,9 +99,14 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
             .error(&span, "there are no links".to_owned(), help);
         return None;
     }
+    let named = elements("link").filter_map(|node| node.attribute("name"));
+    let read: BTreeSet<&str> = links.iter().map(|link| link.name.as_str()).collect();
+    let unread = named.filter(|name| !read.contains(name));
+    let unread = unread.map(str::to_owned).collect();
     Some(Urdf {
         name: root.attribute("name").unwrap_or("arm").to_owned(),
         span,
+        unread,
         links,
         joints,
     })
