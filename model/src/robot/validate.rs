@@ -184,7 +184,7 @@ impl Findings {
             self.error(at(Field::CoulombWidth), message, &help);
         } else if width.is_zero() {
             if joint.coulomb.is_positive() {
-                let message = "Coulomb friction without a `coulomb_width`".to_owned();
+                let message = "Coulomb friction without a `coulomb_width` above zero".to_owned();
                 self.error(at(Field::Coulomb), message, &help);
             }
         } else if !WIDTHS.contains(&f64::nearest_rational(width)) {

@@ -198,7 +198,13 @@ impl<'a> Check<'a> {
                         shown(low),
                         shown(high)
                     );
-                    self.say(Part::Lock(place), message, "lock it where it can be");
+                    let help = match joint.kind {
+                        JointKind::Revolute => {
+                            "lock it where it can be; a number is in rad, degrees are written as \"90deg\""
+                        }
+                        JointKind::Prismatic => "lock it where it can be, in m",
+                    };
+                    self.say(Part::Lock(place), message, help);
                 }
             }
         }
