@@ -272,14 +272,14 @@ impl<'a> ErrorBudget<'a> {
 
     /// What bounds of a program's rounding need: found once for the scalars, the
     /// sines and the tolerances of the same program.
-    fn sensitivity(&self, program: &Program, fineness: BoundEffort) -> Rc<Sensitivity> {
+    fn sensitivity(&self, program: &Program, bound_effort: BoundEffort) -> Rc<Sensitivity> {
         let mut known = self.sensitivities.borrow_mut();
         let found = known
             .iter()
-            .position(|s| s.is_of(program, &self.limits, fineness));
+            .position(|s| s.is_of(program, &self.limits, bound_effort));
         let found = match found {
             Some(index) => known.remove(index),
-            None => Rc::new(Sensitivity::of(program, &self.limits, fineness)),
+            None => Rc::new(Sensitivity::of(program, &self.limits, bound_effort)),
         };
         known.truncate(KEPT - 1);
         known.insert(0, found.clone());
@@ -300,8 +300,8 @@ impl<'a> ErrorBudget<'a> {
     }
 
     /// The exact program's certificates, whatever they come to.
-    pub fn unedited(&self, scalars: &[ScalarType], fineness: BoundEffort) -> Admitted {
-        self.certified(&[], self.exact, scalars, fineness)
+    pub fn unedited(&self, scalars: &[ScalarType], bound_effort: BoundEffort) -> Admitted {
+        self.certified(&[], self.exact, scalars, bound_effort)
     }
 
     fn certified(
@@ -309,7 +309,7 @@ impl<'a> ErrorBudget<'a> {
         stages: &[Stage],
         emitted: &Program,
         scalars: &[ScalarType],
-        fineness: BoundEffort,
+        bound_effort: BoundEffort,
     ) -> Admitted {
         // What the scalars share, then each of them.
         let tell = |done| {
@@ -320,8 +320,8 @@ impl<'a> ErrorBudget<'a> {
         };
         tell(0);
         let subject = self.subject(stages, emitted);
-        let model = subject.model(fineness);
-        let sensitivity = self.sensitivity(emitted, fineness);
+        let model = subject.model(bound_effort);
+        let sensitivity = self.sensitivity(emitted, bound_effort);
         let certificate = |(index, &scalar)| {
             tell(1 + index);
             Certificate {
@@ -371,7 +371,7 @@ impl<'a> ErrorBudget<'a> {
         tolerances: &[f64],
         scalars: &[ScalarType],
         settings: &Settings,
-        fineness: BoundEffort,
+        bound_effort: BoundEffort,
     ) -> Result<Admitted, ToleranceError> {
         let meter = Meter::new(settings.work);
         let spent = || match settings.work {
@@ -381,12 +381,12 @@ impl<'a> ErrorBudget<'a> {
             }),
             _ => Ok(()),
         };
-        let unedited = self.unedited(scalars, fineness);
+        let unedited = self.unedited(scalars, bound_effort);
         unedited.within(tolerances)?;
         spent()?;
         let mut start: Option<Option<Program>> = None;
         for aside in [2.0, 8.0] {
-            let Some(allowances) = self.allowances(tolerances, scalars, aside, fineness) else {
+            let Some(allowances) = self.allowances(tolerances, scalars, aside, bound_effort) else {
                 break;
             };
             let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
@@ -399,7 +399,7 @@ impl<'a> ErrorBudget<'a> {
             if pruned.stages.is_empty() {
                 break;
             }
-            let variant = self.certified(&pruned.stages, &pruned.program, scalars, fineness);
+            let variant = self.certified(&pruned.stages, &pruned.program, scalars, bound_effort);
             if variant.within(tolerances).is_ok() && variant.is_definite() {
                 return Ok(variant);
             }
@@ -426,7 +426,7 @@ impl<'a> ErrorBudget<'a> {
         &self,
         certificate: &Certificate,
         tolerances: &[f64],
-        fineness: BoundEffort,
+        bound_effort: BoundEffort,
     ) -> Result<Certificate, NoPolynomials> {
         let Certificate {
             emitted, scalar, ..
@@ -441,7 +441,7 @@ impl<'a> ErrorBudget<'a> {
             .zip(&self.scales)
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
-        let sensitivity = self.sensitivity(emitted, fineness);
+        let sensitivity = self.sensitivity(emitted, bound_effort);
         let positions = sine_positions(self.setting.robot(), emitted, *scalar, &self.limits);
         // A tolerance may admit more than D bears.
         for part in [1.0, 0.1, 0.01] {
@@ -464,12 +464,12 @@ impl<'a> ErrorBudget<'a> {
         tolerances: &[f64],
         scalars: &[ScalarType],
         aside: f64,
-        fineness: BoundEffort,
+        bound_effort: BoundEffort,
     ) -> Option<Vec<f64>> {
         let pairs = self.scales.iter().zip(tolerances);
         let whole: Vec<f64> = pairs.map(|(scale, t)| scale * t).collect();
         let mut allowances = whole.clone();
-        let sensitivity = self.sensitivity(self.exact, fineness);
+        let sensitivity = self.sensitivity(self.exact, bound_effort);
         for &scalar in scalars {
             let costs = sensitivity.rounding(scalar, &[]);
             for ((left, whole), cost) in allowances.iter_mut().zip(&whole).zip(&costs) {

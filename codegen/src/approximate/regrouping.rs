@@ -69,7 +69,7 @@ pub(super) fn descend(
             if descent.is_over() {
                 return None;
             }
-            let graph = portfolio::in_gauge(setting, function, regrouping, tuned.form);
+            let graph = portfolio::in_regrouping(setting, function, regrouping, tuned.form);
             let graph = simplify(&[graph], &[], Effort::Quick, &|_| true)?.graph;
             let program = program.with_graph(&graph);
             Some((descent.price(&program, LOOKS[0]), regrouping, program))

@@ -179,9 +179,9 @@ impl Certificate {
     /// by the fine one.
     fn check_bounds(&self, subject: &Subject<'_>) -> Result<Vec<Split>, Refuted> {
         let mut found: Option<Vec<Split>> = None;
-        for fineness in [BoundEffort::QUICK, BoundEffort::CERTIFY] {
-            let sensitivity = subject.sensitivity(fineness);
-            let next = subject.bounds(self.scalar, &subject.model(fineness), &sensitivity);
+        for bound_effort in [BoundEffort::QUICK, BoundEffort::CERTIFY] {
+            let sensitivity = subject.sensitivity(bound_effort);
+            let next = subject.bounds(self.scalar, &subject.model(bound_effort), &sensitivity);
             let best = match found {
                 None => next,
                 Some(best) => best.iter().zip(&next).map(|(a, b)| a.min(*b)).collect(),

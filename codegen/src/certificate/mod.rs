@@ -164,9 +164,9 @@ impl Certificate {
             relative_to: None,
             sines: &[],
         };
-        let fineness = BoundEffort::CERTIFY;
-        let sensitivity = subject.sensitivity(fineness);
-        let bounds = subject.bounds(scalar, &subject.model(fineness), &sensitivity);
+        let bound_effort = BoundEffort::CERTIFY;
+        let sensitivity = subject.sensitivity(bound_effort);
+        let bounds = subject.bounds(scalar, &subject.model(bound_effort), &sensitivity);
         let lambda_min = subject.least_eigenvalue(scalar);
         Certificate {
             lambda_min,

@@ -37,12 +37,12 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// The largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
-    pub fn model(&self, fineness: BoundEffort) -> Vec<f64> {
+    pub fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
         if !has_edits(self.stages) {
             return vec![0.0; self.scales.len()];
         }
         let error = difference(self.stages);
-        magnitudes(&error, self.limits, self.scales, 0.0, fineness.budget)
+        magnitudes(&error, self.limits, self.scales, 0.0, bound_effort.budget)
     }
 
     /// Bounds by cause, relative to the scales, with the edits' and the
@@ -64,8 +64,8 @@ impl Subject<'_> {
     }
 
     /// What bounds of the emitted program's rounding need.
-    pub fn sensitivity(&self, fineness: BoundEffort) -> Sensitivity {
-        Sensitivity::of(self.emitted, self.limits, fineness)
+    pub fn sensitivity(&self, bound_effort: BoundEffort) -> Sensitivity {
+        Sensitivity::of(self.emitted, self.limits, bound_effort)
     }
 
     /// A lower bound of the least eigenvalue of S D S, if D is an output and

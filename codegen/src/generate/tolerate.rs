@@ -71,16 +71,17 @@ pub fn admitted<'p>(
         let why = NoSines::Decided;
         return Err(GenerateError::SinCos(program.function, why));
     }
-    let frame = |program: &&'p Program| {
-        let frame = ErrorBudget::new(setting, program, tolerance.relative_to);
-        frame.map_err(|refusal| GenerateError::Tolerance(program.function, refusal))
+    let budget = |program: &&'p Program| {
+        let budget = ErrorBudget::new(setting, program, tolerance.relative_to);
+        budget.map_err(|refusal| GenerateError::Tolerance(program.function, refusal))
     };
-    let frames: Result<Vec<ErrorBudget<'_>>, GenerateError> = programs.iter().map(frame).collect();
-    let frames = frames?;
+    let budgets: Result<Vec<ErrorBudget<'_>>, GenerateError> =
+        programs.iter().map(budget).collect();
+    let budgets = budgets?;
     let meter = Meter::new(request.work);
     let last = choices.len() - 1;
     for (index, scalars) in choices.into_iter().enumerate() {
-        match all(&frames, tolerance, &scalars, request, meter) {
+        match all(&budgets, tolerance, &scalars, request, meter) {
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
@@ -99,26 +100,26 @@ pub fn admitted<'p>(
 /// What a tolerance admits of every function in these scalars. Whether it admits
 /// the exact programs is seen first: a refusal comes before any search.
 fn all(
-    frames: &[ErrorBudget<'_>],
+    budgets: &[ErrorBudget<'_>],
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
     meter: Meter,
 ) -> Result<Vec<Admitted>, GenerateError> {
-    for frame in frames {
-        let tolerances = frame.tolerances(tolerance);
-        if usable(frame, &tolerances, scalars, request)?.is_none() {
-            let exact = frame.unedited(scalars, fineness(request));
+    for budget in budgets {
+        let tolerances = budget.tolerances(tolerance);
+        if usable(budget, &tolerances, scalars, request)?.is_none() {
+            let exact = budget.unedited(scalars, bound_effort(request));
             let refused = exact.within(&tolerances);
-            refused.map_err(|why| GenerateError::Tolerance(frame.exact.function, why))?;
+            refused.map_err(|why| GenerateError::Tolerance(budget.exact.function, why))?;
         }
     }
-    let each = frames.iter();
-    each.map(|frame| one(frame, tolerance, scalars, request, meter))
+    let each = budgets.iter();
+    each.map(|budget| one(budget, tolerance, scalars, request, meter))
         .collect()
 }
 
-fn fineness(request: &Request) -> BoundEffort {
+fn bound_effort(request: &Request) -> BoundEffort {
     match request.effort {
         Effort::Quick => BoundEffort::QUICK,
         Effort::Thorough => BoundEffort::CERTIFY,
@@ -128,34 +129,34 @@ fn fineness(request: &Request) -> BoundEffort {
 /// The plan's variant, if the tolerances admit it: its bounds are not found
 /// anew, but they are compared.
 fn usable(
-    frame: &ErrorBudget<'_>,
+    budget: &ErrorBudget<'_>,
     tolerances: &[f64],
     scalars: &[ScalarType],
     request: &Request,
 ) -> Result<Option<Admitted>, GenerateError> {
-    let kept = kept(frame, frame.exact.function, scalars, request)?;
+    let kept = kept(budget, budget.exact.function, scalars, request)?;
     Ok(kept.filter(|kept| kept.within(tolerances).is_ok()))
 }
 
 fn one(
-    frame: &ErrorBudget<'_>,
+    budget: &ErrorBudget<'_>,
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
     meter: Meter,
 ) -> Result<Admitted, GenerateError> {
-    let function = frame.exact.function;
+    let function = budget.exact.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
     let watch = request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it,
     // which nobody ends: it would leave out nothing.
     let over = watch.is_over();
-    let frame = match over {
-        true => frame.clone(),
-        false => frame.clone().watched(watch),
+    let budget = match over {
+        true => budget.clone(),
+        false => budget.clone().watched(watch),
     };
-    let tolerances = frame.tolerances(tolerance);
-    let fineness = fineness(request);
+    let tolerances = budget.tolerances(tolerance);
+    let bound_effort = bound_effort(request);
     let settings = match request.effort {
         Effort::Thorough if !over => thorough(request),
         _ => QUICK,
@@ -164,17 +165,17 @@ fn one(
         work: request.work.map(|work| work.saturating_sub(meter.done())),
         ..settings
     };
-    let admitted = match usable(&frame, &tolerances, scalars, request)? {
+    let admitted = match usable(&budget, &tolerances, scalars, request)? {
         Some(kept) => kept,
         None => {
-            let found = frame.choose(&tolerances, scalars, &settings, fineness);
-            proved(&frame, found.map_err(fail)?)?
+            let found = budget.choose(&tolerances, scalars, &settings, bound_effort);
+            proved(&budget, found.map_err(fail)?)?
         }
     };
     // Always as fine, so that a plan's variant gets the sines that it got when
     // it was found.
     let with = |certificate: &Certificate| {
-        frame.with_polynomials(certificate, &tolerances, BoundEffort::QUICK)
+        budget.with_polynomials(certificate, &tolerances, BoundEffort::QUICK)
     };
     let all = |admitted: &Admitted| -> Result<Vec<Certificate>, NoPolynomials> {
         admitted.certificates.iter().map(with).collect()
@@ -193,7 +194,7 @@ fn one(
             // What was left out may have used up what polynomials need.
             let found = all(&admitted).map(|certificates| (admitted, certificates));
             let found = found.or_else(|_| {
-                let exact = frame.unedited(scalars, fineness);
+                let exact = budget.unedited(scalars, bound_effort);
                 all(&exact).map(|certificates| (exact, certificates))
             });
             let fail = |why| GenerateError::SinCos(function, NoSines::Tolerance(Box::new(why)));
@@ -212,10 +213,10 @@ fn one(
 
 /// A variant that was just found is the exact program with its edits: proved, as it is
 /// of one that a plan kept. The scalars share both.
-fn proved(frame: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
+fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
     let programs = found.certificates.first();
-    match programs.map(|certificate| certificate.check_programs(frame.setting)) {
-        Some(Err(why)) => Err(GenerateError::Edited(frame.exact.function, why)),
+    match programs.map(|certificate| certificate.check_programs(budget.setting)) {
+        Some(Err(why)) => Err(GenerateError::Edited(budget.exact.function, why)),
         _ => Ok(found),
     }
 }
@@ -248,18 +249,18 @@ const QUICK: Settings = Settings {
 
 /// The plan's variant, if it has the same one for each of the scalars.
 fn kept(
-    frame: &ErrorBudget<'_>,
+    budget: &ErrorBudget<'_>,
     function: Function,
     scalars: &[ScalarType],
     request: &Request,
 ) -> Result<Option<Admitted>, GenerateError> {
-    let (Some(plan), Some(scene)) = (&request.plan, frame.setting.scene()) else {
+    let (Some(plan), Some(scene)) = (&request.plan, budget.setting.scene()) else {
         return Ok(None);
     };
     let scene_key = Some(SceneKey::of(scene));
     let find = |&scalar: &ScalarType| {
         let entry = plan.find(function, request.start, scalar, Some(scene))?;
-        (entry.scene == scene_key && entry.program == *frame.exact)
+        (entry.scene == scene_key && entry.program == *budget.exact)
             .then_some(entry.edited.as_ref())
             .flatten()
     };
@@ -278,7 +279,7 @@ fn kept(
         lambda_min: variant.lambda_min,
     });
     let claims: Vec<Claim> = claims.collect();
-    frame
+    budget
         .replayed(&first.stages, &first.program, &claims)
         .map(Some)
         .map_err(|refuted| GenerateError::Variant(function, refuted))

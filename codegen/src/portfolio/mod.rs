@@ -296,7 +296,7 @@ pub fn tuned(
             &arm,
             from,
             &forms,
-            effort.gauge_rounds(),
+            effort.regrouping_rounds(),
             |chain, form, below| match is_over() {
                 true => u64::MAX,
                 false => price(&merged(chain, form), limit, below),
@@ -372,7 +372,7 @@ pub fn regrouped(
 /// form.
 pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
     let regroupings = regroupings(setting, function, &tuned.regrouping);
-    let graph = |regrouping| in_gauge(setting, function, regrouping, tuned.form);
+    let graph = |regrouping| in_regrouping(setting, function, regrouping, tuned.form);
     regroupings.iter().map(graph).collect()
 }
 
@@ -391,7 +391,7 @@ pub fn regroupings(
 }
 
 /// A function in a regrouping and a form, merged by fingerprint.
-pub fn in_gauge(
+pub fn in_regrouping(
     setting: &Setting,
     function: Function,
     regrouping: &Regrouping<Exact>,

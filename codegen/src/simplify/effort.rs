@@ -36,7 +36,7 @@ impl Effort {
     }
 
     /// Rounds of the regrouping's descent.
-    pub fn gauge_rounds(self) -> usize {
+    pub fn regrouping_rounds(self) -> usize {
         match self {
             Effort::Quick => 1,
             Effort::Thorough => 3,

@@ -121,13 +121,13 @@ pub struct Sensitivity {
     program: Program,
     distinct: Distinct,
     limits: InputBox,
-    fineness: BoundEffort,
+    bound_effort: BoundEffort,
     extremes: Option<Extremes>,
 }
 
 impl Sensitivity {
     /// Of a program over a box.
-    pub fn of(program: &Program, limits: &InputBox, fineness: BoundEffort) -> Sensitivity {
+    pub fn of(program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> Sensitivity {
         let steps = program.outputs.iter().map(|output| match &output.value {
             Operand::Step(index) => Some(*index),
             _ => None,
@@ -138,18 +138,18 @@ impl Sensitivity {
             ..program.clone()
         };
         Sensitivity {
-            extremes: Extremes::of(&once, limits, fineness.points, fineness.together),
+            extremes: Extremes::of(&once, limits, bound_effort.points, bound_effort.together),
             of: program.clone(),
             program: once,
             distinct,
             limits: limits.clone(),
-            fineness,
+            bound_effort,
         }
     }
 
     /// Whether it is of this program, over its box, and as fine.
-    pub fn is_of(&self, program: &Program, limits: &InputBox, fineness: BoundEffort) -> bool {
-        self.of == *program && self.limits == *limits && self.fineness == fineness
+    pub fn is_of(&self, program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> bool {
+        self.of == *program && self.limits == *limits && self.bound_effort == bound_effort
     }
 
     /// Bounds, one an output, with polynomials for sines, whose errors are as
@@ -157,7 +157,7 @@ impl Sensitivity {
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
         let (program, limits) = (&self.program, &self.limits);
         let constants = Constants::of(program, scalar, sines);
-        let boxes = self.fineness.boxes;
+        let boxes = self.bound_effort.boxes;
         let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
         let Some(extremes) = &self.extremes else {
             return self.distinct.spread(&coarse);
