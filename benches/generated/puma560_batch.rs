@@ -23,7 +23,7 @@
 /// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
 /// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. The chance of a miss is that of one attempt to be lucky.
+/// can choose them. A miss is a wrong program that passes; its probability is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560 {
@@ -41,7 +41,7 @@ pub fn angles(q: &[f64; 6]) -> [f64; 6] {
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 34, 149 bits, chance of a miss below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let ([s2, s3, s4, s5], [c2, c3, c4, c5]) = dalembert_sines::sincos(&[q[1], q[2], q[3], q[4]]);
@@ -386,10 +386,10 @@ pub fn inverse_dynamics_columns(q: &[&[f64]; 6], qd: &[&[f64]; 6], qdd: &[&[f64]
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
 ///
 /// 240 mul, 206 add, 4 div, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 1642, 12035 bits, chance of a miss below 1e-56).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 1642, coefficients of at most 12035 bits, a wrong program passes with probability below 1e-56).
 ///
-/// Divides by what D is eliminated to, which is positive wherever D is: it fails
-/// where a joint moves no inertia, with infinities and NaN.
+/// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
+/// joint moves no inertia a pivot is zero, and results are infinite or NaN.
 #[must_use]
 pub fn forward_dynamics(q: &[f64; 6], qd: &[f64; 6], tau: &[f64; 6]) -> [f64; 6] {
     let ([s2, s3, s4, s5], [c2, c3, c4, c5]) = dalembert_sines::sincos(&[q[1], q[2], q[3], q[4]]);
@@ -946,7 +946,7 @@ pub fn forward_dynamics_columns(q: &[&[f64]; 6], qd: &[&[f64]; 6], tau: &[&[f64]
 /// the equations of motion at random points modulo random primes, and this text, read
 /// back, is the proved program with each constant rounded once.
 /// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. The chance of a miss is that of one attempt to be lucky.
+/// can choose them. A miss is a wrong program that passes; its probability is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560_f32 {
@@ -964,7 +964,7 @@ pub fn angles(q: &[f32; 6]) -> [f32; 6] {
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 34, 149 bits, chance of a miss below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let ([s2, s3, s4, s5], [c2, c3, c4, c5]) = dalembert_sines::sincosf(&[q[1], q[2], q[3], q[4]]);
@@ -1309,10 +1309,10 @@ pub fn inverse_dynamics_columns(q: &[&[f32]; 6], qd: &[&[f32]; 6], qdd: &[&[f32]
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
 ///
 /// 240 mul, 206 add, 4 div, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at random points modulo 4 random primes of 63 bits (degree 1642, 12035 bits, chance of a miss below 1e-56).
+/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 1642, coefficients of at most 12035 bits, a wrong program passes with probability below 1e-56).
 ///
-/// Divides by what D is eliminated to, which is positive wherever D is: it fails
-/// where a joint moves no inertia, with infinities and NaN.
+/// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
+/// joint moves no inertia a pivot is zero, and results are infinite or NaN.
 #[must_use]
 pub fn forward_dynamics(q: &[f32; 6], qd: &[f32; 6], tau: &[f32; 6]) -> [f32; 6] {
     let ([s2, s3, s4, s5], [c2, c3, c4, c5]) = dalembert_sines::sincosf(&[q[1], q[2], q[3], q[4]]);

@@ -328,7 +328,7 @@ fn refusals() {
     let cases = [
         (
             request(&[Function::ReactionWrenches], PAYLOAD),
-            "`reaction_wrenches` depends on more of a payload than joints feel",
+            "`reaction_wrenches` depends on parameters of the payload that have no effect on joint torques",
         ),
         (
             Request {
