@@ -24,6 +24,7 @@ mod together;
 use crate::function::Function;
 use crate::program::{Difference, Library, Lowered, Program, ScalarType};
 use crate::sincos::AngleKernel;
+use error::{Mark, WordFault};
 pub use error::{TextError, TextFault};
 use reader::Reader;
 
@@ -103,6 +104,23 @@ fn statements(
         }
     }
     Err(TextError::new(0, TextFault::Endless(name.to_owned())))
+}
+
+/// Name and value of a statement, without `let `.
+fn binding(line: &str) -> Result<(&str, &str), WordFault> {
+    let line = line.strip_suffix(';');
+    let line = line.ok_or(WordFault::Lacks(Mark::Semicolon))?;
+    line.split_once(" = ").ok_or(WordFault::Lacks(Mark::Equals))
+}
+
+/// Statements are numbered from one: whether this is the name behind so many.
+fn is_next(name: &str, letter: &str, before: usize) -> Result<(), WordFault> {
+    let expected = format!("{letter}{}", before + 1);
+    if name == expected {
+        return Ok(());
+    }
+    let found = name.to_owned();
+    Err(WordFault::Next { expected, found })
 }
 
 /// i of `name[i]`.

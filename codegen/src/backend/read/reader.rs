@@ -3,11 +3,11 @@
 use crate::backend::entries::angles::Angles;
 use crate::backend::read::error::{Kind, Mark, SineFault, TextFault, WordFault};
 use crate::backend::read::given;
-use crate::backend::read::index_of;
 use crate::backend::read::part::Wrap;
 use crate::backend::read::sines::Block;
 use crate::backend::read::speed;
 use crate::backend::read::together;
+use crate::backend::read::{binding, index_of, is_next};
 use crate::function::Argument;
 use crate::program::text::input_name;
 use crate::program::{
@@ -74,12 +74,7 @@ impl<'a> Reader<'a> {
 
     /// A line without `let `.
     pub(super) fn statement(&mut self, line: &str) -> Result<(), TextFault> {
-        let line = line
-            .strip_suffix(';')
-            .ok_or(WordFault::Lacks(Mark::Semicolon))?;
-        let (name, value) = line
-            .split_once(" = ")
-            .ok_or(WordFault::Lacks(Mark::Equals))?;
+        let (name, value) = binding(line)?;
         if let Some(angle) = name.strip_prefix('a') {
             return self.angle_sum(angle, value);
         }
@@ -97,15 +92,7 @@ impl<'a> Reader<'a> {
         if value.contains('(') {
             return self.trig(name, value);
         }
-        let number = format!("t{}", self.program.steps.len() + 1);
-        if name != number {
-            let found = name.to_owned();
-            return Err(WordFault::Next {
-                expected: number,
-                found,
-            }
-            .into());
-        }
+        is_next(name, "t", self.program.steps.len())?;
         let mut words = value.split(' ');
         let (left, symbol, right) = match (words.next(), words.next(), words.next(), words.next()) {
             (Some(left), Some(symbol), Some(right), None) => (left, symbol, right),

@@ -1,6 +1,7 @@
 //! The blocks that compute sines and cosines by polynomials.
 
-use super::error::{Kind, Mark, SineFault, TextFault, WordFault};
+use super::error::{Kind, SineFault, TextFault, WordFault};
+use super::{binding, is_next};
 use crate::program::kernel::{ANGLE, Kernel, Term, Value, literal};
 use crate::program::{AngleSum, LoweredTrig, Operation, ScalarType};
 
@@ -77,20 +78,8 @@ impl Block {
     }
 
     fn statement(&mut self, line: &str, scalar: ScalarType) -> Result<(), WordFault> {
-        let line = line
-            .strip_suffix(';')
-            .ok_or(WordFault::Lacks(Mark::Semicolon))?;
-        let (name, value) = line
-            .split_once(" = ")
-            .ok_or(WordFault::Lacks(Mark::Equals))?;
-        let number = format!("x{}", self.kernel.steps.len() + 1);
-        if name != number {
-            let found = name.to_owned();
-            return Err(WordFault::Next {
-                expected: number,
-                found,
-            });
-        }
+        let (name, value) = binding(line)?;
+        is_next(name, "x", self.kernel.steps.len())?;
         let words: Vec<&str> = value.split(' ').collect();
         let [left, symbol, right] = words.as_slice() else {
             return Err(Kind::OneOperation.not(value));
