@@ -118,6 +118,11 @@ fn of(text: &Lowered, target: &'static Target) -> (Footprint, Estimate) {
     (footprint, estimate)
 }
 
+fn calls(footprint: &Footprint) -> Vec<String> {
+    let calls = footprint.path.calls.iter();
+    calls.map(ToString::to_string).collect()
+}
+
 /// Behind each line are alive: t1; t1 t2; t1 t3; t3 t4; t3 t4 t5; and with −t5, when
 /// t5 is read no more, three again.
 #[test]
@@ -159,8 +164,7 @@ fn roots_are_calls() {
     assert_eq!(footprint.operations(), 4);
     assert_eq!(footprint.depth, 2);
     assert_eq!(estimate.cycles, 10 + 3);
-    let calls: Vec<String> = footprint.path.calls.iter().map(|c| c.to_string()).collect();
-    assert_eq!(calls, ["libm::sqrtf"]);
+    assert_eq!(calls(&footprint), ["libm::sqrtf"]);
     assert!(footprint.path.branches().starts_with("in libm"));
 }
 
@@ -240,26 +244,14 @@ fn calls_leave_what_they_keep() {
         ..Traffic::default()
     };
     assert_eq!(estimate.traffic, expected);
-    let calls: Vec<String> = footprint
-        .path
-        .calls
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    assert_eq!(calls, ["2 libm::sincosf"]);
+    assert_eq!(calls(&footprint), ["2 libm::sincosf"]);
     assert_eq!(footprint.path.f64(), "in libm");
     // q, the result's place, frame pointer and return address; a register; a slot.
     assert_eq!(estimate.stack, (4 * 4 + 8 + 4usize).next_multiple_of(8));
 
     let together = code.calling(Library::Together);
     let (footprint, estimate) = of(&together, &FOUR);
-    let calls: Vec<String> = footprint
-        .path
-        .calls
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    assert_eq!(calls, ["dalembert_sines::sincosf"]);
+    assert_eq!(calls(&footprint), ["dalembert_sines::sincosf"]);
     assert_eq!(footprint.path.f64(), "beyond 100 rad");
     // Two angles and four results are in arrays; all are loaded, nothing is spilled.
     let traffic = estimate.traffic;
