@@ -48,6 +48,8 @@ pub struct ErrorBudget<'a> {
     watch: Option<FunctionWatch<'a>>,
     /// Of the programs asked for last.
     sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
+    /// Whether the exact D can be shown to be positive definite, in the scalars asked for.
+    definite: RefCell<Vec<(ScalarType, Result<f64, Indefinite>)>>,
 }
 
 /// The exact program's sensitivity and a variant's or two.
@@ -179,7 +181,16 @@ impl fmt::Display for ToleranceError {
                  --scene {scene} --effort thorough --save-plan` once: macro and build script then take the \
                  program from its plan"
             ),
-            ToleranceError::Indefinite(why) => write!(f, "the full model: {why}"),
+            ToleranceError::Indefinite(why) => {
+                write!(f, "the full model: {why}")?;
+                match why {
+                    Indefinite::Negative { .. } => f.write_str(
+                        ", so a link that they move has an inertia that no body has: correct its \
+                         `inertia`, `mass` or `com`",
+                    ),
+                    _ => Ok(()),
+                }
+            }
             ToleranceError::Above {
                 entry,
                 scalar,
@@ -254,6 +265,7 @@ impl<'a> ErrorBudget<'a> {
             relative_to,
             watch: None,
             sensitivities: RefCell::default(),
+            definite: RefCell::default(),
         })
     }
 
@@ -284,6 +296,36 @@ impl<'a> ErrorBudget<'a> {
         known.truncate(KEPT - 1);
         known.insert(0, found.clone());
         found
+    }
+
+    /// Whether the exact program's D, if it has one, can be shown to be positive
+    /// definite: where the full model's cannot, no variant's can, and a search would
+    /// be in vain.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Indefinite`].
+    pub fn definite(&self, scalars: &[ScalarType]) -> Result<(), ToleranceError> {
+        if !has_inertia(self.exact) {
+            return Ok(());
+        }
+        for &scalar in scalars {
+            let known = self
+                .definite
+                .borrow()
+                .iter()
+                .find(|(of, _)| *of == scalar)
+                .copied();
+            let found = match known {
+                Some((_, found)) => found,
+                None => {
+                    let found = least_eigenvalue(self.exact, scalar, &[], &self.limits);
+                    self.definite.borrow_mut().push((scalar, found));
+                    found
+                }
+            };
+            found.map_err(ToleranceError::Indefinite)?;
+        }
+        Ok(())
     }
 
     /// What is claimed of a variant.
@@ -365,7 +407,8 @@ impl<'a> ErrorBudget<'a> {
     /// certified to stay within its tolerance.
     ///
     /// # Errors
-    /// [`ToleranceError::Above`] if the exact program is not.
+    /// [`ToleranceError::Above`] if the exact program is not;
+    /// [`ToleranceError::Indefinite`] if its D cannot be shown to be positive definite.
     pub fn choose(
         &self,
         tolerances: &[f64],
@@ -383,6 +426,7 @@ impl<'a> ErrorBudget<'a> {
         };
         let unedited = self.unedited(scalars, bound_effort);
         unedited.within(tolerances)?;
+        self.definite(scalars)?;
         spent()?;
         let mut start: Option<Option<Program>> = None;
         for aside in [2.0, 8.0] {
@@ -405,13 +449,6 @@ impl<'a> ErrorBudget<'a> {
             }
             if watch.is_some_and(|watch| watch.is_over()) {
                 break;
-            }
-        }
-        if has_inertia(self.exact) {
-            // Nothing may go. Is that the model's own fault?
-            for &scalar in scalars {
-                least_eigenvalue(self.exact, scalar, &[], &self.limits)
-                    .map_err(ToleranceError::Indefinite)?;
             }
         }
         Ok(unedited)

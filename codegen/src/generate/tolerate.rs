@@ -111,6 +111,7 @@ fn all(
         if usable(budget, &tolerances, scalars, request)?.is_none() {
             let exact = budget.unedited(scalars, bound_effort(request));
             let refused = exact.within(&tolerances);
+            let refused = refused.and_then(|()| budget.definite(scalars));
             refused.map_err(|why| GenerateError::Tolerance(budget.exact.function, why))?;
         }
     }

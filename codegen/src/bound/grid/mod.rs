@@ -46,7 +46,7 @@ use crate::interval::Interval;
 use crate::program::Input;
 use crate::random::Random;
 use cells::Cells;
-pub(super) use definite::least_eigenvalue;
+pub(super) use definite::{Wanted, least_eigenvalue};
 pub(super) use harmonics::harmonics;
 use layout::Layout;
 use narrow::narrowed;
