@@ -14,6 +14,7 @@ mod certify_sines;
 mod certify_work;
 mod coulomb;
 mod entries;
+mod extremes;
 mod floating;
 mod fuzz_tokens;
 mod fuzz_verified;

@@ -16,6 +16,7 @@ use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::bound::definite::{Indefinite, least_eigenvalue};
 use crate::bound::input_box::{InputBox, MissingLimit};
+use crate::bound::ranges::{Finding, RANGE_BOXES, ranges};
 use crate::bound::scale;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
@@ -90,6 +91,13 @@ pub enum ToleranceError {
     Scale(scale::NoScale),
     /// The full model's D cannot be shown to be positive definite.
     Indefinite(Indefinite),
+    /// What is computed inside the box may be more than the scalar holds.
+    Overflow {
+        /// In which scalar.
+        scalar: ScalarType,
+        /// The first step that may.
+        finding: Finding,
+    },
     /// It would take more work than may be done.
     Work {
         /// Units of work that were allowed.
@@ -174,6 +182,12 @@ impl fmt::Display for ToleranceError {
             ToleranceError::Function(why) => why.fmt(f),
             ToleranceError::Missing(missing) => missing.fmt(f),
             ToleranceError::Scale(why) => why.fmt(f),
+            ToleranceError::Overflow { scalar, finding } => write!(
+                f,
+                "inside the box {finding} in {scalar}, and no error is certified of what overflows: \
+                 bound the box, choose other units{}",
+                wider(*scalar)
+            ),
             ToleranceError::Work { limit, scene } => write!(
                 f,
                 "the search for a program within the tolerance was stopped: it takes too long for a \
@@ -203,12 +217,16 @@ impl fmt::Display for ToleranceError {
                  allow more{}",
                 bound.rounding,
                 bound.sincos,
-                match scalar {
-                    ScalarType::F32 => ", or choose a wider scalar",
-                    ScalarType::F64 => "",
-                }
+                wider(*scalar)
             ),
         }
+    }
+}
+
+fn wider(scalar: ScalarType) -> &'static str {
+    match scalar {
+        ScalarType::F32 => ", or choose a wider scalar",
+        ScalarType::F64 => "",
     }
 }
 
@@ -542,10 +560,11 @@ impl Admitted {
             || self.certificates.iter().all(certain)
     }
 
-    /// Whether every E is within its output's tolerance.
+    /// Whether every E is within its output's tolerance, and nothing overflows.
     ///
     /// # Errors
-    /// [`ToleranceError::Above`] with the first that is not.
+    /// [`ToleranceError::Above`] with the first that is not;
+    /// [`ToleranceError::Overflow`].
     pub fn within(&self, tolerances: &[f64]) -> Result<(), ToleranceError> {
         self.certificates
             .iter()
@@ -558,12 +577,33 @@ fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), Tolerance
     // No number is within nothing.
     let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
     match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
-        None => Ok(()),
+        None => in_range(certificate),
         Some(index) => Err(ToleranceError::Above {
             entry: certificate.emitted.entry(index),
             scalar: certificate.scalar,
             tolerance: tolerances[index],
             bound: certificate.bounds[index],
+        }),
+    }
+}
+
+/// Bounds of rounding are of numbers that the scalar holds.
+fn in_range(certificate: &Certificate) -> Result<(), ToleranceError> {
+    let Certificate {
+        emitted,
+        scalar,
+        sines,
+        limits,
+        ..
+    } = certificate;
+    let mut findings = ranges(emitted, *scalar, sines, limits, RANGE_BOXES)
+        .findings
+        .into_iter();
+    match findings.find(|finding| matches!(finding, Finding::Overflow { .. })) {
+        None => Ok(()),
+        Some(finding) => Err(ToleranceError::Overflow {
+            scalar: *scalar,
+            finding,
         }),
     }
 }

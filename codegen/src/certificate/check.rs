@@ -6,7 +6,7 @@ use super::subject::{Subject, changes_inertia, printed};
 use super::{Certificate, Checked, Ran, Refuted, run, shape, work};
 use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
-use crate::bound::ranges::ranges;
+use crate::bound::ranges::{RANGE_BOXES, ranges};
 use crate::bound::scale;
 use crate::bound::sensitivity::BoundEffort;
 use crate::graph::Folding;
@@ -48,7 +48,13 @@ impl Certificate {
         let equal = prove(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
         self.check_edits()?;
         self.check_sines()?;
-        let table = ranges(&self.emitted, self.scalar, &self.sines, &self.limits, 256);
+        let table = ranges(
+            &self.emitted,
+            self.scalar,
+            &self.sines,
+            &self.limits,
+            RANGE_BOXES,
+        );
         let findings = table.findings;
         if let Some(&finding) = findings.iter().find(|finding| finding.is_error()) {
             return Err(Refuted::Range(finding));

@@ -87,7 +87,9 @@ pub fn admitted<'p>(
             Err(
                 GenerateError::Tolerance(
                     _,
-                    ToleranceError::Above { .. } | ToleranceError::Indefinite(_),
+                    ToleranceError::Above { .. }
+                    | ToleranceError::Indefinite(_)
+                    | ToleranceError::Overflow { .. },
                 )
                 | GenerateError::SinCos(..),
             ) if index < last => {}
