@@ -9,6 +9,7 @@ mod certify_campaign;
 mod certify_certificate;
 mod certify_definite;
 mod certify_mutations;
+mod certify_plans;
 mod certify_random;
 mod certify_sines;
 mod certify_work;

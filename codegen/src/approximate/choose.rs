@@ -23,7 +23,7 @@ use crate::bound::sensitivity::Sensitivity;
 use crate::bound::turns::sine_positions;
 use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
-use crate::certificate::{Certificate, Refuted};
+use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::{Stage, has_edits};
 use crate::function::{Argument, Columns, Function};
 use crate::program::{Program, ScalarType, has_inertia};
@@ -394,7 +394,7 @@ impl<'a> ErrorBudget<'a> {
     }
 
     /// The variant of a plan, with its claims: program and edits are proved to
-    /// belong together, bounds are not found anew.
+    /// belong together. Of its bounds [`ErrorBudget::derived`] says whether they hold.
     ///
     /// # Errors
     /// What [`Certificate::check`] would find.
@@ -419,6 +419,19 @@ impl<'a> ErrorBudget<'a> {
             certificates.push(certificate);
         }
         Ok(Admitted::of(stages, emitted, certificates))
+    }
+
+    /// Whether what a plan claims of a variant's bounds can be shown: they are
+    /// found anew, as coarsely as shows them.
+    ///
+    /// # Errors
+    /// The first claim that cannot be shown.
+    pub fn derived(&self, kept: &Admitted) -> Result<(), Refuted> {
+        let sensitivity = |bound_effort| self.sensitivity(&kept.program, bound_effort);
+        let shared = Shared::new(self.subject(&kept.stages, &kept.program), &sensitivity);
+        kept.certificates
+            .iter()
+            .try_for_each(|certificate| certificate.check_claims(&shared).map(|_| ()))
     }
 
     /// The cheapest variant found of which every output in every scalar is
