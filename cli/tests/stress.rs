@@ -48,3 +48,32 @@ fn without_a_robot_it_says_what_is_missing() {
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("<ROBOT>"), "{}", ran.err);
 }
+
+/// A robot whose D is indefinite: what asks for more than torques is refused or says so.
+#[test]
+fn an_arm_of_negative_energy_is_called_so() {
+    let folder = temporary("negative_energy");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let (robot, code) = (path("negative_energy.toml"), path("t.rs"));
+    fs::write(&robot, include_str!("data/negative_energy.toml")).unwrap();
+    for scene in ["d", "m"] {
+        let ran = run(&["generate", &robot, "--scene", scene]);
+        assert_ne!(ran.code, 0, "{scene}");
+        assert!(
+            ran.err.contains("an inertia that no body has"),
+            "{}",
+            ran.err
+        );
+    }
+    let ran = run(&["generate", &robot, "--scene", "t", "-o", &code]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = run(&["certify", &path("t.certificate.json"), "--robot", &robot]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = run(&["stress", &robot, "--states", "5"]);
+    assert!(ran.out.contains("D indefinite"), "{}", ran.out);
+    assert!(
+        ran.out.contains("has a negative kinetic energy"),
+        "{}",
+        ran.out
+    );
+}

@@ -101,12 +101,12 @@ fn a_scene_with_a_tolerance() {
     );
     let ran = run(&[&generate[..], &["--check"]].concat());
     assert_eq!(ran.code, 0, "{}", ran.err);
-    // Bounds are taken as the plan has them, but the code is run.
+    // Bounds are found anew.
     let low = plan.replacen("\nbound ", "\nbound 1e-9 0 0\n# ", 1);
     fs::write(folder.join("arm.plan"), low).unwrap();
     let ran = run(&generate);
-    assert_eq!(ran.code, 1, "{}", ran.err);
-    assert!(ran.err.contains("E allows"), "{}", ran.err);
+    assert_ne!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains("what can be shown is"), "{}", ran.err);
 }
 
 /// By hand: a bound made smaller, a scale made larger, a box made smaller, an

@@ -115,13 +115,28 @@ impl JointState {
     /// The nearest f32 state, held in doubles. A load follows from the payload, and
     /// code rounds it to its own scalar.
     pub fn in_single(&self) -> JointState {
+        self.each(|x| f64::from(x as f32))
+    }
+
+    /// The nearest state of finite f32 numbers: what is beyond the largest of them is
+    /// that, and what is no number is zero.
+    pub fn in_finite_single(&self) -> JointState {
+        let most = f64::from(f32::MAX);
+        self.each(|x| match x.is_nan() {
+            true => 0.0,
+            false => f64::from(x.clamp(-most, most) as f32),
+        })
+    }
+
+    /// The state with each of its entries changed, but for a load.
+    fn each(&self, change: impl Fn(f64) -> f64) -> JointState {
         let mut state = self.clone();
         for argument in Argument::ALL {
             if argument == Argument::Load {
                 continue;
             }
             let entries = state.of_mut(argument).iter_mut();
-            entries.for_each(|x| *x = f64::from(*x as f32));
+            entries.for_each(|x| *x = change(*x));
         }
         state
     }

@@ -85,10 +85,10 @@ fn text(robot: &Robot, rows: &[Row]) -> String {
     ];
     let mut table = vec![head.map(String::from).to_vec()];
     for row in rows {
-        let singular = if row.condition.singular {
-            ", D singular"
-        } else {
-            ""
+        let singular = match (row.condition.indefinite, row.condition.singular) {
+            (true, _) => ", D indefinite",
+            (false, true) => ", D singular",
+            (false, false) => "",
         };
         table.push(vec![
             row.category.to_owned(),
@@ -121,7 +121,12 @@ fn text(robot: &Robot, rows: &[Row]) -> String {
             }
         }
     }
-    if rows.iter().any(|row| row.condition.singular) {
+    if rows.iter().any(|row| row.condition.indefinite) {
+        text += "\nwarning: where D is indefinite, a motion has a negative kinetic energy: a link has an \
+                 inertia that no body has, and what is computed is the dynamics of no arm\n";
+    }
+    let singular = |row: &Row| row.condition.singular && !row.condition.indefinite;
+    if rows.iter().any(singular) {
         text += "\nwarning: where D is singular to rounding (a pivot below n·u·max D_ii), \
                  forward dynamics cannot be solved; τ is not affected\n";
     }
@@ -147,6 +152,7 @@ fn json(robot: &Robot, rows: &[Row]) -> Value {
             "condition": row.condition.raw,
             "condition_scaled": row.condition.scaled,
             "singular": row.condition.singular,
+            "indefinite": row.condition.indefinite,
             "verdict": word(row.verdict).to_lowercase(),
             "reason": row.reason.as_ref().map(ToString::to_string),
         })

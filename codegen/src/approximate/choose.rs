@@ -16,13 +16,14 @@ use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::bound::definite::{Indefinite, least_eigenvalue};
 use crate::bound::input_box::{InputBox, MissingLimit};
+use crate::bound::ranges::{Finding, RANGE_BOXES, ranges};
 use crate::bound::scale;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
 use crate::bound::turns::sine_positions;
 use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
-use crate::certificate::{Certificate, Refuted};
+use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::{Stage, has_edits};
 use crate::function::{Argument, Columns, Function};
 use crate::program::{Program, ScalarType, has_inertia};
@@ -48,6 +49,8 @@ pub struct ErrorBudget<'a> {
     watch: Option<FunctionWatch<'a>>,
     /// Of the programs asked for last.
     sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
+    /// Whether the exact D can be shown to be positive definite, in the scalars asked for.
+    definite: RefCell<Vec<(ScalarType, Result<f64, Indefinite>)>>,
 }
 
 /// The exact program's sensitivity and a variant's or two.
@@ -88,6 +91,13 @@ pub enum ToleranceError {
     Scale(scale::NoScale),
     /// The full model's D cannot be shown to be positive definite.
     Indefinite(Indefinite),
+    /// What is computed inside the box may be more than the scalar holds.
+    Overflow {
+        /// In which scalar.
+        scalar: ScalarType,
+        /// The first step that may.
+        finding: Finding,
+    },
     /// It would take more work than may be done.
     Work {
         /// Units of work that were allowed.
@@ -172,6 +182,12 @@ impl fmt::Display for ToleranceError {
             ToleranceError::Function(why) => why.fmt(f),
             ToleranceError::Missing(missing) => missing.fmt(f),
             ToleranceError::Scale(why) => why.fmt(f),
+            ToleranceError::Overflow { scalar, finding } => write!(
+                f,
+                "inside the box {finding} in {scalar}, and no error is certified of what overflows: \
+                 bound the box, choose other units{}",
+                wider(*scalar)
+            ),
             ToleranceError::Work { limit, scene } => write!(
                 f,
                 "the search for a program within the tolerance was stopped: it takes too long for a \
@@ -179,7 +195,16 @@ impl fmt::Display for ToleranceError {
                  --scene {scene} --effort thorough --save-plan` once: macro and build script then take the \
                  program from its plan"
             ),
-            ToleranceError::Indefinite(why) => write!(f, "the full model: {why}"),
+            ToleranceError::Indefinite(why) => {
+                write!(f, "the full model: {why}")?;
+                match why {
+                    Indefinite::Negative { .. } => f.write_str(
+                        ", so a link that they move has an inertia that no body has: correct its \
+                         `inertia`, `mass` or `com`",
+                    ),
+                    _ => Ok(()),
+                }
+            }
             ToleranceError::Above {
                 entry,
                 scalar,
@@ -192,12 +217,16 @@ impl fmt::Display for ToleranceError {
                  allow more{}",
                 bound.rounding,
                 bound.sincos,
-                match scalar {
-                    ScalarType::F32 => ", or choose a wider scalar",
-                    ScalarType::F64 => "",
-                }
+                wider(*scalar)
             ),
         }
+    }
+}
+
+fn wider(scalar: ScalarType) -> &'static str {
+    match scalar {
+        ScalarType::F32 => ", or choose a wider scalar",
+        ScalarType::F64 => "",
     }
 }
 
@@ -254,6 +283,7 @@ impl<'a> ErrorBudget<'a> {
             relative_to,
             watch: None,
             sensitivities: RefCell::default(),
+            definite: RefCell::default(),
         })
     }
 
@@ -284,6 +314,36 @@ impl<'a> ErrorBudget<'a> {
         known.truncate(KEPT - 1);
         known.insert(0, found.clone());
         found
+    }
+
+    /// Whether the exact program's D, if it has one, can be shown to be positive
+    /// definite: where the full model's cannot, no variant's can, and a search would
+    /// be in vain.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Indefinite`].
+    pub fn definite(&self, scalars: &[ScalarType]) -> Result<(), ToleranceError> {
+        if !has_inertia(self.exact) {
+            return Ok(());
+        }
+        for &scalar in scalars {
+            let known = self
+                .definite
+                .borrow()
+                .iter()
+                .find(|(of, _)| *of == scalar)
+                .copied();
+            let found = match known {
+                Some((_, found)) => found,
+                None => {
+                    let found = least_eigenvalue(self.exact, scalar, &[], &self.limits);
+                    self.definite.borrow_mut().push((scalar, found));
+                    found
+                }
+            };
+            found.map_err(ToleranceError::Indefinite)?;
+        }
+        Ok(())
     }
 
     /// What is claimed of a variant.
@@ -334,7 +394,7 @@ impl<'a> ErrorBudget<'a> {
     }
 
     /// The variant of a plan, with its claims: program and edits are proved to
-    /// belong together, bounds are not found anew.
+    /// belong together. Of its bounds [`ErrorBudget::derived`] says whether they hold.
     ///
     /// # Errors
     /// What [`Certificate::check`] would find.
@@ -361,11 +421,25 @@ impl<'a> ErrorBudget<'a> {
         Ok(Admitted::of(stages, emitted, certificates))
     }
 
+    /// Whether what a plan claims of a variant's bounds can be shown: they are
+    /// found anew, as coarsely as shows them.
+    ///
+    /// # Errors
+    /// The first claim that cannot be shown.
+    pub fn derived(&self, kept: &Admitted) -> Result<(), Refuted> {
+        let sensitivity = |bound_effort| self.sensitivity(&kept.program, bound_effort);
+        let shared = Shared::new(self.subject(&kept.stages, &kept.program), &sensitivity);
+        kept.certificates
+            .iter()
+            .try_for_each(|certificate| certificate.check_claims(&shared).map(|_| ()))
+    }
+
     /// The cheapest variant found of which every output in every scalar is
     /// certified to stay within its tolerance.
     ///
     /// # Errors
-    /// [`ToleranceError::Above`] if the exact program is not.
+    /// [`ToleranceError::Above`] if the exact program is not;
+    /// [`ToleranceError::Indefinite`] if its D cannot be shown to be positive definite.
     pub fn choose(
         &self,
         tolerances: &[f64],
@@ -383,6 +457,7 @@ impl<'a> ErrorBudget<'a> {
         };
         let unedited = self.unedited(scalars, bound_effort);
         unedited.within(tolerances)?;
+        self.definite(scalars)?;
         spent()?;
         let mut start: Option<Option<Program>> = None;
         for aside in [2.0, 8.0] {
@@ -405,13 +480,6 @@ impl<'a> ErrorBudget<'a> {
             }
             if watch.is_some_and(|watch| watch.is_over()) {
                 break;
-            }
-        }
-        if has_inertia(self.exact) {
-            // Nothing may go. Is that the model's own fault?
-            for &scalar in scalars {
-                least_eigenvalue(self.exact, scalar, &[], &self.limits)
-                    .map_err(ToleranceError::Indefinite)?;
             }
         }
         Ok(unedited)
@@ -505,10 +573,11 @@ impl Admitted {
             || self.certificates.iter().all(certain)
     }
 
-    /// Whether every E is within its output's tolerance.
+    /// Whether every E is within its output's tolerance, and nothing overflows.
     ///
     /// # Errors
-    /// [`ToleranceError::Above`] with the first that is not.
+    /// [`ToleranceError::Above`] with the first that is not;
+    /// [`ToleranceError::Overflow`].
     pub fn within(&self, tolerances: &[f64]) -> Result<(), ToleranceError> {
         self.certificates
             .iter()
@@ -521,12 +590,33 @@ fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), Tolerance
     // No number is within nothing.
     let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
     match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
-        None => Ok(()),
+        None => in_range(certificate),
         Some(index) => Err(ToleranceError::Above {
             entry: certificate.emitted.entry(index),
             scalar: certificate.scalar,
             tolerance: tolerances[index],
             bound: certificate.bounds[index],
+        }),
+    }
+}
+
+/// Bounds of rounding are of numbers that the scalar holds.
+fn in_range(certificate: &Certificate) -> Result<(), ToleranceError> {
+    let Certificate {
+        emitted,
+        scalar,
+        sines,
+        limits,
+        ..
+    } = certificate;
+    let mut findings = ranges(emitted, *scalar, sines, limits, RANGE_BOXES)
+        .findings
+        .into_iter();
+    match findings.find(|finding| matches!(finding, Finding::Overflow { .. })) {
+        None => Ok(()),
+        Some(finding) => Err(ToleranceError::Overflow {
+            scalar: *scalar,
+            finding,
         }),
     }
 }

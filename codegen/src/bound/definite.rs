@@ -11,18 +11,26 @@
 use std::fmt;
 
 use crate::bound::expand::expand;
-use crate::bound::grid;
+use crate::bound::grid::{self, Wanted};
 use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::rounding;
 use crate::edits::Stage;
 use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
 use crate::program::{Program, ScalarType};
+use crate::random::Random;
 use crate::sincos::AngleKernel;
 use crate::states::JointState;
 
 /// Points of the bound at most.
 const POINTS: usize = 1 << 24;
+
+/// Positions at which D may show that it is not positive definite.
+const SAMPLES: usize = 64;
+
+/// A pivot is negative for certain if it is so by this part of what it was
+/// subtracted from, far beyond what doubles lose.
+const CERTAIN: f64 = 1e-6;
 
 /// Why D could not be shown to be positive definite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +44,12 @@ pub enum Indefinite {
     },
     /// A diagonal entry that is not positive in the middle of the box.
     Massless {
+        /// Zero-based joint.
+        joint: usize,
+    },
+    /// At a position of the box D is negative for a motion of the joints from this
+    /// one on.
+    Negative {
         /// Zero-based joint.
         joint: usize,
     },
@@ -56,6 +70,12 @@ impl fmt::Display for Indefinite {
                 f,
                 "D is singular: joint {} moves nothing that has inertia; \
                  give its link mass, inertia or armature",
+                joint + 1
+            ),
+            Indefinite::Negative { joint } => write!(
+                f,
+                "D is not positive definite: at some position of the box a motion of joint {} and \
+                 those after it has a negative kinetic energy",
                 joint + 1
             ),
             Indefinite::Unproved => f.write_str(
@@ -79,6 +99,34 @@ pub fn least_eigenvalue(
     sines: &[AngleKernel],
     limits: &InputBox,
 ) -> Result<f64, Indefinite> {
+    shown(program, scalar, sines, limits, Wanted::Most)
+}
+
+/// Whether it can be shown to be no less than a number above zero: one pass in place
+/// of a search for the largest.
+pub fn is_at_least(
+    least: f64,
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+) -> bool {
+    least > 0.0 && shown(program, scalar, sines, limits, Wanted::AtLeast(least)).is_ok()
+}
+
+/// Whether D can be shown to be positive definite, by whatever little: what a search
+/// asks of one variant after the other.
+pub fn is_definite(program: &Program, scalar: ScalarType, limits: &InputBox) -> bool {
+    shown(program, scalar, &[], limits, Wanted::Any).is_ok()
+}
+
+fn shown(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+    wanted: Wanted,
+) -> Result<f64, Indefinite> {
     let n = program.rows.len();
     let first = start(program).ok_or(Indefinite::Unproved)?;
     let entry = |i: usize, j: usize| first + i * n + j;
@@ -89,6 +137,10 @@ pub fn least_eigenvalue(
                 return Err(Indefinite::Asymmetric { row, column });
             }
         }
+    }
+    if let Some(row) = negative(program, limits, &entry) {
+        let joint = program.rows[row];
+        return Err(Indefinite::Negative { joint });
     }
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
@@ -111,7 +163,71 @@ pub fn least_eigenvalue(
         errors.push((cost.arithmetic + cost.sincos) * scale);
     }
     let sliding = grid::sliding(&graph, limits.joints());
-    grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS).ok_or(Indefinite::Unproved)
+    grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS, wanted)
+        .ok_or(Indefinite::Unproved)
+}
+
+/// The row from which on D is not positive definite at one of some positions, the
+/// middle of the box first, as far as doubles tell for certain.
+fn negative(
+    program: &Program,
+    limits: &InputBox,
+    entry: &impl Fn(usize, usize) -> usize,
+) -> Option<usize> {
+    let n = program.rows.len();
+    let code = program.lower(ScalarType::F64, |_| None);
+    let mut random = Random::new(0x1d3f);
+    let drawn = (0..SAMPLES).map(|_| {
+        let of = |q: &Interval| q.low() + q.width() * random.unit();
+        limits.position.iter().map(of).collect()
+    });
+    let mut positions = std::iter::once(middle(limits)).chain(drawn);
+    positions.find_map(|q| {
+        let d = code.run_at(&at_rest(q));
+        let d = (0..n).map(|i| (0..n).map(|j| d[entry(i, j)]).collect());
+        negative_pivot(d.collect())
+    })
+}
+
+/// The row of the first negative pivot, eliminated from the last row on: D of the
+/// joints from that one on is not positive definite.
+fn negative_pivot(mut d: Vec<Vec<f64>>) -> Option<usize> {
+    let n = d.len();
+    // What each diagonal entry was made of.
+    let mut sizes: Vec<f64> = (0..n).map(|i| d[i][i].abs()).collect();
+    for last in (0..n).rev() {
+        let pivot = d[last][last];
+        let certain = CERTAIN * sizes[last];
+        if pivot < -certain {
+            return Some(last);
+        }
+        if pivot.is_nan() || pivot <= certain {
+            return None;
+        }
+        let row = d[last].clone();
+        for (i, above) in d.iter_mut().enumerate().take(last) {
+            let factor = above[last] / pivot;
+            sizes[i] += (factor * row[i]).abs();
+            for (entry, subtracted) in above.iter_mut().zip(&row).take(last) {
+                *entry -= factor * subtracted;
+            }
+        }
+    }
+    None
+}
+
+fn middle(limits: &InputBox) -> Vec<f64> {
+    limits.position.iter().map(|q| q.mid()).collect()
+}
+
+fn at_rest(q: Vec<f64>) -> JointState {
+    let rest = vec![0.0; q.len()];
+    JointState {
+        q,
+        qd: rest.clone(),
+        qdd: rest,
+        ..JointState::default()
+    }
 }
 
 /// Where D starts among the outputs.
@@ -133,13 +249,7 @@ fn scales(
     limits: &InputBox,
     entry: impl Fn(usize, usize) -> usize,
 ) -> Result<Vec<f64>, Indefinite> {
-    let rest = vec![0.0; limits.joints()];
-    let middle = JointState {
-        q: limits.position.iter().map(|q| q.mid()).collect(),
-        qd: rest.clone(),
-        qdd: rest,
-        ..JointState::default()
-    };
+    let middle = at_rest(middle(limits));
     let values = program.lower(ScalarType::F64, |_| None).run_at(&middle);
     let scale = |i: usize| {
         let diagonal = values[entry(i, i)];

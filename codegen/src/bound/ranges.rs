@@ -9,6 +9,9 @@ use crate::bound::subdivide::sub_boxes;
 use crate::program::{Operand, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
+/// Sub-boxes of the range table of a certificate.
+pub(crate) const RANGE_BOXES: usize = 256;
+
 /// The largest magnitude of each step, and what is wrong with them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranges {

@@ -1,14 +1,15 @@
 //! The check of a certificate, part by part.
 
+use std::rc::Rc;
+
 use dalembert_model::scene::{Scale, Tolerance};
 
-use super::subject::{Subject, changes_inertia, printed};
+use super::bounds::Shared;
+use super::subject::printed;
 use super::{Certificate, Checked, Ran, Refuted, run, shape, work};
-use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
-use crate::bound::ranges::ranges;
+use crate::bound::ranges::{RANGE_BOXES, ranges};
 use crate::bound::scale;
-use crate::bound::sensitivity::BoundEffort;
 use crate::graph::Folding;
 use crate::program::Trig;
 use crate::scene::Setting;
@@ -48,14 +49,21 @@ impl Certificate {
         let equal = prove(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
         self.check_edits()?;
         self.check_sines()?;
-        let table = ranges(&self.emitted, self.scalar, &self.sines, &self.limits, 256);
+        let table = ranges(
+            &self.emitted,
+            self.scalar,
+            &self.sines,
+            &self.limits,
+            RANGE_BOXES,
+        );
         let findings = table.findings;
         if let Some(&finding) = findings.iter().find(|finding| finding.is_error()) {
             return Err(Refuted::Range(finding));
         }
         let sines = [(self.scalar, self.sines.clone())];
-        let found = self.check_bounds(&self.subject(setting, &sines))?;
-        self.check_definite()?;
+        let subject = self.subject(setting, &sines);
+        let sensitivity = |bound_effort| Rc::new(subject.sensitivity(bound_effort));
+        let found = self.check_claims(&Shared::new(subject, &sensitivity))?;
         Ok(Checked {
             proof: equal,
             bounds: found,
@@ -158,58 +166,6 @@ impl Certificate {
             prove_same(&edited, next).map_err(|_| Refuted::Step(index))?;
         }
         Ok(())
-    }
-
-    /// D, if it is not the model's, must be claimed to be positive definite, and be.
-    fn check_definite(&self) -> Result<(), Refuted> {
-        let changed = changes_inertia(&self.stages, &self.emitted, &self.sines);
-        if self.lambda_min.is_none() && !changed {
-            return Ok(());
-        }
-        let claimed = self.lambda_min.unwrap_or(0.0);
-        let found = least_eigenvalue(&self.emitted, self.scalar, &self.sines, &self.limits)
-            .map_err(Refuted::Indefinite)?;
-        if claimed > 0.0 && claimed <= found {
-            return Ok(());
-        }
-        Err(Refuted::Eigenvalue { claimed, found })
-    }
-
-    /// The claims must be shown anew: by the coarse bound, as some were made, or
-    /// by the fine one.
-    fn check_bounds(&self, subject: &Subject<'_>) -> Result<Vec<Split>, Refuted> {
-        let mut found: Option<Vec<Split>> = None;
-        for bound_effort in [BoundEffort::QUICK, BoundEffort::CERTIFY] {
-            let sensitivity = subject.sensitivity(bound_effort);
-            let next = subject.bounds(self.scalar, &subject.model(bound_effort), &sensitivity);
-            let best = match found {
-                None => next,
-                Some(best) => best.iter().zip(&next).map(|(a, b)| a.min(*b)).collect(),
-            };
-            // A claim survives the shortest decimal of its double.
-            if self.too_small(&best).is_none() {
-                return Ok(best);
-            }
-            found = Some(best);
-        }
-        let found = found.unwrap_or_default();
-        let index = self.too_small(&found).unwrap_or_default();
-        Err(Refuted::Bound {
-            entry: self.emitted.entry(index),
-            claimed: self.bounds[index],
-            found: found[index],
-        })
-    }
-
-    /// The first claim that is smaller than what was found.
-    fn too_small(&self, found: &[Split]) -> Option<usize> {
-        let less = |claim: f64, found: f64| claim.is_nan() || claim < found;
-        let mut pairs = self.bounds.iter().zip(found);
-        pairs.position(|(claimed, found)| {
-            less(claimed.model, found.model)
-                || less(claimed.sincos, found.sincos)
-                || less(claimed.rounding, found.rounding)
-        })
     }
 
     /// A claim about a scene is one about all of its box.

@@ -29,13 +29,15 @@
 //! exact programs, and the two add up by the triangle inequality.
 //!
 //! - this file: the claim, and how it is made
-//! - `check`: the check, part by part; `work` and `shape`: what comes first
+//! - `check`: the check, part by part; `work` and `shape`: what comes first;
+//!   `bounds`: the bounds, found anew
 //! - `format`: its text (feature `certificates`)
 //! - [`subject`]: what a claim is about, and how its bounds are found
 //! - `run`: the text, run
 //! - `refuted`: why a certificate is no good
 //! - [`gappa`]: scripts for a second opinion on rounding
 
+mod bounds;
 mod check;
 #[cfg(feature = "certificates")]
 pub mod format;
@@ -62,6 +64,7 @@ use crate::scene::Setting;
 use crate::sincos::{AngleKernel, Sines};
 use crate::split::Split;
 use crate::verify::exact::Proof;
+pub(crate) use bounds::Shared;
 pub use refuted::{Refuted, WrongInput};
 pub use run::Ran;
 use subject::{Subject, printed};

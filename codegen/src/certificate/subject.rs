@@ -53,14 +53,32 @@ impl Subject<'_> {
         model: &[f64],
         sensitivity: &Sensitivity,
     ) -> Vec<Split> {
-        let rounding = sensitivity.rounding(scalar, self.sines(scalar));
-        let all = model.iter().zip(&rounding).zip(self.scales);
-        all.map(|((&model, rounding), &scale)| Split {
-            model: relative(model, scale),
-            sincos: relative(rounding.sincos, scale),
-            rounding: relative(rounding.arithmetic, scale),
-        })
-        .collect()
+        let model = self.relative(model).into_iter();
+        let pairs = model.zip(self.rounding(scalar, sensitivity));
+        pairs
+            .map(|(model, rounding)| Split { model, ..rounding })
+            .collect()
+    }
+
+    /// The edits' errors relative to the scales.
+    pub(super) fn relative(&self, model: &[f64]) -> Vec<f64> {
+        let pairs = model.iter().zip(self.scales);
+        pairs
+            .map(|(&error, &scale)| relative(error, scale))
+            .collect()
+    }
+
+    /// What sines and rounding cost, relative to the scales.
+    pub(super) fn rounding(&self, scalar: ScalarType, sensitivity: &Sensitivity) -> Vec<Split> {
+        let found = sensitivity.rounding(scalar, self.sines(scalar));
+        let pairs = found.iter().zip(self.scales);
+        pairs
+            .map(|(rounding, &scale)| Split {
+                model: 0.0,
+                sincos: relative(rounding.sincos, scale),
+                rounding: relative(rounding.arithmetic, scale),
+            })
+            .collect()
     }
 
     /// What bounds of the emitted program's rounding need.

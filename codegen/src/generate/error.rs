@@ -173,7 +173,12 @@ impl fmt::Display for GenerateError {
             GenerateError::Parameter(why) => why.fmt(f),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
-                write!(f, "the plan's variant of `{function}`: {why}")
+                write!(
+                    f,
+                    "the plan's variant of `{function}`: {why}; make the plan anew with `dalembert \
+                     generate ROBOT --scene SCENE --save-plan` and the effort that it was made with, \
+                     or delete it"
+                )
             }
             GenerateError::Edited(function, why) => write!(
                 f,

@@ -87,7 +87,9 @@ pub fn admitted<'p>(
             Err(
                 GenerateError::Tolerance(
                     _,
-                    ToleranceError::Above { .. } | ToleranceError::Indefinite(_),
+                    ToleranceError::Above { .. }
+                    | ToleranceError::Indefinite(_)
+                    | ToleranceError::Overflow { .. },
                 )
                 | GenerateError::SinCos(..),
             ) if index < last => {}
@@ -106,16 +108,20 @@ fn all(
     request: &Request,
     meter: Meter,
 ) -> Result<Vec<Admitted>, GenerateError> {
+    let mut planned = Vec::new();
     for budget in budgets {
         let tolerances = budget.tolerances(tolerance);
-        if usable(budget, &tolerances, scalars, request)?.is_none() {
+        let usable = usable(budget, &tolerances, scalars, request)?;
+        if usable.is_none() {
             let exact = budget.unedited(scalars, bound_effort(request));
             let refused = exact.within(&tolerances);
+            let refused = refused.and_then(|()| budget.definite(scalars));
             refused.map_err(|why| GenerateError::Tolerance(budget.exact.function, why))?;
         }
+        planned.push(usable);
     }
-    let each = budgets.iter();
-    each.map(|budget| one(budget, tolerance, scalars, request, meter))
+    let each = budgets.iter().zip(planned);
+    each.map(|(budget, planned)| one(budget, planned, tolerance, scalars, request, meter))
         .collect()
 }
 
@@ -126,20 +132,29 @@ fn bound_effort(request: &Request) -> BoundEffort {
     }
 }
 
-/// The plan's variant, if the tolerances admit it: its bounds are not found
-/// anew, but they are compared.
+/// The plan's variant, if the tolerances admit it. A plan is a text that anybody
+/// can edit, and its bounds are what documentation and certificate will say: they
+/// are found anew.
 fn usable(
     budget: &ErrorBudget<'_>,
     tolerances: &[f64],
     scalars: &[ScalarType],
     request: &Request,
 ) -> Result<Option<Admitted>, GenerateError> {
-    let kept = kept(budget, budget.exact.function, scalars, request)?;
-    Ok(kept.filter(|kept| kept.within(tolerances).is_ok()))
+    let function = budget.exact.function;
+    let kept = kept(budget, function, scalars, request)?;
+    let usable = kept.filter(|kept| kept.within(tolerances).is_ok());
+    if let Some(usable) = &usable {
+        budget
+            .derived(usable)
+            .map_err(|refuted| GenerateError::Variant(function, refuted))?;
+    }
+    Ok(usable)
 }
 
 fn one(
     budget: &ErrorBudget<'_>,
+    planned: Option<Admitted>,
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     request: &Request,
@@ -165,8 +180,8 @@ fn one(
         work: request.work.map(|work| work.saturating_sub(meter.done())),
         ..settings
     };
-    let admitted = match usable(&budget, &tolerances, scalars, request)? {
-        Some(kept) => kept,
+    let admitted = match planned {
+        Some(planned) => planned,
         None => {
             let found = budget.choose(&tolerances, scalars, &settings, bound_effort);
             proved(&budget, found.map_err(fail)?)?

@@ -60,10 +60,9 @@ pub struct Entry {
     pub edited: Option<Edited>,
 }
 
-/// A variant that a scene's tolerance admits. That edits and programs belong
-/// together is proved again whenever it is used; the bounds are taken as they
-/// are kept, since they take longer to find than a compiler may wait. The
-/// command finds them anew.
+/// A variant that a scene's tolerance admits. Whenever it is used, it is proved
+/// again that edits and programs belong together, and the bounds are found anew:
+/// a smaller one than can be shown is refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edited {
     /// The entry's program and those that followed, with their edits; none if

@@ -11,7 +11,12 @@ pub struct Condition {
     /// Whether a pivot of the elimination is below n·u·max D_ii: no solver
     /// in this arithmetic can tell D from a singular matrix.
     pub singular: bool,
+    /// Whether a pivot is negative beyond what rounding explains: D is that of no arm.
+    pub indefinite: bool,
 }
+
+/// A pivot that is so many times n·u·max D_ii below zero is negative.
+const BEYOND_ROUNDING: f64 = 1e3;
 
 impl Condition {
     /// Of a matrix row by row, for arithmetic of unit roundoff u.
@@ -27,10 +32,12 @@ impl Condition {
             .map(|i| (0..n).map(|k| entry(i, k)).collect())
             .collect();
         let largest = diagonal.iter().copied().fold(0.0, f64::max);
+        let (raw, least, rounding) = (ratio(matrix.clone()), least_pivot(matrix), n as f64 * u);
         Condition {
-            raw: ratio(matrix.clone()),
+            raw,
             scaled: ratio(scaled),
-            singular: least_pivot(matrix) <= n as f64 * u * largest,
+            singular: least <= rounding * largest,
+            indefinite: least < -BEYOND_ROUNDING * rounding * largest,
         }
     }
 }
@@ -132,6 +139,8 @@ mod tests {
     fn a_massless_link_is_singular() {
         let u = f64::EPSILON / 2.0;
         assert!(Condition::of(&[1.0, 0.0, 0.0, 0.0], u).singular);
+        assert!(!Condition::of(&[1.0, 0.0, 0.0, -u], u).indefinite);
+        assert!(Condition::of(&[1.0, 0.0, 0.0, -0.1], u).indefinite);
         assert!(Condition::of(&[1.0, 1.0, 1.0, 1.0], u).singular);
     }
 }

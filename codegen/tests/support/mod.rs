@@ -62,3 +62,8 @@ pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
+
+/// Each scalar by itself.
+pub fn each_scalar() -> [Vec<ScalarType>; 2] {
+    ScalarType::ALL.map(|scalar| vec![scalar])
+}

@@ -6,7 +6,7 @@ use super::motions::Motions;
 use super::price::SINCOS;
 use super::tally::Tally;
 use super::{Pruned, Settings};
-use crate::bound::definite::least_eigenvalue;
+use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 use crate::bound::{magnitude, sample};
 use crate::edits::{Stage, difference, has_edits};
@@ -269,8 +269,7 @@ impl Search<'_> {
 
     /// Whether D, if it is an output, is positive definite.
     fn is_definite(&self, program: &Program) -> bool {
-        !has_inertia(program)
-            || least_eigenvalue(program, ScalarType::F64, &[], self.limits).is_ok()
+        !has_inertia(program) || is_definite(program, ScalarType::F64, self.limits)
     }
 
     /// Positions where the error is large join the samples.

@@ -37,6 +37,9 @@ pub(super) struct Cells<'a> {
     ranges: Vec<Interval>,
     /// Points that may still be tried.
     pub points: usize,
+    /// Of the first angle's range, the part that was shown before the cell that was
+    /// looked at last.
+    pub reached: f64,
 }
 
 /// The part of a joint's range around an angle.
@@ -66,6 +69,7 @@ impl<'a> Cells<'a> {
             whole,
             ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
             points: 0,
+            reached: 0.0,
         }
     }
 
@@ -149,6 +153,9 @@ impl<'a> Cells<'a> {
             let Some(Cell { middle, half }) = cells.pop() else {
                 return true;
             };
+            if level == 0 {
+                self.reached = (middle - half - from) / width;
+            }
             // Half widths and middles are rounded; a little more covers that.
             let reach = degree * (half * (1.0 + 1e-12) + rounded);
             let enough = match part {

@@ -28,15 +28,34 @@ const SAMPLES: usize = 500;
 /// Parts of the sampled least eigenvalue that are tried, the tightest first.
 const PARTS: [f64; 4] = [0.8, 0.5, 0.2, 0.02];
 
+/// So many of all points are tried first, and say how far all of them would go.
+const TRIAL: usize = 16;
+
+/// Where all of them would not go this part of the way, the rest are not tried: of
+/// the angles some are harder than others, but not by that much.
+const HOPELESS: f64 = 0.1;
+
+/// What is to be shown of a least eigenvalue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::bound) enum Wanted {
+    /// As much as can be.
+    Most,
+    /// That it is above zero, by whatever: the easiest.
+    Any,
+    /// That it is no less than this, which is above zero.
+    AtLeast(f64),
+}
+
 /// A lower bound, above zero, of the least eigenvalue over a box of the matrix
 /// with these entries (row by row, lower triangle), each known up to `errors`;
-/// `None` if none was found within so many points.
+/// `None` if what is wanted was not shown within so many points.
 pub(in crate::bound) fn least_eigenvalue(
     entries: &[Polynomial],
     errors: &[f64],
     limits: &InputBox,
     sliding: &[bool],
     points: usize,
+    wanted: Wanted,
 ) -> Option<f64> {
     let n = size_of(entries.len());
     // The entry takes the place of the rates, of which there must be none.
@@ -85,20 +104,35 @@ pub(in crate::bound) fn least_eigenvalue(
         |values: &[f64], bound: f64| exceeds(matrix(values), n, (most - bound).next_up() + lost);
     let whole = layout.part.contains(&true).then_some(2.0 * most);
     let mut cells = Cells::new(&layout, limits, whole, &accept);
-    let seen = sampled(&mut cells, &matrix, n, most);
-    let mut is_shown = |least: f64| {
-        cells.points = points;
-        least > 0.0 && cells.below(0, (most - least).next_down())
+    let seen = match wanted {
+        Wanted::AtLeast(least) => least,
+        Wanted::Any | Wanted::Most => sampled(&mut cells, &matrix, n, most),
     };
-    // Where the easiest part cannot be shown, no other can: a refusal comes early.
+    let mut is_shown = |least: f64| {
+        let bound = (most - least).next_down();
+        cells.points = points / TRIAL;
+        if least <= 0.0 || cells.below(0, bound) {
+            return least > 0.0;
+        }
+        // With points left, it was a cell that cannot be shown.
+        let hopeless = cells.reached * (TRIAL as f64) < HOPELESS;
+        if cells.points > 0 || hopeless {
+            return false;
+        }
+        cells.points = points;
+        cells.below(0, bound)
+    };
     let [tighter @ .., easiest] = PARTS.map(|part| part * seen);
-    if !is_shown(easiest) {
-        return None;
+    match wanted {
+        Wanted::AtLeast(least) => is_shown(least).then_some(least),
+        Wanted::Any => is_shown(easiest).then_some(easiest),
+        // Where the easiest part cannot be shown, no other can: a refusal comes early.
+        Wanted::Most if !is_shown(easiest) => None,
+        Wanted::Most => {
+            let mut tighter = tighter.into_iter();
+            tighter.find(|&least| is_shown(least)).or(Some(easiest))
+        }
     }
-    tighter
-        .into_iter()
-        .find(|&least| is_shown(least))
-        .or(Some(easiest))
 }
 
 /// About the least eigenvalue at sampled positions, by halving.

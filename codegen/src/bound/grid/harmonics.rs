@@ -8,8 +8,6 @@
 //!
 //! **Soundness.** Identities, in coefficients that are dyadic and exact.
 
-use std::collections::BTreeMap;
-
 use crate::bound::expand::{Key, Polynomial, powers, shift};
 use crate::interval::Interval;
 
@@ -20,10 +18,9 @@ pub(super) fn multiple(key: Key, joint: usize) -> (u32, bool) {
     (k, sine == 1)
 }
 
-/// The key without what tells sines from cosines.
-pub(super) fn unphased(key: Key, joints: usize) -> Key {
-    let sines = (0..joints).fold(0, |bits, joint| bits | 16u128 << shift(joint));
-    key & !sines
+/// The bits that tell sines from cosines.
+pub(super) fn phases(joints: usize) -> Key {
+    (0..joints).fold(0, |bits, joint| bits | 16u128 << shift(joint))
 }
 
 /// The bits of a joint in a key.
@@ -35,27 +32,46 @@ pub(super) fn bits(joint: usize) -> Key {
 /// the cosine is replaced by the multiple. `None` if a multiple does not fit.
 pub(in crate::bound) fn harmonics(polynomial: &Polynomial, joints: usize) -> Option<Polynomial> {
     let mut terms = polynomial.clone();
+    let mut known: [Option<Vec<(u32, f64)>>; 32] = [const { None }; 32];
     for joint in 0..joints {
-        let mut next: BTreeMap<Key, Interval> = BTreeMap::new();
-        for (key, x) in terms {
+        let turns = terms.iter().any(|&(key, _)| key & bits(joint) != 0);
+        if !turns {
+            continue;
+        }
+        let mut next: Polynomial = Vec::with_capacity(2 * terms.len());
+        for &(key, x) in &terms {
+            let (c, s) = powers(key, joint);
             let rest = key & !bits(joint);
-            for (k, part) in of_power(powers(key, joint)) {
-                let sine = powers(key, joint).1 == 1;
+            let place = (c + 16 * s) as usize % known.len();
+            for &(k, part) in known[place].get_or_insert_with(|| of_power((c, s))).iter() {
                 if k > 15 {
                     return None;
                 }
-                let key = rest | Key::from(k | u32::from(sine) << 4) << shift(joint);
+                let key = rest | Key::from(k | s << 4) << shift(joint);
                 let part = match part == 1.0 {
                     true => x,
                     false => x * Interval::point(part),
                 };
-                let sum = next.get(&key).map_or(part, |&before| before + part);
-                next.insert(key, sum);
+                next.push((key, part));
             }
         }
-        terms = next.into_iter().collect();
+        terms = added_up(next);
     }
     Some(terms)
+}
+
+/// Equal keys' coefficients in one, added in the order that they come in.
+fn added_up(mut terms: Polynomial) -> Polynomial {
+    // Stable: the sums are rounded as they were.
+    terms.sort_by_key(|&(key, _)| key);
+    terms.dedup_by(|next, sum| {
+        let same = next.0 == sum.0;
+        if same {
+            sum.1 = sum.1 + next.1;
+        }
+        same
+    });
+    terms
 }
 
 /// cos^c·sin^s, s at most 1, as Σ part·cos kθ, or Σ part·sin kθ if s is 1.

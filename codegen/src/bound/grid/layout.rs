@@ -1,9 +1,8 @@
 //! Terms regrouped so that points are evaluated joint after joint.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use super::harmonics::{bits, multiple, unphased};
+use super::harmonics::{bits, multiple, phases};
 use crate::bound::expand::Key;
 use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
@@ -72,6 +71,9 @@ impl Layout {
         first: &[usize],
     ) -> Layout {
         let n = limits.joints();
+        let phases = phases(n);
+        // Values that differ by sine and cosine alone stand together.
+        let place = |key: Key| (key & !phases, key);
         let (mut slack, mut sizes) = (0.0, 0.0);
         let mut terms: Vec<(Key, f64)> = Vec::new();
         for &(key, coefficient) in polynomial {
@@ -90,28 +92,30 @@ impl Layout {
             sizes += size;
             terms.push((key, coefficient.mid()));
         }
-        let degree = |joint: usize| {
-            let multiples = terms.iter().map(|&(key, _)| multiple(key, joint).0);
-            multiples.max().unwrap_or(0)
-        };
-        let mut joints: Vec<usize> = (0..n).filter(|&j| degree(j) > 0).collect();
+        let mut degree = vec![0; n];
+        for &(key, _) in &terms {
+            for (joint, degree) in degree.iter_mut().enumerate() {
+                *degree = multiple(key, joint).0.max(*degree);
+            }
+        }
+        let mut joints: Vec<usize> = (0..n).filter(|&j| degree[j] > 0).collect();
         joints.sort_by_key(|&joint| {
             let place = first.iter().position(|&early| early == joint);
-            (place.unwrap_or(first.len()), degree(joint))
+            (place.unwrap_or(first.len()), degree[joint])
         });
-        let degrees: Vec<u32> = joints.iter().map(|&j| degree(j)).collect();
+        let degrees: Vec<u32> = joints.iter().map(|&j| degree[j]).collect();
         let part = joints
             .iter()
             .map(|&j| !sliding[j] && limits.position[j].width() < 2.0 * PI * (1.0 - 1e-12))
             .collect();
-        terms.sort_by_key(|&(key, _)| (unphased(key, n), key));
+        terms.sort_by_key(|&(key, _)| place(key));
         let coefficients = terms.iter().map(|&(_, x)| x).collect();
         let mut terms: Vec<Key> = terms.into_iter().map(|(key, _)| key).collect();
         let mut bases: Vec<Vec<(u32, bool)>> = vec![Vec::new(); joints.len()];
         let mut groups = Vec::new();
         let mut folds = Vec::new();
         for (k, &joint) in joints.iter().enumerate() {
-            let together = terms.chunk_by(|&a, &b| unphased(a, n) == unphased(b, n));
+            let together = terms.chunk_by(|&a, &b| a & !phases == b & !phases);
             let mut end = 0;
             groups.push(
                 together
@@ -127,9 +131,8 @@ impl Layout {
             );
             let rest = |key: Key| key & !bits(joint);
             let mut after: Vec<Key> = terms.iter().map(|&key| rest(key)).collect();
-            after.sort_by_key(|&key| (unphased(key, n), key));
+            after.sort_unstable_by_key(|&key| place(key));
             after.dedup();
-            let places: BTreeMap<Key, u32> = after.iter().copied().zip(0..).collect();
             let mut fold = Vec::new();
             for &key in &terms {
                 let of = multiple(key, joint);
@@ -138,7 +141,8 @@ impl Layout {
                     bases[k].push(of);
                     bases[k].len() - 1
                 });
-                fold.push([base as u32, places[&rest(key)]]);
+                let to = after.partition_point(|&other| place(other) < place(rest(key)));
+                fold.push([base as u32, to as u32]);
             }
             terms = after;
             folds.push((fold, terms.len()));

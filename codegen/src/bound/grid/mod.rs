@@ -46,7 +46,7 @@ use crate::interval::Interval;
 use crate::program::Input;
 use crate::random::Random;
 use cells::Cells;
-pub(super) use definite::least_eigenvalue;
+pub(super) use definite::{Wanted, least_eigenvalue};
 pub(super) use harmonics::harmonics;
 use layout::Layout;
 use narrow::narrowed;
@@ -117,17 +117,16 @@ pub(super) enum Aim {
     Within(f64),
 }
 
-/// The largest magnitude of a polynomial over a box; `None` if a power is too
-/// high to be written in multiples.
+/// The largest magnitude over a box of a polynomial in multiples of its angles
+/// ([`harmonics`]).
 pub(super) fn magnitude(
-    polynomial: &Polynomial,
+    polynomial: Polynomial,
     limits: &InputBox,
     sliding: &[bool],
     aim: Aim,
     closeness: GridEffort,
-) -> Option<f64> {
+) -> f64 {
     let range = |key: Key| range(key, limits);
-    let polynomial = harmonics(polynomial, limits.joints())?;
     let (mut polynomial, narrow) = narrowed(polynomial, limits, sliding);
     let sliding: Vec<bool> = (0..sliding.len())
         .map(|joint| sliding[joint] || narrow.contains(&joint))
@@ -144,7 +143,7 @@ pub(super) fn magnitude(
         layout = Layout::new(&polynomial, limits, &sliding, &range, least);
     }
     if !layout.part.contains(&true) {
-        return Some(bound(&layout, limits, None, aim, closeness));
+        return bound(&layout, limits, None, aim, closeness);
     }
     // Of the circles only the size matters, for what lies between points.
     let (Aim::Least(goal) | Aim::Within(goal)) = aim;
@@ -154,7 +153,7 @@ pub(super) fn magnitude(
     };
     let whole = bound(&layout, limits, None, Aim::Least(goal), rough);
     let part = bound(&layout, limits, Some(whole), aim, closeness);
-    Some(whole.min(part))
+    whole.min(part)
 }
 
 /// A bound over the whole circles, or, given that, over the box.

@@ -99,7 +99,8 @@ fn written_out(
     let closeness = GridEffort::fine(budget.points);
     let mut most = Vec::new();
     for (polynomial, aim) in polynomials.iter().zip(aims) {
-        let found = grid::magnitude(polynomial, whole, &sliding, aim, closeness)?;
+        let polynomial = grid::harmonics(polynomial, whole.joints())?;
+        let found = grid::magnitude(polynomial, whole, &sliding, aim, closeness);
         most.push(found);
         if matches!(aim, Aim::Within(limit) if found > limit) {
             break;

@@ -64,8 +64,11 @@ impl Extremes {
         let mut most = vec![Some(0.0); graph.nodes.len()];
         let mut written = Written::new(graph.nodes.len(), limits, together);
         visit(graph, limits, &mut |node, polynomial| {
-            most[node] = grid::magnitude(polynomial, limits, &sliding, Aim::Least(0.0), closeness);
-            written.keep(node, polynomial);
+            let harmonics = grid::harmonics(polynomial, limits.joints());
+            most[node] = harmonics.map(|harmonics| {
+                written.keep(node, &harmonics);
+                grid::magnitude(harmonics, limits, &sliding, Aim::Least(0.0), closeness)
+            });
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
         let of = |edge: &Edge| most[edge.node().index()];

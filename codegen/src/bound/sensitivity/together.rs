@@ -17,7 +17,7 @@ use super::binade;
 use super::gradient::{Adjoints, Gradient};
 use super::intervals::{Constants, is_exact, read};
 use crate::bound::expand::Polynomial;
-use crate::bound::grid::{self, GridEffort, Largest, Product, Products};
+use crate::bound::grid::{GridEffort, Largest, Product, Products};
 use crate::bound::input_box::InputBox;
 use crate::graph::Edge;
 use crate::interval::Interval;
@@ -61,7 +61,7 @@ pub(super) struct Written<'a> {
     polynomials: Vec<Polynomial>,
     limits: &'a InputBox,
     points: usize,
-    is_complete: bool,
+    is_wanted: bool,
 }
 
 impl<'a> Written<'a> {
@@ -70,16 +70,14 @@ impl<'a> Written<'a> {
             polynomials: vec![Vec::new(); nodes],
             limits,
             points,
-            is_complete: points > 0,
+            is_wanted: points > 0,
         }
     }
 
-    pub(super) fn keep(&mut self, node: usize, polynomial: &Polynomial) {
-        if self.is_complete {
-            match grid::harmonics(polynomial, self.limits.joints()) {
-                Some(harmonics) => self.polynomials[node] = harmonics,
-                None => self.is_complete = false,
-            }
+    /// A node's value in multiples of its angles.
+    pub(super) fn keep(&mut self, node: usize, harmonics: &Polynomial) {
+        if self.is_wanted {
+            self.polynomials[node].clone_from(harmonics);
         }
     }
 
@@ -92,7 +90,7 @@ impl<'a> Written<'a> {
         sliding: &[bool],
     ) -> Vec<Together> {
         let none = vec![Together::default(); program.outputs.len()];
-        if !self.is_complete {
+        if !self.is_wanted {
             return none;
         }
         let angles =
