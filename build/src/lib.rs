@@ -103,7 +103,7 @@ pub use dalembert_codegen::function::RuntimeParameter as Parameter;
 #[doc(inline)]
 pub use dalembert_codegen::generate::in_scene::UnknownScene;
 #[doc(inline)]
-pub use dalembert_codegen::generate::{GenerateError, Prefer};
+pub use dalembert_codegen::generate::{Fma, GenerateError, Prefer};
 #[doc(inline)]
 pub use dalembert_codegen::portfolio::Start as Formulation;
 #[doc(inline)]
@@ -245,6 +245,16 @@ impl Generator {
     #[must_use]
     pub fn sincos(mut self, sincos: SinCos) -> Self {
         self.request.sincos = sincos;
+        self
+    }
+
+    /// Whether a product and the sum that alone reads it are one operation,
+    /// `mul_add`, which rounds once. The code needs `std`, and a build for a processor
+    /// that has it (`-C target-feature=+fma` on x86-64): any other calls a function
+    /// of C for each, slower by far than two operations.
+    #[must_use]
+    pub fn fma(mut self, fma: Fma) -> Self {
+        self.request.fma = fma;
         self
     }
 

@@ -15,6 +15,7 @@ mod certify_work;
 mod coulomb;
 mod entries;
 mod floating;
+mod fused;
 mod fuzz_tokens;
 mod fuzz_verified;
 mod libm_ulps;

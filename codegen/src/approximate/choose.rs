@@ -457,6 +457,24 @@ impl<'a> ErrorBudget<'a> {
         Err(NoPolynomials::Indefinite)
     }
 
+    /// A variant whose products are fused with their sums: its roundings are bounded
+    /// anew.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Above`], as of any variant.
+    pub fn with_fused_products(
+        &self,
+        certificate: &Certificate,
+        tolerances: &[f64],
+        bound_effort: BoundEffort,
+    ) -> Result<Certificate, ToleranceError> {
+        let emitted = certificate.emitted.fused();
+        let sensitivity = self.sensitivity(&emitted, bound_effort);
+        let found = certificate.with_emitted(self.setting, emitted, &sensitivity);
+        within(&found, tolerances)?;
+        Ok(found)
+    }
+
     /// What is left for edits, in each output's unit; `None` if that is
     /// nothing.
     fn allowances(

@@ -20,6 +20,8 @@ pub struct GeneratedFunction {
     pub planned: bool,
     /// The final program with exact constants: what is emitted.
     pub program: Program,
+    /// The program before its products were fused, if they were: what a plan keeps.
+    pub unfused: Option<Program>,
     /// Its counts, without the polynomials of sines.
     pub counts: Counts,
     /// The polynomials of its sines in each scalar, if they are not libm's.

@@ -45,7 +45,7 @@ use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub use reason::{NoSines, TextDefect};
-pub use request::{Prefer, Request};
+pub use request::{Fma, Prefer, Request};
 use search::{found, replay};
 
 use tolerate::tolerate;
@@ -233,6 +233,11 @@ fn one(
         }
         None => found(setting, function, request)?,
     };
+    let (program, unfused) = match request.fma {
+        // With a tolerance, errors are bounded and parts left out of it first.
+        Fma::On if !tolerates(setting) => (program.fused(), Some(program)),
+        Fma::On | Fma::Off => (program, None),
+    };
     let proof = prove(setting, &program).map_err(|disproof| match vanishing(setting) {
         Some(value) => GenerateError::Vanishing(function, value.to_string()),
         None => GenerateError::Disproved(function, disproof),
@@ -244,11 +249,19 @@ fn one(
         counts: program.counts(),
         sines: Vec::new(),
         program,
+        unfused,
         stages,
         proof,
         refused,
         admitted: None,
     })
+}
+
+/// Whether the scene has a tolerance.
+fn tolerates(setting: &Setting) -> bool {
+    setting
+        .scene()
+        .is_some_and(|scene| scene.tolerance.is_some())
 }
 
 /// The polynomials of a program's sines in each scalar.

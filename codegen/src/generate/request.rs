@@ -38,6 +38,32 @@ impl Prefer {
         }
     }
 }
+
+/// Whether products are fused with the sums that alone read them
+/// ([`fused`](crate::program::fused)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Fma {
+    /// Every operation is rounded.
+    #[default]
+    Off,
+    /// A product and its sum are one operation, `mul_add`, and rounded once. It
+    /// needs `std`, and a processor that has it.
+    On,
+}
+
+impl Fma {
+    /// Both, the default first.
+    pub const ALL: [Fma; 2] = [Fma::Off, Fma::On];
+
+    /// Its name on the command line and in the macro.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fma::Off => "off",
+            Fma::On => "on",
+        }
+    }
+}
+
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;
 
@@ -55,6 +81,8 @@ pub struct Request {
     pub effort: Effort,
     /// What to do about a program that costs digits.
     pub prefer: Prefer,
+    /// Whether products are fused with their sums.
+    pub fma: Fma,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
     /// Who waits, if anybody does.
@@ -129,6 +157,7 @@ impl Default for Request {
             start: Start::Auto,
             effort: Effort::Quick,
             prefer: Prefer::Accuracy,
+            fma: Fma::Off,
             plan: None,
             watch: Watch::default(),
             sincos: SinCos::default(),

@@ -12,7 +12,7 @@ use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
 use crate::function::Function;
-use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request};
+use crate::generate::{Fma, GenerateError, GeneratedFunction, NoSines, Request};
 use crate::plan::Edited;
 use crate::portfolio::Start;
 use crate::program::{Program, ScalarType};
@@ -39,8 +39,11 @@ pub(super) fn tolerate(
         .flat_map(|admitted| &admitted.certificates);
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
-        function.program = admitted.program.clone();
-        function.counts = admitted.program.counts();
+        function.program = match request.fma {
+            Fma::On => admitted.program.fused(),
+            Fma::Off => admitted.program.clone(),
+        };
+        function.counts = function.program.counts();
         let sines = admitted.certificates.iter();
         let sines = sines.filter(|c| !c.sines.is_empty());
         function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
@@ -205,6 +208,14 @@ fn one(
             }
         }
     };
+    if request.fma == Fma::On {
+        let fused = |certificate: &Certificate| {
+            let found = budget.with_fused_products(certificate, &tolerances, bound_effort);
+            found.map_err(fail)
+        };
+        let all: Result<_, GenerateError> = admitted.certificates.iter().map(fused).collect();
+        admitted.certificates = all?;
+    }
     for certificate in &mut admitted.certificates {
         *certificate = certificate.calling(request.math.library);
     }
