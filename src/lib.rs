@@ -132,7 +132,9 @@ pub mod matrices;
 ///   operations less.
 /// - `prefer: operations;` takes the cheapest code even where its rounding error
 ///   is more than four times the textbook form's, which `accuracy`, the default,
-///   does not. It says nothing about code that a plan keeps.
+///   does not. It says nothing about code that a plan keeps. `latency` is as `accuracy`
+///   and then takes sums and products, a plan's too, in the order in which the longest
+///   chain of operations is shortest, and says how long that is.
 /// - `fma: on;` makes one operation of a product and the sum that alone reads it:
 ///   `t1.mul_add(t2, t3)`, rounded once. It needs `std`, and a build for a processor
 ///   that has it: `-C target-cpu=native`, or `-C target-feature=+fma` on x86-64; aarch64

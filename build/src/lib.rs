@@ -192,6 +192,8 @@ impl Generator {
     /// [`Prefer::Operations`] takes the cheapest whatever its rounding error;
     /// [`Prefer::Accuracy`], the default, the cheapest of those whose error is
     /// at most four times the textbook form's. Programs of a plan stay.
+    /// [`Prefer::Latency`] then takes sums and products, a plan's too, in the order in
+    /// which the longest chain of operations is shortest.
     #[must_use]
     pub fn prefer(mut self, prefer: Prefer) -> Self {
         self.request.prefer = prefer;

@@ -78,7 +78,8 @@ pub struct Choice {
     /// search's if that is cheaper; a second Ctrl-C quits without a result
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
-    /// `operations` takes the cheapest program even if it costs digits
+    /// `operations` takes the cheapest program even if it costs digits; `latency` takes
+    /// sums and products in the order in which the longest chain of operations is shortest
     #[arg(long, value_name = "WHAT", default_value = "accuracy", value_parser = prefer_parser())]
     pub prefer: Prefer,
     /// Make one operation, `mul_add`, of a product and the sum that alone reads it:

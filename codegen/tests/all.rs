@@ -29,6 +29,7 @@ mod regressor;
 mod scene_counts;
 mod scene_exact;
 mod scene_ways_in;
+mod shallow;
 mod sincos;
 mod support;
 mod text;

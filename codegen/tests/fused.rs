@@ -234,7 +234,7 @@ fn every_slip_is_noticed() {
     let plain = self::generated(&robot, &plain);
     assert!(!is_program(&plain.text) && !plain.text.contains("mul_add"));
     assert_eq!(
-        generated.functions[0].unfused.as_ref(),
+        generated.functions[0].found.as_ref(),
         Some(&plain.functions[0].program)
     );
 }

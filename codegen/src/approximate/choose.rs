@@ -457,20 +457,20 @@ impl<'a> ErrorBudget<'a> {
         Err(NoPolynomials::Indefinite)
     }
 
-    /// A variant whose products are fused with their sums: its roundings are bounded
-    /// anew.
+    /// A variant of which another program is emitted that is the same function: its
+    /// roundings are bounded anew.
     ///
     /// # Errors
     /// [`ToleranceError::Above`], as of any variant.
-    pub fn with_fused_products(
+    pub fn with_emitted(
         &self,
         certificate: &Certificate,
+        emitted: &Program,
         tolerances: &[f64],
         bound_effort: BoundEffort,
     ) -> Result<Certificate, ToleranceError> {
-        let emitted = certificate.emitted.fused();
-        let sensitivity = self.sensitivity(&emitted, bound_effort);
-        let found = certificate.with_emitted(self.setting, emitted, &sensitivity);
+        let sensitivity = self.sensitivity(emitted, bound_effort);
+        let found = certificate.with_emitted(self.setting, emitted.clone(), &sensitivity);
         within(&found, tolerances)?;
         Ok(found)
     }

@@ -355,6 +355,9 @@ fn function_doc(
             ),
         },
     ];
+    if let Some(depth) = generated.depth {
+        lines.push(format!("The longest chain is of {depth} operations."));
+    }
     lines.extend(fused::doc(&generated.program));
     if generated.program.divides() {
         lines.push(String::new());

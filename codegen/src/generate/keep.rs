@@ -92,7 +92,7 @@ fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
 fn exact(function: &GeneratedFunction) -> &Program {
     let admitted = function.admitted.as_ref();
     let first = admitted.and_then(|admitted| admitted.stages.first());
-    let program = function.unfused.as_ref().unwrap_or(&function.program);
+    let program = function.found.as_ref().unwrap_or(&function.program);
     first.map_or(program, |stage| &stage.program)
 }
 

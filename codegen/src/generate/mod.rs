@@ -174,7 +174,7 @@ type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 /// cost fewer digits have their turn if it refuses these.
 fn all(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
     let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
-    if tolerance.is_none() || request.prefer == Prefer::Operations {
+    if tolerance.is_none() || request.prefer != Prefer::Accuracy {
         return attempt(setting, request);
     }
     let cheapest = Request {
@@ -233,10 +233,14 @@ fn one(
         }
         None => found(setting, function, request)?,
     };
-    let (program, unfused) = match request.fma {
-        // With a tolerance, errors are bounded and parts left out of it first.
-        Fma::On if !tolerates(setting) => (program.fused(), Some(program)),
-        Fma::On | Fma::Off => (program, None),
+    let finished = match tolerates(setting) {
+        // Errors are bounded, and parts left out of it, first.
+        true => program.clone(),
+        false => request.finished(&program),
+    };
+    let (program, found) = match finished == program {
+        true => (program, None),
+        false => (finished, Some(program)),
     };
     let proof = prove(setting, &program).map_err(|disproof| match vanishing(setting) {
         Some(value) => GenerateError::Vanishing(function, value.to_string()),
@@ -248,8 +252,9 @@ fn one(
         planned: entry.is_some(),
         counts: program.counts(),
         sines: Vec::new(),
+        depth: (request.prefer == Prefer::Latency).then(|| program.depth()),
         program,
-        unfused,
+        found,
         stages,
         proof,
         refused,

@@ -9,14 +9,16 @@ use crate::emit::{Interface, Layout};
 use crate::function::Function;
 use crate::plan::Plan;
 use crate::portfolio::{Start, load};
-use crate::program::ScalarType;
+use crate::program::shallow::Cycles;
+use crate::program::{Program, ScalarType};
 use crate::scene::{Setting, SettingError};
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
 
-/// What to do about a program whose estimated rounding error is more than
-/// [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form.
+/// What programs are chosen by: what to do about one whose estimated rounding error is
+/// more than [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form,
+/// and in which order its operations are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Prefer {
     /// Take the cheapest that is not that much worse.
@@ -24,17 +26,22 @@ pub enum Prefer {
     Accuracy,
     /// Take the cheapest.
     Operations,
+    /// As `Accuracy`, then take sums and products in the order in which the longest
+    /// chain is shortest ([`shallow`](crate::program::shallow)): for who waits for one
+    /// state's result, rather than for many.
+    Latency,
 }
 
 impl Prefer {
-    /// Both, the default first.
-    pub const ALL: [Prefer; 2] = [Prefer::Accuracy, Prefer::Operations];
+    /// All, the default first.
+    pub const ALL: [Prefer; 3] = [Prefer::Accuracy, Prefer::Operations, Prefer::Latency];
 
     /// Its name on the command line and in the macro.
     pub fn name(self) -> &'static str {
         match self {
             Prefer::Accuracy => "accuracy",
             Prefer::Operations => "operations",
+            Prefer::Latency => "latency",
         }
     }
 }
@@ -137,6 +144,19 @@ impl Request {
     pub fn setting(&self, robot: &Robot) -> Result<Setting, SettingError> {
         let setting = Setting::of(robot, self.scene.as_ref())?;
         Ok(load::chosen(setting.taking(&self.parameters)))
+    }
+
+    /// What is emitted of a program that was found: in another order, or with its
+    /// products fused, where that was asked for.
+    pub(crate) fn finished(&self, program: &Program) -> Program {
+        let program = match self.prefer {
+            Prefer::Latency => program.shallow(Cycles::DESKTOP),
+            Prefer::Accuracy | Prefer::Operations => program.clone(),
+        };
+        match self.fma {
+            Fma::On => program.fused(),
+            Fma::Off => program,
+        }
     }
 
     /// The module's name.

@@ -12,7 +12,7 @@ use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
 use crate::function::Function;
-use crate::generate::{Fma, GenerateError, GeneratedFunction, NoSines, Request};
+use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request};
 use crate::plan::Edited;
 use crate::portfolio::Start;
 use crate::program::{Program, ScalarType};
@@ -39,10 +39,8 @@ pub(super) fn tolerate(
         .flat_map(|admitted| &admitted.certificates);
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
-        function.program = match request.fma {
-            Fma::On => admitted.program.fused(),
-            Fma::Off => admitted.program.clone(),
-        };
+        function.program = request.finished(&admitted.program);
+        function.depth = function.depth.map(|_| function.program.depth());
         function.counts = function.program.counts();
         let sines = admitted.certificates.iter();
         let sines = sines.filter(|c| !c.sines.is_empty());
@@ -208,12 +206,13 @@ fn one(
             }
         }
     };
-    if request.fma == Fma::On {
-        let fused = |certificate: &Certificate| {
-            let found = budget.with_fused_products(certificate, &tolerances, bound_effort);
+    let finished = request.finished(&admitted.program);
+    if finished != admitted.program {
+        let with = |certificate: &Certificate| {
+            let found = budget.with_emitted(certificate, &finished, &tolerances, bound_effort);
             found.map_err(fail)
         };
-        let all: Result<_, GenerateError> = admitted.certificates.iter().map(fused).collect();
+        let all: Result<_, GenerateError> = admitted.certificates.iter().map(with).collect();
         admitted.certificates = all?;
     }
     for certificate in &mut admitted.certificates {

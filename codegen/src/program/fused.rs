@@ -253,14 +253,10 @@ fn is_negative(operand: &Operand) -> bool {
 impl Step<Exact> {
     /// The step where others have moved to these places.
     fn moved(&self, place: &[usize]) -> Step {
-        let moved = |operand: &Operand| match operand {
-            Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
-            other => other.clone(),
-        };
         Step {
             operation: self.operation,
-            left: moved(&self.left),
-            right: moved(&self.right),
+            left: self.left.moved(place),
+            right: self.right.moved(place),
         }
     }
 }

@@ -9,9 +9,10 @@
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
 //! - [`fused`]: products that are fused with a sum
+//! - [`shallow`]: the order of least depth
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
-//! - `map`: the same over other constants and inputs
+//! - `map`: the same over other constants and inputs, or with steps elsewhere
 //! - [`adjoint`]: backwards in any scalar: what a result changes by
 //! - [`text`]: operands and steps as plans and certificates write them
 //! - [`machine`]: floats that run as emitted code does
@@ -31,6 +32,7 @@ pub mod machine;
 mod map;
 pub mod run;
 pub mod scalar_type;
+pub mod shallow;
 pub mod speed;
 pub mod text;
 
