@@ -79,6 +79,7 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineF
 }
 
 /// A step of a program that is emitted: products may be fused.
+#[cfg(feature = "certificates")]
 pub(crate) fn read_emitted_step(words: &[&str], program: &Program) -> Result<Step, LineFault> {
     let fused = Operation::Fused;
     match words {
