@@ -132,7 +132,14 @@ pub mod matrices;
 ///   operations less.
 /// - `prefer: operations;` takes the cheapest code even where its rounding error
 ///   is more than four times the textbook form's, which `accuracy`, the default,
-///   does not. It says nothing about code that a plan keeps.
+///   does not. It says nothing about code that a plan keeps. `latency` is as `accuracy`
+///   and then takes sums and products, a plan's too, in the order in which the longest
+///   chain of operations is shortest, and says how long that is.
+/// - `fma: on;` makes one operation of a product and the sum that alone reads it:
+///   `t1.mul_add(t2, t3)`, rounded once. It needs `std`, and a build for a processor
+///   that has it: `-C target-cpu=native`, or `-C target-feature=+fma` on x86-64; aarch64
+///   always does. Any other calls a function of C for each, slower by far than the
+///   two operations are. With `off`, the default, every operation is rounded.
 /// - `sincos: auto;` takes polynomials for sines and cosines where a scene's
 ///   tolerance admits them, else computes those of all angles together, within
 ///   0.90 ulp, in vectors up to 8192 rad (f32: 100) and by libm beyond;

@@ -34,6 +34,7 @@ arm!(together, sincos: together;);
 arm!(alone, sincos: libm;);
 arm!(polynomial, sincos: polynomial; sincos_error: 1e-5;);
 arm!(sums, formulation: angle_sums;);
+arm!(fused, fma: on;);
 
 /// Equal bits, or no number in both: which NaN it is, is the processor's choice.
 trait Same {
@@ -74,7 +75,9 @@ same_equation!(
     polynomial,
     polynomial_f32,
     sums,
-    sums_f32
+    sums_f32,
+    fused,
+    fused_f32
 );
 
 /// So many seeded numbers; every ninth is one of those that are not usual:
@@ -250,6 +253,14 @@ fn sines_of_all_angles_together() {
 fn sines_of_libm() {
     check_arm!(alone, f64);
     check_arm!(alone_f32, f32);
+}
+
+/// A product and its sum in one rounding, also where the processor has no
+/// instruction for both.
+#[test]
+fn fused_products() {
+    check_arm!(fused, f64);
+    check_arm!(fused_f32, f32);
 }
 
 #[test]

@@ -103,7 +103,7 @@ pub use dalembert_codegen::function::RuntimeParameter as Parameter;
 #[doc(inline)]
 pub use dalembert_codegen::generate::in_scene::UnknownScene;
 #[doc(inline)]
-pub use dalembert_codegen::generate::{GenerateError, Prefer};
+pub use dalembert_codegen::generate::{Fma, GenerateError, Prefer};
 #[doc(inline)]
 pub use dalembert_codegen::portfolio::Start as Formulation;
 #[doc(inline)]
@@ -192,6 +192,8 @@ impl Generator {
     /// [`Prefer::Operations`] takes the cheapest whatever its rounding error;
     /// [`Prefer::Accuracy`], the default, the cheapest of those whose error is
     /// at most four times the textbook form's. Programs of a plan stay.
+    /// [`Prefer::Latency`] then takes sums and products, a plan's too, in the order in
+    /// which the longest chain of operations is shortest.
     #[must_use]
     pub fn prefer(mut self, prefer: Prefer) -> Self {
         self.request.prefer = prefer;
@@ -245,6 +247,16 @@ impl Generator {
     #[must_use]
     pub fn sincos(mut self, sincos: SinCos) -> Self {
         self.request.sincos = sincos;
+        self
+    }
+
+    /// Whether a product and the sum that alone reads it are one operation,
+    /// `mul_add`, which rounds once. The code needs `std`, and a build for a processor
+    /// that has it (`-C target-feature=+fma` on x86-64): any other calls a function
+    /// of C for each, slower by far than two operations.
+    #[must_use]
+    pub fn fma(mut self, fma: Fma) -> Self {
+        self.request.fma = fma;
         self
     }
 

@@ -9,7 +9,7 @@ use dalembert_codegen::backend::{Entries, MathPath};
 use dalembert_codegen::clauses::words::bundle;
 use dalembert_codegen::emit::Interface;
 use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Prefer, Request};
+use dalembert_codegen::generate::{Fma, Prefer, Request};
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::simplify::Effort;
@@ -78,9 +78,15 @@ pub struct Choice {
     /// search's if that is cheaper; a second Ctrl-C quits without a result
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
-    /// `operations` takes the cheapest program even if it costs digits
+    /// `operations` takes the cheapest program even if it costs digits; `latency` takes
+    /// sums and products in the order in which the longest chain of operations is shortest
     #[arg(long, value_name = "WHAT", default_value = "accuracy", value_parser = prefer_parser())]
     pub prefer: Prefer,
+    /// Make one operation, `mul_add`, of a product and the sum that alone reads it:
+    /// rounded once. The code needs std, and a build for a processor that has it
+    /// (-C target-cpu=native); any other calls a slow function for each
+    #[arg(long)]
+    pub fma: bool,
     /// Only what this scene of the robot file needs; its outputs and scalar
     /// are the defaults
     #[arg(long, value_name = "NAME")]
@@ -113,6 +119,10 @@ impl Choice {
             start: self.formulation,
             effort: self.effort,
             prefer: self.prefer,
+            fma: match self.fma {
+                true => Fma::On,
+                false => Fma::Off,
+            },
             parameters: self.parameters.clone(),
             ..Request::default()
         };

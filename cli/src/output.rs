@@ -42,6 +42,7 @@ pub fn counts(counts: &Counts) -> Value {
     json!({
         "mul": counts.mul,
         "add": counts.add,
+        "fma": counts.fma,
         "div": counts.div,
         "sqrt": counts.sqrt,
         "sincos": counts.sincos,

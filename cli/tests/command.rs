@@ -45,6 +45,37 @@ fn entries_are_asked_for() {
     assert!(wrong.err.contains("'lanes'"), "{}", wrong.err);
 }
 
+/// Fused products are counted apart, printed and read back; processors without them
+/// are warned of; without the flag there are none.
+#[test]
+fn fused_products_are_asked_for() {
+    let planar = robot("planar2r");
+    let asked = ["--outputs", "inverse_dynamics", "--scalar", "f64"];
+    let count = |more: &[&str]| run(&[&["count", &planar][..], &asked, more].concat());
+    let (off, on) = (count(&[]), count(&["--fma"]));
+    assert_eq!((off.code, on.code), (0, 0), "{}{}", off.err, on.err);
+    assert!(on.out.contains("  fma  div") && !off.out.contains("fma"));
+    let numbers = |more: &[&str]| -> [u64; 3] {
+        let json: Value = serde_json::from_str(&count(more).out).unwrap();
+        let counts = &json["functions"]["inverse_dynamics"];
+        ["mul", "add", "fma"].map(|key| counts[key].as_u64().unwrap())
+    };
+    let ([mul, add, none], [less, fewer, fma]) =
+        (numbers(&["--json"]), numbers(&["--json", "--fma"]));
+    assert_eq!((none, less + fma, fewer + fma), (0, mul, add));
+    assert!(fma > 3, "{fma}");
+    let ran = run(&[&["generate", &planar][..], &asked, &["--fma"]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.contains(".mul_add(") && ran.err.contains("the text was read back"));
+    assert!(
+        ran.out
+            .contains(&format!("{less} mul, {fewer} add, {fma} fma, 2 sincos."))
+    );
+    let report = run(&[&["generate", &planar][..], &asked, &["--fma", "--report"]].concat());
+    let warned = "warning: `mul_add` of f64 calls a function on x86-64";
+    assert!(report.out.contains(warned) && !report.out.contains("on aarch64,"));
+}
+
 /// Parameters that are arguments are proved, printed and verified like others, and
 /// no plan has such programs.
 #[test]

@@ -97,7 +97,7 @@ pub use function::Function;
 #[doc(inline)]
 pub use generate::in_scene::UnknownScene;
 #[doc(inline)]
-pub use generate::{GenerateError, Generated, Prefer, Request, generate};
+pub use generate::{Fma, GenerateError, Generated, Prefer, Request, generate};
 #[doc(inline)]
 pub use plan::{Plan, PlanError};
 #[doc(inline)]

@@ -53,7 +53,7 @@ fn a_wrong_sign() {
             *operation = match *operation {
                 Operation::Add => Operation::Sub,
                 Operation::Sub => Operation::Add,
-                Operation::Mul | Operation::Div => continue,
+                Operation::Mul | Operation::Fused | Operation::Div => continue,
             };
             assert!(refused(&robot, &wrong), "{} t{}", robot.name, index + 1);
         }

@@ -15,7 +15,7 @@ use dalembert_codegen::sincos::SinCos;
 use dalembert_report::processor::estimate::Estimate;
 use dalembert_report::processor::flat::Flat;
 use dalembert_report::processor::registers::{Traffic, is_short, traffic};
-use dalembert_report::processor::target::{Cycles, Target, Unit};
+use dalembert_report::processor::target::{Cycles, Fused, Target, Unit};
 use dalembert_report::processor::targets::TARGETS;
 use dalembert_report::processor::{Footprint, Sines, footprint, footprints, warnings};
 
@@ -79,6 +79,10 @@ const CYCLES: Cycles = Cycles {
     add: 2,
     mul: 3,
     div: 10,
+    fma: Some(Fused {
+        factor: 4,
+        addend: 1,
+    }),
 };
 
 /// A processor with so many registers, of which calls keep one.
@@ -166,6 +170,44 @@ fn roots_are_calls() {
     assert_eq!(estimate.cycles, 10 + 3);
     assert_eq!(calls(&footprint), ["libm::sqrtf"]);
     assert!(footprint.path.branches().starts_with("in libm"));
+}
+
+/// t2 = q0·q1 + q2 and t4 = q2 − t2·q1: two instructions, three loads, a store and the
+/// return. The chain is through what t2 is a factor of.
+#[test]
+fn a_fused_product_is_one_instruction() {
+    let fused = text(
+        &[
+            (Operation::Fused, q(0), q(1)),
+            (Add, t(1), q(2)),
+            (Operation::Fused, t(2), q(1)),
+            (Sub, q(2), t(3)),
+        ],
+        &[(false, t(4))],
+    );
+    let (footprint, estimate) = of(&fused, &FOUR);
+    assert_eq!((footprint.operations(), footprint.depth), (2, 2));
+    assert_eq!((footprint.counts.fma, footprint.pairs), (2, 0));
+    assert_eq!(estimate.cycles, 4 + 4);
+    assert_eq!(estimate.instructions, 2 + 3 + 1 + 1);
+    assert!(warnings(&[footprint]).is_empty());
+    // Where it is added it is read later.
+    let added = text(
+        &[
+            (Mul, q(0), q(1)),
+            (Operation::Fused, q(1), q(2)),
+            (Add, t(2), t(1)),
+        ],
+        &[(false, t(3))],
+    );
+    assert_eq!(of(&added, &FOUR).1.cycles, 3 + 1);
+    // SSE2 has none: calls, which are warned of.
+    let (footprint, estimate) = of(&fused, &TARGETS[3]);
+    assert_eq!(footprint.on[0].0.name, "x86-64");
+    assert!(estimate.instructions > 2 + 3 + 1 + 1);
+    assert_eq!(estimate.cycles, 2 * (4 + 4));
+    let warned = warnings(&[footprint]);
+    assert!(warned[0].starts_with("`mul_add` of f32 calls a function on x86-64"));
 }
 
 /// With four registers nothing goes to the stack: three loads, five operations, a

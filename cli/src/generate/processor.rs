@@ -89,17 +89,22 @@ fn scalars(footprints: &[Footprint]) -> Vec<ScalarType> {
 
 /// What does not depend on the processor.
 fn programs(footprints: &[&Footprint]) -> String {
-    let head = [
-        "function", "mul", "add", "div", "alive", "depth", "parallel", "pairs", "sines", "calls",
-        "f64", "branches",
-    ];
-    let mut rows = vec![head.map(String::from).to_vec()];
+    let fuses = footprints.iter().any(|f| f.counts.fma > 0);
+    let mut head = vec!["function", "mul", "add"];
+    head.extend(fuses.then_some("fma"));
+    head.extend([
+        "div", "alive", "depth", "parallel", "pairs", "sines", "calls", "f64", "branches",
+    ]);
+    let mut rows = vec![head.into_iter().map(String::from).collect()];
     for footprint in footprints {
         let counts = footprint.counts;
-        rows.push(vec![
+        let mut row = vec![
             footprint.function.to_string(),
             (counts.mul + counts.trig_mul).to_string(),
             (counts.add + counts.trig_add).to_string(),
+        ];
+        row.extend(fuses.then(|| counts.fma.to_string()));
+        row.extend([
             counts.div.to_string(),
             footprint.alive.to_string(),
             footprint.depth.to_string(),
@@ -110,6 +115,7 @@ fn programs(footprints: &[&Footprint]) -> String {
             footprint.path.f64().to_owned(),
             footprint.path.branches().to_owned(),
         ]);
+        rows.push(row);
     }
     output::table(&rows, 4)
 }

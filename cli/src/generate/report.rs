@@ -172,9 +172,13 @@ pub fn scene(request: &Request) -> String {
 
 /// The table of operation counts.
 pub fn counts(generated: &Generated) -> String {
-    let roots = generated.functions.iter().any(|f| f.counts.sqrt > 0);
+    let any = |of: fn(&Counts) -> usize| generated.functions.iter().any(|f| of(&f.counts) > 0);
+    let (fuses, roots) = (any(|counts| counts.fma), any(|counts| counts.sqrt));
+    let fma = |cell: String| fuses.then_some(cell);
     let root = |cell: String| roots.then_some(cell);
-    let head = ["function", "mul", "add", "div"].map(String::from);
+    let mut head = ["function", "mul", "add"].map(String::from).to_vec();
+    head.extend(fma("fma".to_owned()));
+    head.push("div".to_owned());
     let tail = ["sincos", "from", "proof"].map(String::from);
     let sqrt = root("sqrt".to_owned());
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().chain(sqrt).chain(tail).collect()];
@@ -184,8 +188,9 @@ pub fn counts(generated: &Generated) -> String {
             function.function.to_string(),
             counts.mul.to_string(),
             counts.add.to_string(),
-            counts.div.to_string(),
         ];
+        row.extend(fma(counts.fma.to_string()));
+        row.push(counts.div.to_string());
         row.extend(root(counts.sqrt.to_string()));
         row.extend([
             counts.sincos.to_string(),

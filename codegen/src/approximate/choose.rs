@@ -525,6 +525,24 @@ impl<'a> ErrorBudget<'a> {
         Err(NoPolynomials::Indefinite)
     }
 
+    /// A variant of which another program is emitted that is the same function: its
+    /// roundings are bounded anew.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Above`], as of any variant.
+    pub fn with_emitted(
+        &self,
+        certificate: &Certificate,
+        emitted: &Program,
+        tolerances: &[f64],
+        bound_effort: BoundEffort,
+    ) -> Result<Certificate, ToleranceError> {
+        let sensitivity = self.sensitivity(emitted, bound_effort);
+        let found = certificate.with_emitted(self.setting, emitted.clone(), &sensitivity);
+        within(&found, tolerances)?;
+        Ok(found)
+    }
+
     /// What is left for edits, in each output's unit; `None` if that is
     /// nothing.
     fn allowances(

@@ -11,6 +11,7 @@ use crate::backend::result::{self, array_type};
 use crate::backend::statement::{last_uses, operand, statement};
 use crate::backend::{MathPath, parts, speed, trig};
 use crate::function::{Argument, Function};
+use crate::program::fused::pieces;
 use crate::program::{Operand, Output, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
@@ -78,8 +79,10 @@ pub(super) fn write_doc(text: &mut String, doc: &[String]) {
 
 fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
     if program.steps.len() <= FLAT {
-        for (index, step) in program.steps.iter().enumerate() {
-            push(text, format_args!("    {}", statement(index, step, scalar)));
+        for index in 0..program.steps.len() {
+            if let Some(line) = statement(&program.steps, index, scalar) {
+                push(text, format_args!("    {line}"));
+            }
         }
         return;
     }
@@ -88,20 +91,16 @@ fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
         return;
     }
     let last_use = last_uses(program);
-    for (block, steps) in program.steps.chunks(BLOCK).enumerate() {
-        let start = block * BLOCK;
-        let end = start + steps.len();
+    for block in pieces(&program.steps, BLOCK) {
+        let end = block.end;
         // A block hands on what is read after it: that much is live.
         let mut live = String::new();
-        for step in (start..end).filter(|&step| last_use[step] >= end) {
+        for step in block.clone().filter(|&step| last_use[step] >= end) {
             let _ = write!(live, "t{}, ", step + 1);
         }
         push(text, format_args!("    let ({}) = {{", live.trim_end()));
-        for (index, step) in (start..).zip(steps) {
-            push(
-                text,
-                format_args!("        {}", statement(index, step, scalar)),
-            );
+        for line in block.filter_map(|index| statement(&program.steps, index, scalar)) {
+            push(text, format_args!("        {line}"));
         }
         push(text, format_args!("        ({})", live.trim_end()));
         push(text, format_args!("    }};"));

@@ -22,6 +22,7 @@ use std::fmt::Write;
 
 use crate::backend::statement::{last_uses, statement};
 use crate::function::Argument;
+use crate::program::fused::pieces;
 use crate::program::text::input_name;
 use crate::program::{Input, Operand, Program, ScalarType};
 
@@ -34,10 +35,10 @@ pub const PART: usize = 1000;
 /// Prints the arithmetic in parts.
 pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
     let last_use = last_uses(program);
-    for (part, steps) in program.steps.chunks(PART).enumerate() {
-        let start = part * PART;
-        let end = start + steps.len();
-        let live = (start..end).filter(|&step| last_use[step] >= end);
+    for part in pieces(&program.steps, PART) {
+        let (start, end) = (part.start, part.end);
+        let steps = &program.steps[part.clone()];
+        let live = part.clone().filter(|&step| last_use[step] >= end);
         let live: Vec<String> = live.map(|step| format!("t{}", step + 1)).collect();
         let operands = steps.iter().flat_map(|step| [&step.left, &step.right]);
         let reads = Reads::of(operands, start);
@@ -53,8 +54,8 @@ pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
             8,
             &format!("fn part({parameters}) -> [{scalar}; {count}] {{"),
         );
-        for (index, step) in (start..).zip(steps) {
-            line(12, &statement(index, step, scalar));
+        for statement in part.filter_map(|index| statement(&program.steps, index, scalar)) {
+            line(12, &statement);
         }
         line(12, &format!("[{results}]"));
         line(8, "}");

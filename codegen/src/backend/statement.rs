@@ -1,13 +1,38 @@
 //! One operation as one line.
 
+use crate::program::fused::{Fusion, fusion};
 use crate::program::text::input_name;
-use crate::program::{Operand, Program, ScalarType, Step};
+use crate::program::{Operand, Operation, Program, ScalarType, Step};
 
-/// `let t3 = t1 * s2;`
-pub(super) fn statement(index: usize, step: &Step, scalar: ScalarType) -> String {
-    let (left, right) = (operand(&step.left, scalar), operand(&step.right, scalar));
-    let symbol = step.operation.symbol();
-    format!("let t{} = {left} {symbol} {right};", index + 1)
+/// `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2, t1);` for a sum and the product
+/// that it takes, which has no line of its own.
+pub(super) fn statement(steps: &[Step], index: usize, scalar: ScalarType) -> Option<String> {
+    let step = steps.get(index)?;
+    if step.operation == Operation::Fused {
+        return None;
+    }
+    let value = match fusion(steps, index) {
+        None => {
+            let (left, right) = (operand(&step.left, scalar), operand(&step.right, scalar));
+            format!("{left} {} {right}", step.operation.symbol())
+        }
+        Some(Fusion {
+            product,
+            negative,
+            addend,
+            minus,
+        }) => {
+            let left = operand(&product.left, scalar);
+            let left = match negative {
+                true => format!("(-{left})"),
+                false => left,
+            };
+            let right = operand(&product.right, scalar);
+            let sign = if minus { "-" } else { "" };
+            format!("{left}.mul_add({right}, {sign}{})", operand(addend, scalar))
+        }
+    };
+    Some(format!("let t{} = {value};", index + 1))
 }
 
 /// The last step that reads each step; past the end for results.

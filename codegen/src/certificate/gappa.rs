@@ -14,7 +14,7 @@ use dalembert_model::number::Exact;
 
 use crate::certificate::Certificate;
 use crate::interval::Interval;
-use crate::program::{AngleSum, Input, Operand, Program, ScalarType, Step};
+use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Step};
 
 /// The script for an output of a certificate's emitted program; none if the
 /// output takes no operation.
@@ -102,8 +102,15 @@ impl Writer<'_> {
             Operand::Step(before) => format!("t{}", before + 1),
         };
         let (left, right) = (operand(&step.left), operand(&step.right));
-        let symbol = step.operation.symbol();
-        self.line(&format!("t{} rnd= {left} {symbol} {right};", index + 1));
+        let (rounded, symbol) = match step.operation {
+            // The sum that takes it rounds, and rounds the exact product.
+            Operation::Fused => ("=", '*'),
+            operation => ("rnd=", operation.symbol()),
+        };
+        self.line(&format!(
+            "t{} {rounded} {left} {symbol} {right};",
+            index + 1
+        ));
     }
 
     fn exact(&mut self, index: usize, step: &Step) {
@@ -111,7 +118,10 @@ impl Writer<'_> {
             self.exact_operand(&step.left),
             self.exact_operand(&step.right),
         );
-        let symbol = step.operation.symbol();
+        let symbol = match step.operation {
+            Operation::Fused => '*',
+            operation => operation.symbol(),
+        };
         self.line(&format!("T{} = {left} {symbol} {right};", index + 1));
     }
 

@@ -14,6 +14,7 @@
 //!    the box is the scene's or larger, and E within its tolerance;
 //! 2. each stage's edits apply, and what they give equals the next stage's
 //!    program, the last one the emitted program (proved likewise);
+//!    products of it are fused with sums by the one rule that there is, or none is;
 //! 3. the printed text is, byte for byte, what is printed of the emitted
 //!    program and its sines; polynomials are proved again from their literals,
 //!    over the angles' ranges in the box;
@@ -74,8 +75,18 @@ pub use work::TooMuch;
 const ASSUMPTIONS: [&str; 3] = [
     "every operation is rounded to nearest: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products",
     "no operation is contracted to a fused multiply-add",
-    "positions, velocities and accelerations are the scalar's numbers inside the box",
+    INSIDE,
 ];
+
+/// The same where the text has fused multiply-adds.
+const FUSED_ASSUMPTIONS: [&str; 3] = [
+    "every operation is rounded to nearest, mul_add once: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products and mul_add",
+    "no other operation is contracted to a fused multiply-add",
+    INSIDE,
+];
+
+const INSIDE: &str =
+    "positions, velocities and accelerations are the scalar's numbers inside the box";
 
 /// How the bounds were found.
 pub const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
@@ -214,6 +225,22 @@ impl Certificate {
         }
     }
 
+    /// The same claim with another program for what is emitted, which is the same
+    /// function: the edits' bounds stay.
+    #[must_use]
+    pub fn with_emitted(
+        &self,
+        setting: &Setting,
+        emitted: Program,
+        sensitivity: &Sensitivity,
+    ) -> Certificate {
+        let other = Certificate {
+            emitted,
+            ..self.clone()
+        };
+        other.with_sines(setting, &self.sines, sensitivity)
+    }
+
     /// The same claim about the text that calls this library: every bound takes
     /// its sines to be within one ulp, and whose they are is all the same.
     #[must_use]
@@ -231,7 +258,10 @@ impl Certificate {
     /// What its bounds rest on besides arithmetic. Where sines are polynomials,
     /// nothing is taken for granted of them: their errors are proved.
     pub fn assumptions(&self) -> Vec<&'static str> {
-        let mut all = ASSUMPTIONS.to_vec();
+        let mut all = match self.emitted.fuses() {
+            true => FUSED_ASSUMPTIONS.to_vec(),
+            false => ASSUMPTIONS.to_vec(),
+        };
         if self.sines.is_empty() {
             all.insert(1, self.library.assumption());
         }

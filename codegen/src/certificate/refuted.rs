@@ -81,6 +81,8 @@ pub enum Refuted {
         /// What is not as it should be.
         what: &'static str,
     },
+    /// Products are fused that the generator does not fuse, or others than it does.
+    Fused,
     /// A program reads what it may not.
     Input {
         /// Which program.
@@ -196,6 +198,9 @@ impl fmt::Display for Refuted {
                     "the {what} of {program} is not that of the function in this scene"
                 )
             }
+            Refuted::Fused => f.write_str(
+                "the fused products are not those of the emitted program by the generator's rule",
+            ),
             Refuted::Input {
                 program,
                 input,

@@ -42,6 +42,11 @@ pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<(), 
         }
     }
     checker.program("the emitted program", emitted)?;
+    let rounded = certificate.stages.iter().all(|s| !s.program.fuses());
+    // Whichever products are fused, it is the choice of the one rule.
+    if !rounded || emitted.fuses() && emitted.unfused().fused() != *emitted {
+        return Err(Refuted::Fused);
+    }
     let kernels = certificate.sines.iter().map(|sine| &sine.kernel);
     for kernel in kernels {
         if !is_ordered(kernel) {

@@ -197,13 +197,15 @@ fn operate(operation: Operation, a: (Size, bool), b: (Size, bool)) -> (Size, boo
         // A constant times a value is a factor in front of it, any other
         // operation with a value is a value without one.
         return match (operation, a, b) {
-            (Operation::Mul, (size @ Some(_), true), (None, _))
-            | (Operation::Mul, (None, _), (size @ Some(_), true)) => (size, false),
+            (Operation::Mul | Operation::Fused, (size @ Some(_), true), (None, _))
+            | (Operation::Mul | Operation::Fused, (None, _), (size @ Some(_), true)) => {
+                (size, false)
+            }
             _ => (None, false),
         };
     };
     match operation {
-        Operation::Mul if x_is || y_is => (Some(product(&x, &y)), x_is && y_is),
+        Operation::Mul | Operation::Fused if x_is || y_is => (Some(product(&x, &y)), x_is && y_is),
         Operation::Add | Operation::Sub if x_is && y_is => (Some(sum(&x, &y)), true),
         _ => (None, false),
     }

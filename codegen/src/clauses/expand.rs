@@ -176,6 +176,7 @@ fn functions(
         start: invocation.start,
         effort: invocation.effort,
         prefer: invocation.prefer,
+        fma: invocation.fma,
         plan: source.plan.clone(),
         sincos: invocation.sincos,
         math: module::math(invocation.sincos),

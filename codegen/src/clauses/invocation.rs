@@ -16,7 +16,7 @@ use super::statement::{self, Pair, pairs, trees};
 use crate::backend::Entries;
 use crate::emit::Interface;
 use crate::function::Function;
-use crate::generate::Prefer;
+use crate::generate::{Fma, Prefer};
 use crate::portfolio::Start;
 use crate::program::ScalarType;
 use crate::simplify::Effort;
@@ -36,6 +36,7 @@ pub(super) struct Invocation {
     pub(super) start: Start,
     pub(super) effort: Effort,
     pub(super) prefer: Prefer,
+    pub(super) fma: Fma,
     /// The error of polynomials stands in it once all clauses are read.
     pub(super) sincos: SinCos,
     pub(super) entries: Entries,
@@ -55,12 +56,13 @@ pub(super) enum RobotSource {
 }
 
 /// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 12] = [
+const CLAUSES: [&str; 13] = [
     "outputs",
     "scalar",
     "formulation",
     "effort",
     "prefer",
+    "fma",
     "sincos",
     "sincos_error",
     "entries",
@@ -95,6 +97,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         start: Start::Auto,
         effort: Effort::Quick,
         prefer: Prefer::Accuracy,
+        fma: Fma::Off,
         sincos: SinCos::Auto,
         entries: Entries::Single,
         interface: Interface::Functions,
@@ -210,6 +213,7 @@ impl Invocation {
             Some("formulation") => self.start = list::word(value, errors).unwrap_or(self.start),
             Some("effort") => self.effort = list::word(value, errors).unwrap_or(self.effort),
             Some("prefer") => self.prefer = list::word(value, errors).unwrap_or(self.prefer),
+            Some("fma") => self.fma = list::word(value, errors).unwrap_or(self.fma),
             Some("sincos") => self.sincos = list::word(value, errors).unwrap_or(self.sincos),
             Some("interface") => {
                 self.interface = list::word(value, errors).unwrap_or(self.interface);

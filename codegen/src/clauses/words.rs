@@ -9,7 +9,7 @@ use dalembert_model::read::{closest, for_bundle};
 use crate::backend::Entries;
 use crate::emit::Interface;
 use crate::function::{BundleError, Function};
-use crate::generate::Prefer;
+use crate::generate::{Fma, Prefer};
 use crate::portfolio::Start;
 use crate::program::ScalarType;
 use crate::simplify::Effort;
@@ -53,6 +53,14 @@ impl Word for Prefer {
 
     fn all() -> Vec<(&'static str, Self)> {
         Prefer::ALL.map(|p| (p.name(), p)).to_vec()
+    }
+}
+
+impl Word for Fma {
+    const WHAT: &'static str = "choice";
+
+    fn all() -> Vec<(&'static str, Self)> {
+        Fma::ALL.map(|f| (f.name(), f)).to_vec()
     }
 }
 

@@ -201,7 +201,7 @@ impl<'a> Run<'a> {
         match operation {
             Operation::Add => self.builder.add(da, db),
             Operation::Sub => self.builder.sub(da, db),
-            Operation::Mul => {
+            Operation::Mul | Operation::Fused => {
                 let left = self.builder.mul(a_after, db);
                 let right = self.builder.mul(b, da);
                 self.builder.add(&left, &right)
@@ -224,7 +224,7 @@ fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) ->
     match operation {
         Operation::Add => builder.add(a, b),
         Operation::Sub => builder.sub(a, b),
-        Operation::Mul => builder.mul(a, b),
+        Operation::Mul | Operation::Fused => builder.mul(a, b),
         Operation::Div => builder.div(a, b),
     }
 }

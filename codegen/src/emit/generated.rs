@@ -20,6 +20,11 @@ pub struct GeneratedFunction {
     pub planned: bool,
     /// The final program with exact constants: what is emitted.
     pub program: Program,
+    /// The program that was found, if its operations were then put into another order or its
+    /// products fused: what a plan keeps.
+    pub found: Option<Program>,
+    /// The operations of its longest chain, if somebody asked for a short one.
+    pub depth: Option<usize>,
     /// Its counts, without the polynomials of sines.
     pub counts: Counts,
     /// The polynomials of its sines in each scalar, if they are not libm's.

@@ -5,7 +5,8 @@
 //! - `state_box`: where functions hold that do not hold everywhere
 //! - `generated`: a function with what was found and proved of it
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
-//!   are relative to; `sines`: polynomials for sines; [`figures`]: numbers
+//!   are relative to; `sines`: polynomials for sines;
+//!   `fused`: products fused with sums; [`figures`]: numbers
 //!   rounded to the side that stays true
 //! - [`interface`]: the robot as a value with traits
 //! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
@@ -15,6 +16,7 @@ mod arguments;
 mod escape;
 pub mod figures;
 mod friction;
+mod fused;
 mod generated;
 pub mod interface;
 pub mod module;

@@ -9,7 +9,7 @@ use super::figures::decimal;
 use super::friction;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{Interface, arguments, interface, parameters, sines, variant};
+use super::{Interface, arguments, fused, interface, parameters, sines, variant};
 use crate::backend::entries::angles::Angles;
 use crate::backend::entries::{self, Around};
 use crate::backend::{Entries, MathPath, function, result};
@@ -288,13 +288,14 @@ fn header(
     lines
 }
 
-/// The operation counts, divisions and roots among them where there are any.
+/// The operation counts, fused operations, divisions and roots among them where there are any.
 fn table(functions: &[GeneratedFunction]) -> Vec<String> {
     let any = |of: fn(&GeneratedFunction) -> usize| functions.iter().any(|f| of(f) > 0);
     let (divides, roots) = (any(|f| f.counts.div), any(|f| f.counts.sqrt));
-    let line = |[function, mul, add, div, sqrt, sincos, from]: [&dyn Display; 7]| {
+    let fuses = any(|f| f.counts.fma);
+    let line = |[function, mul, add, fma, div, sqrt, sincos, from]: [&dyn Display; 8]| {
         let mut line = format!("| {function} | {mul} | {add} |");
-        for (column, cell) in [(divides, div), (roots, sqrt)] {
+        for (column, cell) in [(fuses, fma), (divides, div), (roots, sqrt)] {
             if column {
                 line += &format!(" {cell} |");
             }
@@ -306,12 +307,13 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
             &"function",
             &"mul",
             &"add",
+            &"fma",
             &"div",
             &"sqrt",
             &"sincos",
             &"from",
         ]),
-        line([&"---"; 7]).replace(' ', ""),
+        line([&"---"; 8]).replace(' ', ""),
     ];
     for generated in functions {
         let counts = generated.counts;
@@ -319,6 +321,7 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
             &format!("`{}`", generated.function),
             &counts.mul,
             &counts.add,
+            &counts.fma,
             &counts.div,
             &counts.sqrt,
             &counts.sincos,
@@ -352,6 +355,10 @@ fn function_doc(
             ),
         },
     ];
+    if let Some(depth) = generated.depth {
+        lines.push(format!("The longest chain is of {depth} operations."));
+    }
+    lines.extend(fused::doc(&generated.program));
     if generated.program.divides() {
         lines.push(String::new());
         lines.push(

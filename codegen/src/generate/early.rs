@@ -41,7 +41,7 @@ pub(super) fn no_dearer_than_quick(
 pub fn price(program: &Program) -> u64 {
     let model = CostModel::OPERATIONS;
     let steps = program.steps.iter().map(|step| match step.operation {
-        Operation::Mul => model.mul,
+        Operation::Mul | Operation::Fused => model.mul,
         Operation::Div => model.div,
         Operation::Add | Operation::Sub => model.add,
     });

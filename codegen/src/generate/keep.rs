@@ -92,7 +92,8 @@ fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
 fn exact(function: &GeneratedFunction) -> &Program {
     let admitted = function.admitted.as_ref();
     let first = admitted.and_then(|admitted| admitted.stages.first());
-    first.map_or(&function.program, |stage| &stage.program)
+    let program = function.found.as_ref().unwrap_or(&function.program);
+    first.map_or(program, |stage| &stage.program)
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub use reason::{NoSines, TextDefect};
-pub use request::{Prefer, Request};
+pub use request::{Fma, Prefer, Request};
 use search::{found, replay};
 
 use tolerate::tolerate;
@@ -174,7 +174,7 @@ type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 /// cost fewer digits have their turn if it refuses these.
 fn all(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
     let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
-    if tolerance.is_none() || request.prefer == Prefer::Operations {
+    if tolerance.is_none() || request.prefer != Prefer::Accuracy {
         return attempt(setting, request);
     }
     let cheapest = Request {
@@ -233,6 +233,15 @@ fn one(
         }
         None => found(setting, function, request)?,
     };
+    let finished = match tolerates(setting) {
+        // Errors are bounded, and parts left out of it, first.
+        true => program.clone(),
+        false => request.finished(&program),
+    };
+    let (program, found) = match finished == program {
+        true => (program, None),
+        false => (finished, Some(program)),
+    };
     let proof = prove(setting, &program).map_err(|disproof| match vanishing(setting) {
         Some(value) => GenerateError::Vanishing(function, value.to_string()),
         None => GenerateError::Disproved(function, disproof),
@@ -243,12 +252,21 @@ fn one(
         planned: entry.is_some(),
         counts: program.counts(),
         sines: Vec::new(),
+        depth: (request.prefer == Prefer::Latency).then(|| program.depth()),
         program,
+        found,
         stages,
         proof,
         refused,
         admitted: None,
     })
+}
+
+/// Whether the scene has a tolerance.
+fn tolerates(setting: &Setting) -> bool {
+    setting
+        .scene()
+        .is_some_and(|scene| scene.tolerance.is_some())
 }
 
 /// The polynomials of a program's sines in each scalar.

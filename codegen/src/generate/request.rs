@@ -9,14 +9,16 @@ use crate::emit::{Interface, Layout};
 use crate::function::Function;
 use crate::plan::Plan;
 use crate::portfolio::{Start, load};
-use crate::program::ScalarType;
+use crate::program::shallow::Cycles;
+use crate::program::{Program, ScalarType};
 use crate::scene::{Setting, SettingError};
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
 
-/// What to do about a program whose estimated rounding error is more than
-/// [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form.
+/// What programs are chosen by: what to do about one whose estimated rounding error is
+/// more than [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form,
+/// and in which order its operations are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Prefer {
     /// Take the cheapest that is not that much worse.
@@ -24,20 +26,51 @@ pub enum Prefer {
     Accuracy,
     /// Take the cheapest.
     Operations,
+    /// As `Accuracy`, then take sums and products in the order in which the longest
+    /// chain is shortest ([`shallow`](crate::program::shallow)): for who waits for one
+    /// state's result, rather than for many.
+    Latency,
 }
 
 impl Prefer {
-    /// Both, the default first.
-    pub const ALL: [Prefer; 2] = [Prefer::Accuracy, Prefer::Operations];
+    /// All, the default first.
+    pub const ALL: [Prefer; 3] = [Prefer::Accuracy, Prefer::Operations, Prefer::Latency];
 
     /// Its name on the command line and in the macro.
     pub fn name(self) -> &'static str {
         match self {
             Prefer::Accuracy => "accuracy",
             Prefer::Operations => "operations",
+            Prefer::Latency => "latency",
         }
     }
 }
+
+/// Whether products are fused with the sums that alone read them
+/// ([`fused`](crate::program::fused)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Fma {
+    /// Every operation is rounded.
+    #[default]
+    Off,
+    /// A product and its sum are one operation, `mul_add`, and rounded once. It
+    /// needs `std`, and a processor that has it.
+    On,
+}
+
+impl Fma {
+    /// Both, the default first.
+    pub const ALL: [Fma; 2] = [Fma::Off, Fma::On];
+
+    /// Its name on the command line and in the macro.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fma::Off => "off",
+            Fma::On => "on",
+        }
+    }
+}
+
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;
 
@@ -55,6 +88,8 @@ pub struct Request {
     pub effort: Effort,
     /// What to do about a program that costs digits.
     pub prefer: Prefer,
+    /// Whether products are fused with their sums.
+    pub fma: Fma,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
     /// Who waits, if anybody does.
@@ -111,6 +146,19 @@ impl Request {
         Ok(load::chosen(setting.taking(&self.parameters)))
     }
 
+    /// What is emitted of a program that was found: in another order, or with its
+    /// products fused, where that was asked for.
+    pub(crate) fn finished(&self, program: &Program) -> Program {
+        let program = match self.prefer {
+            Prefer::Latency => program.shallow(Cycles::DESKTOP),
+            Prefer::Accuracy | Prefer::Operations => program.clone(),
+        };
+        match self.fma {
+            Fma::On => program.fused(),
+            Fma::Off => program,
+        }
+    }
+
     /// The module's name.
     pub fn module_name(&self, robot: &Robot) -> String {
         match (&self.module, &self.scene) {
@@ -129,6 +177,7 @@ impl Default for Request {
             start: Start::Auto,
             effort: Effort::Quick,
             prefer: Prefer::Accuracy,
+            fma: Fma::Off,
             plan: None,
             watch: Watch::default(),
             sincos: SinCos::default(),

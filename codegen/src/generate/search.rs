@@ -95,7 +95,7 @@ pub fn search(
         function,
         request,
         judge: match request.prefer {
-            Prefer::Accuracy => AccuracyFilter::new(setting, function),
+            Prefer::Accuracy | Prefer::Latency => AccuracyFilter::new(setting, function),
             Prefer::Operations => AccuracyFilter::lenient(setting, function),
         },
     };

@@ -39,8 +39,9 @@ pub(super) fn tolerate(
         .flat_map(|admitted| &admitted.certificates);
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
-        function.program = admitted.program.clone();
-        function.counts = admitted.program.counts();
+        function.program = request.finished(&admitted.program);
+        function.depth = function.depth.map(|_| function.program.depth());
+        function.counts = function.program.counts();
         let sines = admitted.certificates.iter();
         let sines = sines.filter(|c| !c.sines.is_empty());
         function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
@@ -220,6 +221,15 @@ fn one(
             }
         }
     };
+    let finished = request.finished(&admitted.program);
+    if finished != admitted.program {
+        let with = |certificate: &Certificate| {
+            let found = budget.with_emitted(certificate, &finished, &tolerances, bound_effort);
+            found.map_err(fail)
+        };
+        let all: Result<_, GenerateError> = admitted.certificates.iter().map(with).collect();
+        admitted.certificates = all?;
+    }
     for certificate in &mut admitted.certificates {
         *certificate = certificate.calling(request.math.library);
     }

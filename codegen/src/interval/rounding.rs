@@ -32,7 +32,7 @@ pub fn forward<C: PartialEq, I: PartialEq>(
         let [x, y] = operands(index, &values);
         let exact = match step.operation {
             // Both are the same number.
-            Operation::Mul if step.left == step.right => x.square(),
+            Operation::Mul | Operation::Fused if step.left == step.right => x.square(),
             operation => operation.apply(&x, &y),
         };
         let rounding = rounding(index, exact);

@@ -84,7 +84,7 @@ mod tests {
                         let exact = match operation {
                             Operation::Add => &a + &b,
                             Operation::Sub => &a - &b,
-                            Operation::Mul => &a * &b,
+                            Operation::Mul | Operation::Fused => &a * &b,
                             Operation::Div => &a / &b,
                         };
                         let end = |x: f64| Rational::from_float(x).unwrap();

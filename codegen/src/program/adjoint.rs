@@ -25,7 +25,7 @@ impl Operation {
         match self {
             Operation::Add => [adjoint.clone(), adjoint.clone()],
             Operation::Sub => [adjoint.clone(), adjoint.neg()],
-            Operation::Mul => [adjoint.mul(right), adjoint.mul(left)],
+            Operation::Mul | Operation::Fused => [adjoint.mul(right), adjoint.mul(left)],
             // ∂(x/y) = ∂x/y − (x/y)·∂y/y
             Operation::Div => {
                 let by_left = adjoint.div(right);
@@ -56,7 +56,7 @@ impl Operation {
         match self {
             Operation::Add => add!(Operation::Add),
             Operation::Sub => add!(Operation::Sub),
-            Operation::Mul => add!(Operation::Mul),
+            Operation::Mul | Operation::Fused => add!(Operation::Mul),
             Operation::Div => add!(Operation::Div),
         }
     }
@@ -163,7 +163,7 @@ mod tests {
                     };
                     let (left, right) = (operand(), operand());
                     Step {
-                        operation: Operation::ALL[(random.bits() % 4) as usize],
+                        operation: Operation::ALL[(random.bits() % 5) as usize],
                         left,
                         right,
                     }

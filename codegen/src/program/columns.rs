@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::function::Argument;
+use crate::program::fused::{Fusion, fusion};
 use crate::program::machine::Machine;
 use crate::program::{Input, Literal, Lowered, Operand, Operation, Output};
 use crate::states::JointState;
@@ -48,8 +49,16 @@ impl Lowered {
                 Operand::Step(step) => Column::Each(&before[step * m..][..m]),
                 Operand::Input(input) => Column::Each(at(states, &trig, input)),
             };
-            let (left, right) = (read(&step.left), read(&step.right));
-            step.operation.at_each(left, right, &mut rest[..m]);
+            let own = &mut rest[..m];
+            match fusion(&self.steps, index) {
+                None => step
+                    .operation
+                    .at_each(read(&step.left), read(&step.right), own),
+                Some(fusion) => {
+                    let (left, right) = (&fusion.product.left, &fusion.product.right);
+                    fusion.at_each([left, right, fusion.addend].map(read), own);
+                }
+            }
         }
         let output = |output: &Output<Literal>| {
             let signed = |x: &T| if output.negative { x.neg() } else { *x };
@@ -118,8 +127,21 @@ impl Operation {
         match self {
             Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
             Operation::Sub => zip(out, left, right, |x, y| x.sub(&y)),
-            Operation::Mul => zip(out, left, right, |x, y| x.mul(&y)),
+            Operation::Mul | Operation::Fused => zip(out, left, right, |x, y| x.mul(&y)),
             Operation::Div => zip(out, left, right, |x, y| x.div(&y)),
+        }
+    }
+}
+
+impl<C, I> Fusion<'_, C, I> {
+    /// The sum at every state, from the factors and what the product is added to.
+    fn at_each<T: Machine>(&self, operands: [Column<'_, T>; 3], out: &mut [T]) {
+        for (state, out) in out.iter_mut().enumerate() {
+            let [left, right, addend] = operands.map(|column| match column {
+                Column::Each(values) => values[state],
+                Column::All(value) => value,
+            });
+            *out = self.apply(&left, &right, &addend);
         }
     }
 }

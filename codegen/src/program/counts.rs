@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::{Operation, Step};
+
 /// Operations of straight-line code. Negation and copies are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Counts {
@@ -9,6 +11,9 @@ pub struct Counts {
     pub mul: usize,
     /// Additions, subtractions, doublings, sums of angles.
     pub add: usize,
+    /// Products with a sum that takes them, a fused multiply-add each; neither is
+    /// among the multiplications and additions.
+    pub fma: usize,
     /// Divisions.
     pub div: usize,
     /// Square roots.
@@ -22,6 +27,22 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Of the arithmetic alone.
+    pub(super) fn of_steps<C, I>(steps: &[Step<C, I>]) -> Counts {
+        let [mul, div, fma] = [Operation::Mul, Operation::Div, Operation::Fused].map(|operation| {
+            let is = |step: &&Step<C, I>| step.operation == operation;
+            steps.iter().filter(is).count()
+        });
+        Counts {
+            mul,
+            // A fused product is a step beside its sum.
+            add: steps.len() - mul - div - 2 * fma,
+            fma,
+            div,
+            ..Counts::default()
+        }
+    }
+
     /// With what so many r = 1/√(q̇² + w²) of Coulomb friction take.
     pub(crate) fn with_speeds(self, speeds: usize) -> Counts {
         let [mul, add, sqrt, div] = super::speed::OPERATIONS.map(|each| each * speeds);
@@ -34,16 +55,19 @@ impl Counts {
         }
     }
 
-    /// Multiplications, additions and divisions, without those of the sines'
+    /// Multiplications, additions, both in one and divisions, without those of the sines'
     /// polynomials.
     pub fn operations(&self) -> usize {
-        self.mul + self.add + self.div
+        self.mul + self.add + self.fma + self.div
     }
 }
 
 impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} mul, {} add", self.mul, self.add)?;
+        if self.fma > 0 {
+            write!(f, ", {} fma", self.fma)?;
+        }
         if self.div > 0 {
             write!(f, ", {} div", self.div)?;
         }

@@ -3,6 +3,7 @@
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Divide;
 
+use super::fused::fusion;
 use super::{Input, Operand, Operation, Output, Program, Step};
 
 /// The outputs of steps in a scalar, from the values of inputs and constants;
@@ -19,9 +20,19 @@ pub fn evaluate<'c, C, I, S: Divide>(
         Operand::Constant(value) => constant(value),
         Operand::Step(index) => values.get(*index).cloned(),
     };
-    for step in steps {
-        let (left, right) = (read(&step.left, &values)?, read(&step.right, &values)?);
-        values.push(step.operation.apply(&left, &right));
+    for (index, step) in steps.iter().enumerate() {
+        let value = match fusion(steps, index) {
+            None => {
+                let (left, right) = (read(&step.left, &values)?, read(&step.right, &values)?);
+                step.operation.apply(&left, &right)
+            }
+            Some(fusion) => {
+                let (left, right) = (&fusion.product.left, &fusion.product.right);
+                let (left, right) = (read(left, &values)?, read(right, &values)?);
+                fusion.apply(&left, &right, &read(fusion.addend, &values)?)
+            }
+        };
+        values.push(value);
     }
     let outputs = outputs.into_iter().map(|output| {
         let value = read(&output.value, &values)?;
@@ -36,7 +47,7 @@ impl Operation {
         match self {
             Operation::Add => left.add(right),
             Operation::Sub => left.sub(right),
-            Operation::Mul => left.mul(right),
+            Operation::Mul | Operation::Fused => left.mul(right),
             Operation::Div => left.div(right),
         }
     }

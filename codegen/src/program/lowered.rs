@@ -3,9 +3,7 @@
 use dalembert_model::number::Exact;
 
 use super::kernel::Kernel;
-use super::{
-    AngleSum, Counts, Input, Library, Literal, Operation, Output, Program, ScalarType, Speed, Step,
-};
+use super::{AngleSum, Counts, Input, Library, Literal, Output, Program, ScalarType, Speed, Step};
 
 /// A program lowered to a scalar: every constant rounded once, and how each
 /// angle's sine and cosine are computed.
@@ -100,22 +98,17 @@ impl Lowered {
 
     /// What it costs, with the polynomials of its sines.
     pub fn counts(&self) -> Counts {
-        let [mul, div] = [Operation::Mul, Operation::Div].map(|operation| {
-            let steps = self.steps.iter();
-            steps.filter(|step| step.operation == operation).count()
-        });
+        let steps = Counts::of_steps(&self.steps);
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
         let kernels = self.trig.iter().filter_map(|t| t.kernel.as_ref());
         let trig = kernels.map(Kernel::counts);
         let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
         let own = Counts {
-            mul,
-            add: self.steps.len() - mul - div + angles,
-            div,
+            add: steps.add + angles,
             sincos: self.trig.len(),
-            sqrt: 0,
             trig_mul,
             trig_add,
+            ..steps
         };
         own.with_speeds(self.speeds.len())
     }
@@ -125,7 +118,7 @@ impl Lowered {
 mod tests {
     use super::*;
     use crate::function::Argument;
-    use crate::program::{Operand, evaluate};
+    use crate::program::{Operand, Operation, evaluate};
 
     fn code() -> Lowered {
         let step = |left, right| Step {

@@ -1,4 +1,4 @@
-//! The same code over other constants and inputs.
+//! The same code over other constants and inputs, and operands whose steps have moved.
 
 use super::{Operand, Output, Step};
 
@@ -9,6 +9,16 @@ impl<C, I> Operand<C, I> {
             Operand::Input(name) => Operand::Input(input(name)),
             Operand::Constant(value) => Operand::Constant(constant(value)),
             Operand::Step(index) => Operand::Step(*index),
+        }
+    }
+}
+
+impl<C: Clone, I: Clone> Operand<C, I> {
+    /// The operand where steps have moved to these places.
+    pub(super) fn moved(&self, place: &[usize]) -> Self {
+        match self {
+            Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
+            other => other.clone(),
         }
     }
 }

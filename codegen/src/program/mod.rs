@@ -8,9 +8,11 @@
 //! - `lowered`: the same over literals: each constant rounded once, sines by a
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
+//! - [`fused`]: products that are fused with a sum
+//! - [`shallow`]: the order of least depth
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
-//! - `map`: the same over other constants and inputs
+//! - `map`: the same over other constants and inputs, or with steps elsewhere
 //! - [`adjoint`]: backwards in any scalar: what a result changes by
 //! - [`text`]: operands and steps as plans and certificates write them
 //! - [`machine`]: floats that run as emitted code does
@@ -20,6 +22,7 @@ pub mod columns;
 pub mod counts;
 mod difference;
 mod evaluate;
+pub mod fused;
 pub mod input;
 pub mod kernel;
 pub mod library;
@@ -29,6 +32,7 @@ pub mod machine;
 mod map;
 pub mod run;
 pub mod scalar_type;
+pub mod shallow;
 pub mod speed;
 pub mod text;
 
@@ -104,6 +108,9 @@ pub enum Operation {
     Mul,
     /// left / right
     Div,
+    /// left · right, not rounded: the next step, a sum or a difference, takes it
+    /// and rounds once ([`fused`]).
+    Fused,
 }
 
 /// What a step reads.
@@ -128,26 +135,30 @@ pub struct Output<C = Exact, I = Input> {
 
 impl Operation {
     /// Every operation.
-    pub const ALL: [Operation; 4] = [
+    pub const ALL: [Operation; 5] = [
         Operation::Add,
         Operation::Sub,
         Operation::Mul,
         Operation::Div,
+        Operation::Fused,
     ];
 
-    /// The operation of a symbol.
+    /// The operation of a symbol of Rust's.
     pub fn from_symbol(symbol: &str) -> Option<Operation> {
-        let is = |operation: &Operation| symbol.chars().eq([operation.symbol()]);
+        let is = |operation: &Operation| {
+            *operation != Operation::Fused && symbol.chars().eq([operation.symbol()])
+        };
         Operation::ALL.into_iter().find(is)
     }
 
-    /// Its symbol in Rust.
+    /// Its symbol, Rust's but for a fused product, which has none there.
     pub fn symbol(self) -> char {
         match self {
             Operation::Add => '+',
             Operation::Sub => '-',
             Operation::Mul => '*',
             Operation::Div => '/',
+            Operation::Fused => '×',
         }
     }
 }
@@ -185,17 +196,12 @@ impl Program {
 
     /// What it costs.
     pub fn counts(&self) -> Counts {
-        let [mul, div] = [Operation::Mul, Operation::Div].map(|operation| {
-            let steps = self.steps.iter();
-            steps.filter(|step| step.operation == operation).count()
-        });
+        let steps = Counts::of_steps(&self.steps);
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
         let own = Counts {
-            mul,
-            add: self.steps.len() - mul - div + angles,
-            div,
+            add: steps.add + angles,
             sincos: self.trig.len(),
-            ..Counts::default()
+            ..steps
         };
         own.with_speeds(self.speeds.len())
     }

@@ -1,6 +1,6 @@
-//! Runs lowered code bit for bit: no contraction to fused
-//! multiply-add, the library's sine and cosine or the code's polynomials, the scalar's
-//! own rounding.
+//! Runs lowered code bit for bit: fused multiply-adds where the code has them and
+//! nowhere else, the library's sine and cosine or the code's polynomials, the
+//! scalar's own rounding.
 
 use super::machine::Machine;
 use super::{AngleSum, Input, Library, Literal, Lowered, LoweredTrig, ScalarType, evaluate};

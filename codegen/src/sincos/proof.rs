@@ -107,7 +107,8 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
             Operation::Add => left.add(&right),
             Operation::Sub => left.sub(&right),
             Operation::Mul => left.mul(&right),
-            Operation::Div => return None,
+            // Polynomials have neither.
+            Operation::Fused | Operation::Div => return None,
         };
         values.push(value);
     }
@@ -199,7 +200,7 @@ fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     rounding::forward(&kernel.steps, operands, |index, exact| {
         let eta = match kernel.steps[index].operation {
             Operation::Add | Operation::Sub => 0.0,
-            Operation::Mul | Operation::Div => underflow(scalar),
+            Operation::Mul | Operation::Fused | Operation::Div => underflow(scalar),
         };
         ((u * exact.magnitude()).next_up() + eta).next_up()
     })

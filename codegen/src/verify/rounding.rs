@@ -192,8 +192,11 @@ impl<'a> Network<'a> {
                 let visit = |index: usize, slope: &f64| {
                     let step = &self.program.steps[index];
                     let mut shared = self.shared[index].iter().flatten();
-                    let is_exact = step.operation == Operation::Mul
-                        && shared.any(|constant| self.constants[*constant].1);
+                    let is_exact = match step.operation {
+                        Operation::Fused => true,
+                        Operation::Mul => shared.any(|constant| self.constants[*constant].1),
+                        Operation::Add | Operation::Sub | Operation::Div => false,
+                    };
                     if *slope != 0.0 && !is_exact {
                         squares += square(slope * values[index]);
                     }

@@ -6,6 +6,7 @@
 //!
 //! - of x ± y: e_x + e_y + u·|x ± y|
 //! - of x·y: |x|·e_y + |y|·e_x + e_x·e_y + u·|x·y| + η
+//! - of x·y + z, fused: that of x·y without its u·|x·y|, e_z and u·|x·y + z|
 //! - of x/y: (e_x + |x/y|·e_y)/(|y| − e_y) + u·|x/y| + η, nothing if e_y ≥ |y|
 //! - of a constant: u·|c| + η, once; of a library's sine 2u·|s|, and what its angle
 //!   is off where that is a sum
@@ -82,6 +83,14 @@ impl<T: Machine> Scalar for Bounded<T> {
             + self.error * other.error
             + least(T::SCALAR);
         Bounded::rounded(self.value.mul(&other.value), carried)
+    }
+    fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
+        let carried = self.size() * factor.error
+            + factor.size() * self.error
+            + self.error * factor.error
+            + addend.error
+            + least(T::SCALAR);
+        Bounded::rounded(self.value.mul_add(&factor.value, &addend.value), carried)
     }
     fn neg(&self) -> Self {
         Bounded {

@@ -60,6 +60,10 @@ pub trait Scalar: Clone {
     fn double(&self) -> Self {
         self.add(self)
     }
+    /// `self · factor + addend`; floats round it once.
+    fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
+        self.mul(factor).add(addend)
+    }
 }
 
 /// A scalar with quotients: what programs run in.
@@ -74,7 +78,7 @@ pub trait Divide: Scalar {
 }
 
 macro_rules! float_scalar {
-    ($t:ty) => {
+    ($t:ty, $mul_add:path) => {
         impl Scalar for $t {
             fn zero() -> Self {
                 0.0
@@ -101,6 +105,10 @@ macro_rules! float_scalar {
             fn half(&self) -> Self {
                 0.5 * self
             }
+            // `core` has no fused operation.
+            fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
+                $mul_add(*self, *factor, *addend)
+            }
         }
 
         impl Divide for $t {
@@ -111,5 +119,5 @@ macro_rules! float_scalar {
         }
     };
 }
-float_scalar!(f32);
-float_scalar!(f64);
+float_scalar!(f32, libm::fmaf);
+float_scalar!(f64, libm::fma);

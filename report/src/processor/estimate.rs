@@ -45,14 +45,19 @@ pub fn estimate(
     arguments: usize,
 ) -> Estimate {
     let traffic = traffic(flat, target, unit);
-    let calls = flat.count(Deed::Call) + flat.count(Deed::CallTogether);
+    // Without an instruction for them, fused operations are calls.
+    let software = match unit.cycles.fma {
+        Some(_) => 0,
+        None => flat.count(Deed::Fused),
+    };
+    let calls = flat.count(Deed::Call) + flat.count(Deed::CallTogether) + software;
     // What calls must not lose: where the arguments are, and the results go.
     let pointers = if calls > 0 { arguments + 1 } else { 0 };
     let values = (traffic.slots + arrays(flat)) * bytes(scalar);
     let frame = Frame::of(target, unit, &traffic, pointers, values);
     let stored = traffic.spills + traffic.angles + flat.count(Deed::Return);
     let moved = traffic.loads + traffic.constants + traffic.copies + stored;
-    let instructions = flat.operations().count() - traffic.merged
+    let instructions = flat.operations() - software - traffic.merged
         + negations(flat)
         + moved
         + calls

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use dalembert_codegen::function::Argument;
+use dalembert_codegen::program::fused::fusion;
 use dalembert_codegen::program::kernel::{Angle, Kernel};
 use dalembert_codegen::program::{
     AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output, Step,
@@ -27,6 +28,9 @@ pub enum Home {
 pub enum Deed {
     /// Arithmetic.
     Operation(Operation),
+    /// A product and a sum that is rounded with it, of either sign: it reads the
+    /// factors, then what their product is added to.
+    Fused,
     /// The other sign.
     Negation,
     /// A call of a function of the library: an angle, its sine, its cosine or both;
@@ -83,12 +87,9 @@ impl Flat {
     }
 
     /// Its operations, sums of angles and polynomials of sines included.
-    pub fn operations(&self) -> impl Iterator<Item = (&Item, Operation)> {
-        let items = self.items.iter();
-        items.filter_map(|item| match item.deed {
-            Deed::Operation(operation) => Some((item, operation)),
-            _ => None,
-        })
+    pub fn operations(&self) -> usize {
+        let is = |item: &&Item| matches!(item.deed, Deed::Operation(_) | Deed::Fused);
+        self.items.iter().filter(is).count()
     }
 
     /// So many items are of a kind.
@@ -266,9 +267,22 @@ impl Writer {
     }
 
     fn steps(&mut self, text: &Lowered) {
-        for step in &text.steps {
-            let (left, right) = (self.operand(&step.left), self.operand(&step.right));
-            let result = self.operation(step.operation, left, right);
+        for (index, step) in text.steps.iter().enumerate() {
+            let result = match fusion(&text.steps, index) {
+                // With its sum: nobody else reads it.
+                None if step.operation == Operation::Fused => usize::MAX,
+                None => {
+                    let (left, right) = (self.operand(&step.left), self.operand(&step.right));
+                    self.operation(step.operation, left, right)
+                }
+                Some(fusion) => {
+                    let (left, right) = (&fusion.product.left, &fusion.product.right);
+                    let reads = [left, right, fusion.addend].map(|operand| self.operand(operand));
+                    let result = self.value(Home::Computed);
+                    self.item(Deed::Fused, reads.to_vec(), vec![result]);
+                    result
+                }
+            };
             self.steps.push(result);
         }
         // They are all returned at the end, as printed; one that is negated for

@@ -28,6 +28,8 @@ pub struct HotPath {
     pub library: Option<Library>,
     /// Whether libm's square roots are called, for Coulomb friction.
     pub roots: bool,
+    /// Whether products are fused with sums.
+    pub fuses: bool,
 }
 
 impl HotPath {
@@ -73,6 +75,7 @@ impl HotPath {
             calls,
             library,
             roots: !text.speeds.is_empty(),
+            fuses: text.counts().fma > 0,
         }
     }
 
@@ -97,8 +100,26 @@ impl HotPath {
         }
     }
 
-    /// What is slow on a processor because it has no f64, and the way around.
-    pub fn warning(&self, target: &Target) -> Option<String> {
+    /// What is slow on a processor, and the way around.
+    pub fn warnings(&self, target: &Target) -> Vec<String> {
+        let all = [self.of_sines(target), self.of_fused(target)];
+        all.into_iter().flatten().collect()
+    }
+
+    /// It has no instruction for `mul_add`.
+    fn of_fused(&self, target: &Target) -> Option<String> {
+        let unit = target.unit(self.scalar)?;
+        (self.fuses && unit.cycles.fma.is_none()).then(|| {
+            format!(
+                "`mul_add` of {} calls a function on {}, slower by far than two operations: build \
+                 for a processor that has it (`-C target-feature=+fma`), or leave `--fma` out",
+                self.scalar, target.name
+            )
+        })
+    }
+
+    /// It has no f64, which libm's sines compute in.
+    fn of_sines(&self, target: &Target) -> Option<String> {
         let software = target.f64.is_none() && self.library == Some(Library::Libm);
         (software && self.scalar == ScalarType::F32).then(|| {
             format!(

@@ -14,7 +14,8 @@
 //! # The model
 //!
 //! One instruction for an operation or a change of sign, for a load, a store, a
-//! copy, a call. Registers are given out in the printed order, by Belady's rule,
+//! copy, a call; a fused multiply-add is one of them where the processor has it, and a
+//! call where it has not. Registers are given out in the printed order, by Belady's rule,
 //! which knows what is read last ([`registers`]). Entries of arguments are loaded
 //! once, constants as often as they are needed, results are stored at the end.
 //! What sines keep over a call goes into registers that calls leave as they are,
@@ -167,8 +168,11 @@ pub fn warnings(footprints: &[Footprint]) -> Vec<String> {
     let mut warnings = Vec::new();
     for footprint in footprints {
         for (target, _) in &footprint.on {
-            let warning = footprint.path.warning(target);
-            warnings.extend(warning.filter(|warning| !warnings.contains(warning)));
+            for warning in footprint.path.warnings(target) {
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
+            }
         }
     }
     warnings

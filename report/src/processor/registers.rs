@@ -78,7 +78,10 @@ pub fn traffic(flat: &Flat, target: &Target, unit: &Unit) -> Traffic {
         match item.deed {
             Deed::Call => walk.call(at, item),
             Deed::CallTogether => walk.call_together(at, item),
-            Deed::Operation(_) | Deed::Negation | Deed::Return => walk.compute(at, item),
+            Deed::Fused if unit.cycles.fma.is_none() => walk.call(at, item),
+            Deed::Operation(_) | Deed::Fused | Deed::Negation | Deed::Return => {
+                walk.compute(at, item)
+            }
         }
     }
     walk.traffic
@@ -141,6 +144,8 @@ impl Walk<'_> {
                 !written
             }
             (Deed::Negation, &[value]) => !dies(value),
+            // Any of its three operands can be written over.
+            (Deed::Fused, reads) => !reads.iter().any(|&value| dies(value)),
             _ => false,
         }
     }

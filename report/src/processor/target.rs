@@ -67,6 +67,17 @@ pub struct Cycles {
     pub mul: usize,
     /// Of a quotient.
     pub div: usize,
+    /// Of a fused multiply-add; none if it is a function that is called.
+    pub fma: Option<Fused>,
+}
+
+/// Cycles from the operands of a fused multiply-add to its result.
+#[derive(Clone, Copy, Debug)]
+pub struct Fused {
+    /// From a factor.
+    pub factor: usize,
+    /// From what the product is added to, which some read later.
+    pub addend: usize,
 }
 
 impl Target {
@@ -84,8 +95,18 @@ impl Cycles {
     pub fn of(self, operation: Operation) -> usize {
         match operation {
             Operation::Add | Operation::Sub => self.add,
-            Operation::Mul => self.mul,
+            Operation::Mul | Operation::Fused => self.mul,
             Operation::Div => self.div,
         }
+    }
+
+    /// Of a fused multiply-add. How long a function takes is not known here: no less
+    /// than both operations.
+    pub fn fused(self) -> Fused {
+        let software = self.mul + self.add;
+        self.fma.unwrap_or(Fused {
+            factor: software,
+            addend: software,
+        })
     }
 }

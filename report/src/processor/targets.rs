@@ -1,7 +1,7 @@
 //! The processors that are known: a row of data each, with its sources. To add
 //! one, write its row.
 
-use super::target::{Cycles, Target, Unit};
+use super::target::{Cycles, Fused, Target, Unit};
 
 /// All of them, microcontrollers first.
 pub const TARGETS: [Target; 4] = [CORTEX_M4F, CORTEX_M7, AARCH64, X86_64];
@@ -12,7 +12,7 @@ pub const TARGETS: [Target; 4] = [CORTEX_M4F, CORTEX_M7, AARCH64, X86_64];
 /// Cycles: LLVM's scheduling model, `ARMScheduleM4.td`: VADD, VSUB and VMUL 1, VDIV
 /// 14. One more by the Cortex-M4 Technical Reference Manual (DDI 0439, FPU
 /// instruction set) where the next instruction reads the result, which a chain
-/// does. VMLA takes 3, and rustc does not write it.
+/// does, so that VFMA takes 4. VMLA takes as long, and rustc does not write it.
 const CORTEX_M4F: Target = Target {
     name: "cortex-m4f",
     about: "thumbv7em-none-eabihf, single precision",
@@ -26,6 +26,10 @@ const CORTEX_M4F: Target = Target {
             add: 2,
             mul: 2,
             div: 15,
+            fma: Some(Fused {
+                factor: 4,
+                addend: 4,
+            }),
         },
     }),
     f64: None,
@@ -33,7 +37,8 @@ const CORTEX_M4F: Target = Target {
 };
 
 /// Cycles: LLVM's scheduling model, `ARMScheduleM7.td`. VMLA counts as a product and
-/// then a sum, which is what that has from the factors on, 6 and 11.
+/// then a sum, which is what that has from the factors on, 6 and 11. VFMA takes as
+/// long, and reads what it adds to 3 cycles later.
 const CORTEX_M7: Target = Target {
     name: "cortex-m7",
     about: "thumbv7em-none-eabihf, double precision",
@@ -47,6 +52,10 @@ const CORTEX_M7: Target = Target {
             add: 3,
             mul: 3,
             div: 16,
+            fma: Some(Fused {
+                factor: 6,
+                addend: 3,
+            }),
         },
     }),
     f64: Some(Unit {
@@ -59,6 +68,10 @@ const CORTEX_M7: Target = Target {
             add: 4,
             mul: 7,
             div: 30,
+            fma: Some(Fused {
+                factor: 11,
+                addend: 8,
+            }),
         },
     }),
     ..ARM_V7E
@@ -104,6 +117,10 @@ const AARCH64: Target = Target {
             add: 2,
             mul: 3,
             div: 10,
+            fma: Some(Fused {
+                factor: 4,
+                addend: 4,
+            }),
         },
     }),
     f64: Some(Unit {
@@ -116,6 +133,10 @@ const AARCH64: Target = Target {
             add: 2,
             mul: 3,
             div: 15,
+            fma: Some(Fused {
+                factor: 4,
+                addend: 4,
+            }),
         },
     }),
     word: 8,
@@ -150,6 +171,7 @@ const X86_64: Target = Target {
             add: 4,
             mul: 4,
             div: 11,
+            fma: None,
         },
     }),
     f64: Some(Unit {
@@ -162,6 +184,7 @@ const X86_64: Target = Target {
             add: 4,
             mul: 4,
             div: 14,
+            fma: None,
         },
     }),
     word: 8,

@@ -136,7 +136,9 @@ fn expression(program: &Program, operand: &Operand, depth: usize) -> (String, St
         }
     };
     let (least, strength) = match step.operation {
-        Operation::Mul | Operation::Div => ([Strength::Product; 2], Strength::Product),
+        Operation::Mul | Operation::Fused | Operation::Div => {
+            ([Strength::Product; 2], Strength::Product)
+        }
         Operation::Add => ([Strength::Sum; 2], Strength::Sum),
         Operation::Sub => ([Strength::Sum, Strength::Product], Strength::Sum),
     };

@@ -4,6 +4,7 @@
 //! - [`error`]: why it is not
 //! - `reader`: the statements, line by line
 //! - `sines`: sines and cosines as polynomials
+//! - `fused`: products that sums take
 //! - `speed`: what is read of speeds
 //! - `together`: sines and cosines that one call gives
 //! - `given`: sines and cosines that a caller has
@@ -13,6 +14,7 @@
 
 mod entries;
 pub mod error;
+mod fused;
 mod given;
 mod part;
 mod reader;

@@ -2,6 +2,7 @@
 
 use crate::backend::entries::angles::Angles;
 use crate::backend::read::error::{Kind, Mark, SineFault, TextFault, WordFault};
+use crate::backend::read::fused::{self, Words};
 use crate::backend::read::given;
 use crate::backend::read::part::Wrap;
 use crate::backend::read::sines::Block;
@@ -89,6 +90,9 @@ impl<'a> Reader<'a> {
             self.program.speeds.push(speed);
             return Ok(());
         }
+        if let Some(words) = fused::words(value) {
+            return self.fused(name, words?);
+        }
         if value.contains('(') {
             return self.trig(name, value);
         }
@@ -101,6 +105,34 @@ impl<'a> Reader<'a> {
         let operation =
             Operation::from_symbol(symbol).ok_or_else(|| Kind::Operation.not(symbol))?;
         let (left, right) = (self.operand(left)?, self.operand(right)?);
+        self.program.steps.push(Step {
+            operation,
+            left,
+            right,
+        });
+        Ok(())
+    }
+
+    /// A sum and the product that it takes: two steps.
+    fn fused(&mut self, name: &str, words: Words<'_>) -> Result<(), TextFault> {
+        let product = self.program.steps.len();
+        is_next(name, "t", product + 1)?;
+        let left = self.operand(words.left)?;
+        if matches!(left, Operand::Constant(_)) {
+            return Err(Kind::Computed.not(words.left).into());
+        }
+        let (right, addend) = (self.operand(words.right)?, self.operand(words.addend)?);
+        self.program.steps.push(Step {
+            operation: Operation::Fused,
+            left,
+            right,
+        });
+        let product = Operand::Step(product);
+        let (operation, left, right) = match (words.negative, words.minus) {
+            (false, false) => (Operation::Add, product, addend),
+            (false, true) => (Operation::Sub, product, addend),
+            (true, _) => (Operation::Sub, addend, product),
+        };
         self.program.steps.push(Step {
             operation,
             left,
@@ -186,10 +218,14 @@ impl<'a> Reader<'a> {
             }
         }
         if let Some(step) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
-            if step == 0 || step > self.program.steps.len() {
-                return Err(Kind::Computed.not(word).into());
-            }
-            return Ok(Operand::Step(step - 1));
+            let read = step
+                .checked_sub(1)
+                .and_then(|at| self.program.steps.get(at));
+            // A product that a sum took has no name.
+            return match read.map(|step| step.operation) {
+                None | Some(Operation::Fused) => Err(Kind::Computed.not(word).into()),
+                Some(_) => Ok(Operand::Step(step - 1)),
+            };
         }
         let mut speeds = self.program.speeds.iter();
         let mut speeds = speeds.by_ref().map(|own| Input::PerSpeed(own.joint));

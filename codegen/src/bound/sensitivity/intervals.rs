@@ -17,6 +17,7 @@ use crate::bound::subdivide::sub_boxes;
 use crate::interval::Interval;
 use crate::interval::rounding::{self, Forward};
 use crate::program::adjoint::{Leaf, backward};
+use crate::program::fused::underflows;
 use crate::program::scalar_type::underflow;
 use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Speed, Step};
 use crate::sincos::AngleKernel;
@@ -103,7 +104,7 @@ fn speed(own: &Speed, scalar: ScalarType) -> (usize, Interval) {
 }
 
 /// Whether an operation does not round, but for underflow: a product with a
-/// power of two, a value added to itself.
+/// power of two, a value added to itself, a product that a sum takes.
 pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) -> bool {
     let power = |known: &Option<(Interval, f64)>| {
         known.is_some_and(|(constant, error)| {
@@ -112,6 +113,7 @@ pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) ->
         })
     };
     match step.operation {
+        Operation::Fused => true,
         Operation::Mul => constants.iter().any(power),
         Operation::Add => step.left == step.right,
         Operation::Sub | Operation::Div => false,
@@ -148,9 +150,9 @@ pub(in crate::bound) fn forward(
     };
     rounding::forward(&program.steps, operands, |index, exact| {
         let step = &program.steps[index];
-        let eta = match step.operation {
-            Operation::Add | Operation::Sub => 0.0,
-            Operation::Mul | Operation::Div => underflow(scalar),
+        let eta = match underflows(&program.steps, index) {
+            true => underflow(scalar),
+            false => 0.0,
         };
         match is_exact(step, &constants.steps[index]) {
             true => eta,

@@ -4,7 +4,8 @@
 //! adjoint at exact values. Forwards, E ≥ |x̂ − x| follows node by node:
 //! |x̂ ∘ ŷ| ≤ V + δ with δ = E_x + E_y for a sum and
 //! δ = V_x·E_y + V_y·E_x + E_x·E_y for a product x·y, so the node's own
-//! rounding is r ≤ u·(V + δ) + η, or half an ulp of V + δ, and E = δ + r. Backwards, D ≥ |ā − a|:
+//! rounding is r ≤ u·(V + δ) + η, or half an ulp of V + δ, and E = δ + r; a product
+//! that a sum takes has none. Backwards, D ≥ |ā − a|:
 //! a product's ā passes on ā·y to x and ā·x̂ to y, so with |ā| ≤ A + D
 //!
 //! - D_x grows by D·V_y
@@ -22,6 +23,7 @@ use super::intervals::{Constants, is_exact, read};
 use super::{Rounding, binade, note};
 use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
+use crate::program::fused::underflows;
 use crate::program::scalar_type::underflow;
 use crate::program::{Operand, Operation, Program, ScalarType};
 
@@ -66,13 +68,16 @@ pub(super) fn rounding(
     for (index, (step, [left, right])) in program.steps.iter().zip(constants.steps()).enumerate() {
         let x = known(&step.left, *left, &errors);
         let y = known(&step.right, *right, &errors);
-        let (moved, eta) = match step.operation {
-            Operation::Add | Operation::Sub => (x.error + y.error, 0.0),
-            Operation::Mul => {
-                let moved = x.value * y.error + y.value * x.error + x.error * y.error;
-                (moved, underflow(scalar))
+        let moved = match step.operation {
+            Operation::Add | Operation::Sub => x.error + y.error,
+            Operation::Mul | Operation::Fused => {
+                x.value * y.error + y.value * x.error + x.error * y.error
             }
-            Operation::Div => (f64::INFINITY, underflow(scalar)),
+            Operation::Div => f64::INFINITY,
+        };
+        let eta = match underflows(&program.steps, index) {
+            true => underflow(scalar),
+            false => 0.0,
         };
         let rounding = match is_exact(step, &constants.steps()[index]) {
             true => eta,
@@ -115,7 +120,7 @@ pub(super) fn rounding(
             // What a constant's error counts with, and what is off.
             let (parts, offs) = match step.operation {
                 Operation::Add | Operation::Sub => ([mixed; 2], [off_here; 2]),
-                Operation::Mul => (
+                Operation::Mul | Operation::Fused => (
                     [mixed * y.value, mixed * (x.value + x.error)],
                     [off_here * y.value, off_here * x.value + mixed * x.error],
                 ),

@@ -5,7 +5,8 @@
 //! products and η = 0 for sums; literals are constants rounded once; `sin`
 //! and `cos` are within one ulp, which is at most u·2 relative and u
 //! absolute, or polynomials within their proved errors; nothing is contracted
-//! to a fused multiply-add.
+//! to a fused multiply-add but what the program fuses: there the product has
+//! neither δ nor η, and the sum that takes it an η as products have.
 //!
 //! **Why nothing of second order is left.** Let x̂ be the computed value of a
 //! node, x the exact one, e = x̂ − x. For a product x·y the error is

@@ -186,7 +186,7 @@ fn arithmetic(
             rounds |= !is_exact(step, &constants.steps()[index]);
             for (known, error) in constants.steps()[index].into_iter().flatten() {
                 let size = match step.operation {
-                    Operation::Mul => known.mignitude(),
+                    Operation::Mul | Operation::Fused => known.mignitude(),
                     _ => 1.0,
                 };
                 if error > 0.0 {
@@ -206,7 +206,7 @@ fn arithmetic(
         if literal > 0.0 {
             steps.push(None);
             list.push(match step.operation {
-                Operation::Mul => Product {
+                Operation::Mul | Operation::Fused => Product {
                     weight: literal,
                     left: Some(value),
                     cap: f64::INFINITY,

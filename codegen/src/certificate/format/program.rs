@@ -6,7 +6,9 @@ use super::error::{FormatFault, Listed};
 use crate::certificate::work;
 use crate::edits::Stage;
 use crate::edits::text::{self, EditFault};
-use crate::program::text::{read_results, read_step, without_quotient, write_operand};
+use crate::program::text::{
+    read_emitted_step, read_results, read_step, without_quotient, write_operand,
+};
 use crate::program::{Output, Program, Step};
 
 /// A program: an operation a line, and what is returned.
@@ -50,7 +52,10 @@ impl Listing {
         let mut program = empty.clone();
         for (index, line) in self.steps.iter().enumerate() {
             let words: Vec<&str> = line.split(' ').collect();
-            let read = read_step(&words, &program);
+            let read = match of {
+                Listed::Emitted => read_emitted_step(&words, &program),
+                Listed::Stage(_) => read_step(&words, &program),
+            };
             let read = read.and_then(without_quotient);
             let read = read.map_err(|fault| FormatFault::Step(of, index + 1, fault))?;
             program.steps.push(read);

@@ -57,6 +57,8 @@ pub enum Kind {
     PolynomialOperation,
     /// Two operands and a symbol.
     OneOperation,
+    /// A product that a sum takes.
+    Fused,
     /// A value that lines before computed.
     Computed,
     /// A value or a literal.
@@ -118,6 +120,7 @@ impl Kind {
             Kind::Operation => "is no operation",
             Kind::PolynomialOperation => "is no operation of a polynomial",
             Kind::OneOperation => "is not one operation",
+            Kind::Fused => "is not one fused multiply-add",
             Kind::Computed => "is not computed yet",
             Kind::Operand => "is neither a value nor a literal",
             Kind::PolynomialOperand => "is neither the angle, a value nor a literal",

@@ -1,0 +1,353 @@
+//! Products that are fused with sums: which they are, that the text is the program
+//! and the program the formula, what rounding costs then, and certificates.
+
+use dalembert_codegen::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::keep::keep;
+use dalembert_codegen::generate::{Fma, Generated, Request, generate};
+use dalembert_codegen::program::columns::Columns;
+use dalembert_codegen::program::run::State;
+use dalembert_codegen::program::{Lowered, Operation, Program, ScalarType};
+use dalembert_codegen::scene::Setting;
+use dalembert_codegen::states::{JointState, SEED, STATES, seeded};
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::verify::rounding::Rounding;
+use dalembert_model::read::Reading;
+use dalembert_model::robot::Robot;
+use serde_json::Value;
+
+use crate::support;
+
+const ROBOTS: [&str; 6] = [
+    "panda", "planar2r", "planar3r", "puma560", "stanford", "ur10",
+];
+
+fn generated(robot: &Robot, request: &Request) -> Generated {
+    generate(robot, request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn fused(request: &Request) -> Request {
+    Request {
+        fma: Fma::On,
+        ..request.clone()
+    }
+}
+
+/// q, q̇, q̈ and the torques of an independent library.
+fn golden(name: &str) -> Vec<(JointState, Vec<f64>)> {
+    let folder =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/tests/data/golden");
+    let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
+    let json: Value = serde_json::from_str(&text).unwrap();
+    let numbers = |json: &Value| -> Vec<f64> {
+        let list = json.as_array().unwrap().iter();
+        list.map(|x| x.as_f64().unwrap()).collect()
+    };
+    let states = json["states"].as_array().unwrap().iter();
+    let state = |json: &Value| {
+        let state = JointState {
+            q: numbers(&json["q"]),
+            qd: numbers(&json["qd"]),
+            qdd: numbers(&json["qdd"]),
+            ..JointState::default()
+        };
+        (state, numbers(&json["tau"]))
+    };
+    states.map(state).collect()
+}
+
+/// Generating proves the program with its fused products and reads the text back.
+/// Both scalars stay within the bound, and the torques are those of an independent
+/// library.
+#[test]
+fn six_robots_are_right() {
+    for name in ROBOTS {
+        let robot = support::robot(name);
+        let generated = generated(&robot, &fused(&Request::default()));
+        let runtime = Runtime::new(&robot);
+        let states = seeded(&robot, STATES, SEED);
+        assert_eq!(generated.emitted.len(), 12);
+        for emitted in &generated.emitted {
+            for measure in emitted.against_runtime(&runtime, &states) {
+                let (function, error) = (measure.function, measure.in_units());
+                assert!(error <= BOUND, "{name} {function}: {error} u");
+            }
+        }
+        let torques = |emitted: &&_| is_torques(emitted);
+        let emitted = generated.emitted.iter().find(torques).unwrap();
+        assert!(emitted.text.counts().fma > 0, "{name}");
+        for (state, tau) in golden(name) {
+            let found = emitted.text.run_at(&state);
+            let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+            let error = most(&mut found.iter().zip(&tau).map(|(a, b)| (a - b).abs()));
+            let size = most(&mut tau.iter().map(|x| x.abs()));
+            assert!(error <= 1e-12 * size, "{name}: {error:e} of {size:e}");
+        }
+    }
+}
+
+fn is_torques(emitted: &dalembert_codegen::verify::floating::Emitted) -> bool {
+    (emitted.function, emitted.scalar) == (Function::InverseDynamics, ScalarType::F64)
+}
+
+/// Every sum with a product that nobody else reads takes one: so many operations
+/// less, and the estimate of their roundings is no larger. Without the option
+/// there are none, and what is fused is the same program.
+#[test]
+fn a_fused_product_saves_an_operation_and_a_rounding() {
+    for name in ["stanford", "puma560", "panda"] {
+        let robot = support::robot(name);
+        let plain = support::one(&robot, Function::InverseDynamics)
+            .functions
+            .remove(0);
+        let setting = Setting::whole(&robot);
+        let program = plain.program.fused();
+        let (before, after) = (plain.counts, program.counts());
+        assert_eq!(before.fma, 0);
+        assert_eq!(after.mul + after.fma, before.mul);
+        assert_eq!(after.add + after.fma, before.add);
+        assert!(4 * after.fma > before.mul, "{name}: {after}");
+        assert_eq!(program.fused(), program);
+        assert_eq!(program.unfused().fused(), program);
+        let [before, after] =
+            [&plain.program, &program].map(|program| Rounding::estimate(&setting, program));
+        assert!(after.worst() < before.worst(), "{name}");
+        let pairs = after.per_output.iter().zip(&before.per_output);
+        assert!(
+            pairs.clone().all(|(after, before)| after <= before),
+            "{name}"
+        );
+    }
+}
+
+/// A line is one rounding, that of `mul_add`; many states at once have the bits of
+/// each; both scalars.
+#[test]
+fn a_line_is_rounded_once() {
+    const TEXT: &str = "\
+pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
+    let (s1, c1) = libm::sincos(q[0]);
+    let t2 = s1.mul_add(0.1, c1);
+    let t4 = (-t2).mul_add(c1, s1);
+    let t6 = t4.mul_add(0.3, -0.7);
+    let t7 = t6 * t4;
+    [t7, -t6]
+}
+";
+    let read = |scalar: ScalarType| {
+        let text = match scalar {
+            ScalarType::F64 => TEXT.to_owned(),
+            ScalarType::F32 => TEXT
+                .replace("f64", "f32")
+                .replace("libm::sincos", "libm::sincosf"),
+        };
+        Lowered::parse(&text, Function::Gravity, scalar).unwrap()
+    };
+    let text = read(ScalarType::F64);
+    assert_eq!(text.counts().to_string(), "1 mul, 0 add, 3 fma, 1 sincos");
+    let once = |q: f64| {
+        let (s1, c1) = libm::sincos(q);
+        let t2 = s1.mul_add(0.1, c1);
+        let t4 = (-t2).mul_add(c1, s1);
+        let t6 = t4.mul_add(0.3, -0.7);
+        [t6 * t4, -t6]
+    };
+    let single = |q: f32| {
+        let (s1, c1) = libm::sincosf(q);
+        let t2 = s1.mul_add(0.1, c1);
+        let t4 = (-t2).mul_add(c1, s1);
+        let t6 = t4.mul_add(0.3, -0.7);
+        [t6 * t4, -t6]
+    };
+    let states: Vec<JointState> = (0..200)
+        .map(|k| JointState {
+            q: vec![f64::from(k as f32 * 0.03 - 3.0), 0.0],
+            ..JointState::default()
+        })
+        .collect();
+    let columns = text.run_columns(&Columns::<f64>::of(&states));
+    let mut twice = 0;
+    for (k, state) in states.iter().enumerate() {
+        let q = state.q[0];
+        let own = text.run(State::of(|argument| state.of(argument)));
+        assert_eq!(own, once(q));
+        assert_eq!([columns[0][k], columns[1][k]], once(q));
+        let found = read(ScalarType::F32).run_at(state);
+        assert_eq!(found, single(q as f32).map(f64::from));
+        let (s1, c1) = libm::sincos(q);
+        twice += usize::from(s1.mul_add(0.1, c1) != s1 * 0.1 + c1);
+    }
+    // Two roundings would be seen.
+    assert!(twice > 5, "{twice}");
+}
+
+/// What a slip of the printer could look like is not read as the program, or at all.
+#[test]
+fn every_slip_is_noticed() {
+    let robot = support::robot("puma560");
+    let request = Request {
+        functions: vec![Function::InverseDynamics],
+        scalars: vec![ScalarType::F64],
+        ..fused(&Request::default())
+    };
+    let generated = generated(&robot, &request);
+    let (text, program) = (&generated.text, &generated.functions[0].program);
+    let is_program = |text: &str| {
+        let read = Lowered::parse(text, Function::InverseDynamics, ScalarType::F64);
+        read.is_ok_and(|read| read.matches(program, request.math.library, &[]).is_ok())
+    };
+    assert!(is_program(text));
+    let mut tried = 0;
+    for line in text.lines().filter(|line| line.contains(".mul_add(")) {
+        let (name, value) = line.split_once(" = ").unwrap();
+        let (left, rest) = value.split_once(".mul_add(").unwrap();
+        let (right, addend) = rest.strip_suffix(");").unwrap().split_once(", ").unwrap();
+        let minus = addend.strip_prefix('-');
+        let bare = left.trim_start_matches("(-").trim_end_matches(')');
+        let slips = [
+            format!("{name} = {left}.mul_add({addend}, {right});"),
+            format!("{name} = {bare} * {right};"),
+            match minus {
+                Some(addend) => format!("{name} = {left}.mul_add({right}, {addend});"),
+                None => format!("{name} = {left}.mul_add({right}, -{addend});"),
+            },
+            match left == bare {
+                true => format!("{name} = (-{left}).mul_add({right}, {addend});"),
+                false => format!("{name} = {bare}.mul_add({right}, {addend});"),
+            },
+            format!("{name} = {left}.mul_add({right}, {addend}) + 0.0;"),
+        ];
+        for slip in slips {
+            assert!(
+                !is_program(&text.replacen(line, &slip, 1)),
+                "{line} -> {slip}"
+            );
+            tried += 1;
+        }
+    }
+    assert!(tried > 200, "{tried}");
+    // Nor is it the text without the option, or the other way round.
+    let plain = Request {
+        fma: Fma::Off,
+        ..request.clone()
+    };
+    let plain = self::generated(&robot, &plain);
+    assert!(!is_program(&plain.text) && !plain.text.contains("mul_add"));
+    assert_eq!(
+        generated.functions[0].found.as_ref(),
+        Some(&plain.functions[0].program)
+    );
+}
+
+/// A function that is cut into blocks has no cut between a product and its sum.
+#[test]
+fn no_cut_between_a_product_and_its_sum() {
+    let robot = support::robot("panda");
+    let request = Request {
+        functions: vec![Function::DynamicCoefficients],
+        ..fused(&Request::default())
+    };
+    // It is read back where it is generated.
+    let generated = generated(&robot, &request);
+    assert!(generated.text.contains("let (t") && generated.text.contains(".mul_add("));
+}
+
+const SCENE: &str = "\n[scene.hold]\noutputs = [\"gravity\"]\n\
+     tolerance = { value = 1e-2, relative_to = \"range\" }\n";
+
+fn certificates(request: &Request, robot: &Robot) -> Vec<Certificate> {
+    let mut functions = generated(robot, request).functions;
+    functions.remove(0).admitted.unwrap().certificates
+}
+
+fn held() -> (Reading, Request) {
+    let reading = support::reading_with("puma560", SCENE);
+    let scene = reading.scenes.iter().find(|scene| scene.name == "hold");
+    let request = Request::default().in_scene(scene.unwrap());
+    (reading, request)
+}
+
+/// A certificate's bounds of rounding are those of one rounding: no larger, and smaller
+/// somewhere. It survives its file and the check; a plan keeps the program with
+/// every product rounded.
+#[test]
+fn certificates_bound_one_rounding() {
+    let (reading, request) = held();
+    let robot = &reading.robot;
+    let setting = request.setting(robot).unwrap();
+    let plain = certificates(&request, robot);
+    let found = generated(robot, &fused(&request));
+    let certificates = &found.functions[0].admitted.as_ref().unwrap().certificates;
+    assert_eq!(certificates.len(), plain.len());
+    for (certificate, plain) in certificates.iter().zip(&plain) {
+        assert!(certificate.emitted.fuses() && certificate.text.contains(".mul_add("));
+        assert_eq!(certificate.emitted, plain.emitted.fused());
+        assert_eq!(certificate.emitted, found.functions[0].program);
+        let mut smaller = 0;
+        for (own, other) in certificate.bounds.iter().zip(&plain.bounds) {
+            assert!(own.rounding <= other.rounding && own.model == other.model);
+            smaller += usize::from(own.rounding < other.rounding);
+        }
+        assert!(smaller > 0);
+        certificate.check(&setting).unwrap();
+        let read = format::read(&certificate.to_json()).unwrap();
+        assert_eq!(read[0].to_json(), certificate.to_json());
+    }
+    let kept =
+        |request: &Request, found: &Generated| keep(robot, request, found, None).plan.write();
+    let off = generated(robot, &request);
+    assert_eq!(kept(&fused(&request), &found), kept(&request, &off));
+}
+
+/// Texts with other fused products than the program's, and programs with other ones
+/// than the rule takes.
+#[test]
+fn forged_certificates_are_refused() {
+    let (reading, request) = held();
+    let setting = request.setting(&reading.robot).unwrap();
+    let [plain, honest] =
+        [&request, &fused(&request)].map(|request| certificates(request, &reading.robot).remove(0));
+    let refused = |forged: Certificate| forged.check(&setting).unwrap_err();
+    // A text with `mul_add` of a program without, and the other way round.
+    let forged = Certificate {
+        text: honest.text.clone(),
+        ..plain.clone()
+    };
+    assert!(matches!(refused(forged), Refuted::Text { .. }));
+    let forged = Certificate {
+        text: plain.text.clone(),
+        ..honest.clone()
+    };
+    assert!(matches!(refused(forged), Refuted::Text { .. }));
+    // One product less, or two roundings fewer in a program that was to be edited.
+    let rounded = |program: &Program| {
+        let mut program = program.clone();
+        let mut steps = program.steps.iter_mut();
+        let first = steps
+            .find(|step| step.operation == Operation::Fused)
+            .unwrap();
+        first.operation = Operation::Mul;
+        program
+    };
+    let forged = Certificate {
+        emitted: rounded(&honest.emitted),
+        ..honest.clone()
+    };
+    assert_eq!(refused(forged), Refuted::Fused);
+    let mut forged = honest.clone();
+    forged.stages[0].program = forged.stages[0].program.fused();
+    assert_eq!(refused(forged), Refuted::Fused);
+    // Bounds of fused products for a text with rounded ones.
+    let forged = Certificate {
+        bounds: honest.bounds.clone(),
+        ..plain.clone()
+    };
+    assert!(matches!(refused(forged), Refuted::Bound { .. }));
+    // No file says that a program to be edited has them.
+    let json = honest.to_json();
+    let stages = json.find("\"stages\"").unwrap();
+    let star = stages + json[stages..].find(" * ").unwrap();
+    let forged = format!("{} × {}", &json[..star], &json[star + 3..]);
+    let error = format::read(&forged).unwrap_err().to_string();
+    assert!(error.contains("`×` is no operation"), "{error}");
+}

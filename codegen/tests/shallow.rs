@@ -1,0 +1,82 @@
+//! `prefer: latency`: the same function, as many operations, a shorter longest chain.
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::{Fma, Prefer, Request, generate};
+use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::program::shallow::Cycles;
+use dalembert_codegen::states::{SEED, STATES, seeded};
+use dalembert_codegen::verify::floating::{BOUND, Runtime};
+
+use crate::support;
+
+fn request(functions: &[Function], prefer: Prefer, fma: Fma) -> Request {
+    Request {
+        functions: functions.to_vec(),
+        scalars: vec![ScalarType::F64],
+        prefer,
+        fma,
+        ..Request::default()
+    }
+}
+
+/// Proved and read back where they are generated; within the bound of rounding; none is
+/// deeper than without, and torques of six joints are less deep.
+#[test]
+fn six_robots_are_right_and_less_deep() {
+    for name in [
+        "panda", "planar2r", "planar3r", "puma560", "stanford", "ur10",
+    ] {
+        let robot = support::robot(name);
+        let functions = [Function::InverseDynamics, Function::ForwardDynamics];
+        let runtime = Runtime::new(&robot);
+        let states = seeded(&robot, STATES, SEED);
+        for fma in Fma::ALL {
+            let plain = generate(&robot, &request(&functions, Prefer::Accuracy, fma)).unwrap();
+            let found = generate(&robot, &request(&functions, Prefer::Latency, fma)).unwrap();
+            for (own, other) in found.functions.iter().zip(&plain.functions) {
+                let (depth, before) = (own.program.depth(), other.program.depth());
+                let what = format!("{name} {}: {depth} of {before}", own.function);
+                assert_eq!((own.depth, other.depth), (Some(depth), None), "{what}");
+                let said = format!("/// The longest chain is of {depth} operations.\n");
+                assert!(found.text.contains(&said), "{what}");
+                if fma == Fma::Off {
+                    assert_eq!(own.counts, other.counts, "{what}");
+                    assert!(depth <= before, "{what}");
+                    let again = own.program.shallow(Cycles::DESKTOP);
+                    assert_eq!(again.depth(), depth, "{what}");
+                    let six = !name.starts_with("planar");
+                    assert!(!six || depth < before, "{what}");
+                    assert_eq!(own.found.is_some(), own.program != other.program);
+                }
+            }
+            for emitted in &found.emitted {
+                for measure in emitted.against_runtime(&runtime, &states) {
+                    let (function, error) = (measure.function, measure.in_units());
+                    assert!(error <= BOUND, "{name} {function}: {error} u");
+                }
+            }
+        }
+    }
+}
+
+/// A certificate is about the order that is emitted.
+#[test]
+fn certificates_are_of_the_order_that_is_emitted() {
+    let scene = "\n[scene.hold]\noutputs = [\"gravity\"]\nscalar = \"f64\"\n\
+                 tolerance = { value = 1e-2, relative_to = \"range\" }\n";
+    let reading = support::reading_with("panda", scene);
+    let scene = reading.scenes.iter().find(|scene| scene.name == "hold");
+    let request = Request {
+        prefer: Prefer::Latency,
+        ..Request::default().in_scene(scene.unwrap())
+    };
+    let generated = generate(&reading.robot, &request).unwrap();
+    let function = &generated.functions[0];
+    let admitted = function.admitted.as_ref().unwrap();
+    let certificate = &admitted.certificates[0];
+    assert_eq!(certificate.emitted, function.program);
+    assert_ne!(admitted.program, function.program);
+    assert!(function.program.depth() < admitted.program.depth());
+    let setting = request.setting(&reading.robot).unwrap();
+    certificate.check(&setting).unwrap();
+}
