@@ -1,6 +1,6 @@
 //! From a robot with exact parameters to an arm in any scalar.
 
-use super::friction::Coulomb;
+use super::friction::{Coulomb, Friction};
 use super::matrix::Columns;
 use super::{Arm, Link, SinCosPair};
 use crate::number::{Angle, Exact, Rational};
@@ -47,12 +47,14 @@ impl<S> Arm<S> {
                 mass: number(&joint.mass),
                 com: [0, 1, 2].map(|axis| number(&joint.com[axis])),
                 inertia: joint.inertia.map(&mut number),
-                viscous: number(&joint.viscous),
-                coulomb: joint.has_coulomb().then(|| Coulomb {
-                    force: number(&joint.coulomb),
-                    width: number(&joint.coulomb_width),
-                    per_speed: number(&joint.coulomb_width.recip()),
-                }),
+                friction: Friction {
+                    viscous: number(&joint.viscous),
+                    coulomb: joint.has_coulomb().then(|| Coulomb {
+                        force: number(&joint.coulomb),
+                        width: number(&joint.coulomb_width),
+                        per_speed: number(&joint.coulomb_width.recip()),
+                    }),
+                },
                 armature: number(&joint.armature),
             }
         });
