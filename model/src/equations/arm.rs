@@ -45,7 +45,7 @@ pub struct Link<S> {
     pub inertia: Inertia<S>,
     /// What the drive takes while the joint moves.
     pub friction: Friction<S>,
-    /// SinCosPair inertia felt at the joint.
+    /// Rotor inertia felt at the joint.
     pub armature: S,
 }
 

@@ -11,13 +11,8 @@ impl<S> Arm<S> {
     /// The arm of a robot, each exact parameter sent through `scalar`:
     /// rounding for floats, a constant for symbols, a residue for fields.
     pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
-        let exact = |placement| {
-            pose_of(placement, Exact::sincos, |x: &Rational| {
-                Exact::from(x.clone())
-            })
-        };
-        let base = robot.base.as_ref().map(exact);
-        let tool = robot.tool.as_ref().map(exact);
+        let base = robot.base.as_ref().map(exact_pose);
+        let tool = robot.tool.as_ref().map(exact_pose);
         // The robot has gravity in base axes, the equations in those of frame 0.
         let gravity = robot.gravity.each_ref().map(|g| Exact::from(g.clone()));
         let gravity = match &base {
@@ -66,6 +61,11 @@ impl<S> Arm<S> {
             links: links.collect(),
         }
     }
+}
+
+/// [R | p] of a placement, exactly.
+pub fn exact_pose(placement: &Placement) -> Columns<Exact> {
+    pose_of(placement, Exact::sincos, |x| Exact::from(x.clone()))
 }
 
 /// [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll), from what its angles

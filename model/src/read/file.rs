@@ -14,17 +14,18 @@ use super::table::Keys;
 use super::value::{Context, first_line};
 use super::{Options, allow, guard, joint, placed, scene, syntax};
 use crate::number::Rational;
-use crate::placed::{LastLink, Placed};
+use crate::placed::Placed;
 use crate::robot::{Convention, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
 
 /// The keys of a robot.
-const KEYS: [&str; 8] = [
+const KEYS: [&str; 9] = [
     "name",
     "convention",
     "gravity",
     "base",
     "tool",
+    "payload_frame",
     "allow",
     "joint",
     "scene",
@@ -52,7 +53,7 @@ pub(super) fn read<'s>(
         sink,
     };
     let mut places = Places::default();
-    let (robot, last) = robot(&mut cx, &mut places, &root)?;
+    let robot = robot(&mut cx, &mut places, &root)?;
     for finding in robot.validate() {
         if !places.was_read(finding.place) {
             continue;
@@ -64,19 +65,13 @@ pub(super) fn read<'s>(
     let scenes = root.as_table().and_then(|table| table.get("scene"));
     // Without joints, every joint of a scene would be unknown as well.
     let scenes = scenes.filter(|_| !robot.joints.is_empty());
-    let mut scenes = scenes.map_or_else(Vec::new, |scenes| {
+    let scenes = scenes.map_or_else(Vec::new, |scenes| {
         scene::read(&mut cx, &robot, &places, scenes)
     });
-    if let Some(last) = &last {
-        for scene in &mut scenes {
-            placed::carry(scene, last);
-        }
-    }
     Some((robot, scenes))
 }
 
-/// The robot, and where its last link's own frame is if its joints are placed.
-fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Option<LastLink>)> {
+fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
     let keys = Keys {
         table: cx.table(root, "")?,
         span: 0..0,
@@ -106,6 +101,7 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
 
     let base = placement(cx, places, &keys, "base", Place::Base);
     let tool = placement(cx, places, &keys, "tool", Place::Tool);
+    let payload_frame = placement(cx, places, &keys, "payload_frame", Place::PayloadFrame);
 
     let list = keys.require(
         "joint",
@@ -135,10 +131,11 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
         gravity,
         base,
         tool,
+        payload_frame,
         joints,
     };
-    let last = placed::rows(cx, places, &mut robot, placements);
-    Some((robot, last))
+    placed::rows(cx, places, &mut robot, placements);
+    Some(robot)
 }
 
 /// A `[[joint]]` table.

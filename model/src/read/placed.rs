@@ -9,9 +9,8 @@ use toml_span::Value;
 
 use super::places::Places;
 use super::value::Context;
-use crate::placed::{Body, LastLink, Placed, derive};
+use crate::placed::{Placed, derive};
 use crate::robot::{Convention, Field, Place, Robot};
-use crate::scene::Scene;
 
 /// The convention where joints are placed: rows that are derived have one.
 pub(super) fn convention(cx: &mut Context, value: Option<&Value>) -> Convention {
@@ -31,7 +30,7 @@ pub(super) fn rows(
     places: &Places,
     robot: &mut Robot,
     joints: Vec<(Option<Placed>, Range<usize>)>,
-) -> Option<LastLink> {
+) {
     let placed = joints.iter().any(|(placed, _)| placed.is_some());
     let mut all = Vec::with_capacity(joints.len());
     for (index, (joint, span)) in joints.into_iter().enumerate() {
@@ -46,22 +45,13 @@ pub(super) fn rows(
         }
     }
     let read = |index: usize| places.was_read(Place::Joint(index, Field::Placement));
-    let ends = places.was_read(Place::Base) && places.was_read(Place::Tool);
+    let ends = robot.placements().map(|(place, ..)| place);
+    let ends = ends.into_iter().all(|place| places.was_read(place));
     let whole = !all.is_empty() && all.len() == robot.joints.len();
     if !whole || !ends || !(0..all.len()).all(read) {
-        return None;
+        return;
     }
-    // Directions of length zero were refused where they stand.
-    derive(robot, &all).ok()
-}
-
-/// What a scene's hand carries, in the last frame of the table.
-pub(super) fn carry(scene: &mut Scene, last: &LastLink) {
-    if let Some(payload) = &mut scene.payload {
-        let moved = last.carried(&Body {
-            com: payload.com.clone(),
-            inertia: payload.inertia.clone(),
-        });
-        (payload.com, payload.inertia) = (moved.com, moved.inertia);
-    }
+    // Directions of length zero were refused where they stand, and then there is an
+    // error already.
+    let _ = derive(robot, &all);
 }

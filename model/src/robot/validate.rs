@@ -31,7 +31,7 @@ impl Robot {
             findings.size(Place::Gravity, value);
         }
         findings.doubtful_gravity(&self.gravity);
-        for (place, placement) in [(Place::Base, &self.base), (Place::Tool, &self.tool)] {
+        for (place, _, placement) in self.placements() {
             if let Some(placement) = placement {
                 findings.placement(place, placement);
                 findings.doubtful_placement(place, placement);

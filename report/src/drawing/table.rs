@@ -27,8 +27,8 @@ fn rows(robot: &Robot) -> Vec<String> {
     let mut rows = vec![format!(
         "{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"
     )];
-    for (what, end) in [("base", &robot.base), ("tool", &robot.tool)] {
-        rows.extend(end.as_ref().map(|end| placement(what, end)));
+    for (_, what, end) in robot.placements() {
+        rows.extend(end.map(|end| placement(what, end)));
     }
     let head = [
         "joint",

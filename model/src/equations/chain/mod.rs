@@ -86,7 +86,7 @@ pub struct ChainLink<S> {
     /// Mass, first and second moment along the axis that the link could keep
     /// (revolute): its own and what arrived from the links after it.
     pub free: [S; 3],
-    /// SinCosPair inertia felt at the joint.
+    /// Rotor inertia felt at the joint.
     pub armature: S,
     /// What the drive takes while the joint moves.
     pub friction: Friction<S>,

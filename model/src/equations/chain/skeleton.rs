@@ -49,7 +49,7 @@ pub struct Segment<S> {
     pub probes: Vec<Probe<S>>,
     /// The axes and the origin of the joint's own DH frame, in the frame.
     pub dh: (Rotation<S>, Vector<S>),
-    /// SinCosPair inertia felt at the joint.
+    /// Rotor inertia felt at the joint.
     pub armature: S,
     /// What the drive takes while the joint moves.
     pub friction: Friction<S>,
