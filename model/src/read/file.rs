@@ -15,7 +15,7 @@ use super::value::{Context, first_line};
 use super::{Options, allow, guard, joint, placed, scene, syntax};
 use crate::number::Rational;
 use crate::placed::Placed;
-use crate::robot::{Convention, Joint, Place, Placement, Robot};
+use crate::robot::{Convention, Finding, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
 
 /// The keys of a robot.
@@ -53,8 +53,8 @@ pub(super) fn read<'s>(
         sink,
     };
     let mut places = Places::default();
-    let robot = robot(&mut cx, &mut places, &root)?;
-    for finding in robot.validate() {
+    let (robot, findings) = robot(&mut cx, &mut places, &root)?;
+    for finding in findings {
         if !places.was_read(finding.place) {
             continue;
         }
@@ -71,7 +71,8 @@ pub(super) fn read<'s>(
     Some((robot, scenes))
 }
 
-fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
+/// The robot, and what is wrong or odd about it beside what cannot be read.
+fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Vec<Finding>)> {
     let keys = Keys {
         table: cx.table(root, "")?,
         span: 0..0,
@@ -112,13 +113,14 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
     let read = list.and_then(|list| joints(cx, places, list));
     let read = places.keep(Place::Joints, span, read, Vec::new);
 
+    const WHICH: &str = "\"standard\" where joint i acts along z of frame i − 1, \"modified\" (Craig) where it acts along z of frame i";
     const CONVENTION: &str =
         "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a";
     let convention = match read.iter().any(|joint| joint.placed.is_some()) {
         true => placed::convention(cx, keys.get("convention")),
         false => keys
             .require("convention", CONVENTION, cx.sink)
-            .and_then(|value| cx.word(value, &Convention::WORDS))
+            .and_then(|value| cx.word_or(value, &Convention::WORDS, WHICH))
             .unwrap_or(Convention::Standard),
     };
     let (joints, placements) = read
@@ -134,8 +136,8 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<Robot> {
         payload_frame,
         joints,
     };
-    placed::rows(cx, places, &mut robot, placements);
-    Some(robot)
+    let findings = placed::rows(cx, places, &mut robot, placements);
+    Some((robot, findings))
 }
 
 /// A `[[joint]]` table.

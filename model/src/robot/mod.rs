@@ -8,6 +8,7 @@
 //! - `findings`: what is said of a robot, and how much it matters
 //! - `doubt`: the names of warnings, by which a file silences them ([`Doubt`])
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
+//! - `reach`: how far an arm reaches, and inertias too large for that
 //! - `units`: sizes that were probably meant in another unit
 //! - `body`: which inertia tensors a body can have
 //! - [`values`]: numbers, angles and placements as robot files have them
@@ -18,6 +19,7 @@ mod doubt;
 mod findings;
 mod place;
 mod placement;
+pub(crate) mod reach;
 mod units;
 mod validate;
 pub mod values;
