@@ -57,7 +57,7 @@ fn at_a_position() {
     let degrees = drawn("0,-90,90deg,0,0,0");
     assert_eq!(degrees.code, 0);
     assert!(
-        degrees.err.starts_with("warning: --at: joint 2 (")
+        degrees.err.contains("warning: --at: joint 2 (")
             && degrees
                 .err
                 .contains("radians? -90 degrees are -1.5708, or write -90deg"),
