@@ -104,7 +104,9 @@ fn report(imported: &Imported, name: &str, source: &str) {
         ));
         let limits = change.limits();
         let bounds = change.torques(limits);
-        for (i, joint) in joints.iter().enumerate() {
+        // Of torques that stay as they are, the first line said it.
+        let moved = bounds.iter().any(|bound| *bound > 0.0);
+        for (i, joint) in joints.iter().enumerate().filter(|_| moved) {
             let label = joint.name.as_deref().unwrap_or_default();
             output::note(&format!(
                 "  {label}: ≤ {} N·m or N, at rates up to {:.3} and {:.3} a second",
@@ -114,11 +116,13 @@ fn report(imported: &Imported, name: &str, source: &str) {
             ));
         }
         let hand = change.hand(limits);
-        output::note(&format!(
-            "  the hand: ≤ {} m and ≤ {} rad from where it was",
-            Change::in_digits(hand.position),
-            Change::in_digits(hand.angle)
-        ));
+        if hand.position > 0.0 || hand.angle > 0.0 {
+            output::note(&format!(
+                "  the hand: ≤ {} m and ≤ {} rad from where it was",
+                Change::in_digits(hand.position),
+                Change::in_digits(hand.angle)
+            ));
+        }
         output::note("  --exact takes every digit as it stands");
     }
 }

@@ -136,7 +136,14 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
 fn begin(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     first(path, most).map_err(|error| {
         let shown = path.display().to_string();
-        Failure::Input(RobotFileError::of_system(path, &shown, &error).to_string())
+        let said = RobotFileError::of_system(path, &shown, &error).to_string();
+        let whole = std::path::absolute(path)
+            .ok()
+            .filter(|_| path.is_relative());
+        Failure::Input(match whole {
+            Some(whole) => format!("{said}\n  = note: its full path is `{}`", whole.display()),
+            None => said,
+        })
     })
 }
 

@@ -5,7 +5,7 @@ use dalembert_model::number::Angle;
 use dalembert_model::number::Rounded;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::reference::{Reference, WrongLength};
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_report::drawing;
 use nalgebra::DVector;
 use serde_json::{Value, json};
@@ -28,6 +28,11 @@ pub fn run(args: &ShowArgs) -> Outcome {
         &[("the drawing", &target)],
     )?;
     let at = position(args, &robot)?;
+    for (index, (text, q)) in args.at.iter().zip(&at).enumerate() {
+        if let Some(warning) = doubtful(&robot, index, text, *q) {
+            output::note(&warning);
+        }
+    }
     let wrong = |error| Failure::Input(format!("error: --at: {error}"));
     let svg = drawing::svg(&robot, &at).map_err(wrong)?;
     if !args.json {
@@ -61,6 +66,41 @@ fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
         "links": links.collect::<Vec<_>>(),
         "hand": rows(&runtime.hand(&q)?),
     }))
+}
+
+/// What is odd about a position of a joint: beyond its limits, or more than a turn. A
+/// number by itself is of radians, and was perhaps meant otherwise.
+fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
+    let joint = robot.joints.get(index)?;
+    let end = |position: &Position| match position {
+        Position::Angle(angle) => angle.to_f64(),
+        Position::Length(length) => f64::nearest_rational(length),
+    };
+    let limits = joint
+        .limits
+        .position
+        .as_ref()
+        .map(|ends| ends.each_ref().map(end));
+    let turns = joint.kind == JointKind::Revolute;
+    let what = match limits {
+        Some([low, high]) if q < low || q > high => {
+            format!("beyond its limits, {low:.4} to {high:.4}")
+        }
+        _ if turns && q.abs() > 2.0 * std::f64::consts::PI => "more than a turn".to_owned(),
+        _ => return None,
+    };
+    let unit = if turns { "rad" } else { "m" };
+    let help = match parse_decimal(text.trim()) {
+        Ok(_) if turns => {
+            let radians = q.to_radians();
+            format!("\n  = help: radians? {q} degrees are {radians:.4}, or write {q}deg")
+        }
+        _ => String::new(),
+    };
+    let label = robot.joint_label(index);
+    Some(format!(
+        "warning: --at: {label} at {q} {unit} is {what}{help}"
+    ))
 }
 
 /// Where the joints are: at zero unless said.

@@ -70,6 +70,14 @@ fn files_that_cannot_be_read_or_written() {
     let ran = run(&["generate", missing.to_str().unwrap()]);
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("there is no file `"), "{}", ran.err);
+    let ran = run(&["generate", "nowhere/no.toml"]);
+    assert!(
+        ran.err.contains("there is no file `nowhere/no.toml`")
+            && ran.err.contains("nowhere/no.toml`\n")
+            && ran.err.contains("= note: its full path is `/"),
+        "{}",
+        ran.err
+    );
     // In the words of macro and builder, with the file that was meant.
     let beside = robot("planar2r").replace("planar2r", "planar2");
     let ran = run(&["generate", &beside]);

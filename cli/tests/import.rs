@@ -43,6 +43,36 @@ fn a_chain_becomes_a_robot_file_that_counts() {
     assert!(counted.out.contains("gravity"), "{}", counted.out);
 }
 
+/// A limit that was rounded moves nothing: that is said once, without a line of zeros
+/// for every joint.
+#[test]
+fn what_changes_nothing_is_one_line() {
+    let folder = temporary("import_nothing");
+    let file = folder.join("arm.urdf");
+    let link = |name: &str| {
+        format!(
+            "<link name=\"{name}\"><inertial><mass value=\"1\"/><inertia ixx=\"0.1\" iyy=\"0.1\" \
+             izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>"
+        )
+    };
+    let text = format!(
+        "<robot name=\"arm\">{}{}<joint name=\"turn\" type=\"revolute\"><parent link=\"foot\"/>\
+         <child link=\"upper\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1.5707963\" \
+         upper=\"1.5707963\" effort=\"5\" velocity=\"1\"/></joint></robot>",
+        link("foot"),
+        link("upper")
+    );
+    fs::write(&file, text).unwrap();
+    let ran = run(&["import", file.to_str().unwrap()]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        ran.err.contains("torques change by: nothing"),
+        "{}",
+        ran.err
+    );
+    assert!(!ran.err.contains("≤ 0"), "{}", ran.err);
+}
+
 #[test]
 fn refusals_are_bad_input() {
     let folder = temporary("import_refused");

@@ -72,6 +72,10 @@ fn from_robot_files_and_urdfs() {
         (vec![text("My-Arm")], "write \"my_arm\""),
         (vec![text("fn")], "write \"fn_robot\""),
         (
+            vec![text("dalembert")],
+            "cannot depend on the crate `dalembert`",
+        ),
+        (
             vec![text("hand"), "--from".into(), panda],
             "`dalembert import",
         ),

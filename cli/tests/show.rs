@@ -29,6 +29,9 @@ fn the_same_drawing_twice() {
         "from the front: x to the right, z up",
         "from above: x to the right, y up",
         "standard DH, gravity (0, 0, -9.81)",
+        "drawn at q = (0, 0, 0, 0, 0, 0)",
+        // Their axes lie behind each other at this position.
+        ">3, 4, 6</text>",
         "1 waist",
         "(-0.3638, 0.006, 0.2275)",
     ] {
@@ -45,6 +48,22 @@ fn at_a_position() {
     let bent = drawn("0,-pi/2,90deg,0,0.1,-0.2");
     assert_eq!(bent.code, 0, "{}", bent.err);
     assert_ne!(bent.out, still);
+    assert!(
+        bent.out
+            .contains("drawn at q = (0, -1.5708, 1.5708, 0, 0.1, -0.2)")
+    );
+    assert!(!bent.err.contains("--at"), "{}", bent.err);
+    // Degrees by mistake: drawn as it stands.
+    let degrees = drawn("0,-90,90deg,0,0,0");
+    assert_eq!(degrees.code, 0);
+    assert!(
+        degrees.err.contains("warning: --at: joint 2 (")
+            && degrees
+                .err
+                .contains("radians? -90 degrees are -1.5708, or write -90deg"),
+        "{}",
+        degrees.err
+    );
     for (at, part) in [
         ("0,0", "`q` has 2 values, the arm has 6 joints"),
         ("0,0,0,0,0,x", "--at: `x` is not a decimal number"),
@@ -59,4 +78,36 @@ fn at_a_position() {
         "{}",
         ran.err
     );
+}
+
+/// The outlines of the bodies of both views, each within its half of the paper.
+#[test]
+fn bodies_stay_on_the_paper() {
+    let folder = temporary("show_large");
+    let file = folder.join("large.toml");
+    let planar = fs::read_to_string(robot("planar2r")).unwrap();
+    let large = planar.replace("[0, 0.08333333333333333, 0.08333333333333333,", "[1, 3, 3,");
+    assert_ne!(large, planar);
+    fs::write(&file, large).unwrap();
+    let ran = run(&["show", file.to_str().unwrap(), "--at", "0.6,0.7"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let number = |text: &str, before: &str, after: char| -> f64 {
+        let start = text.find(before).unwrap() + before.len();
+        let rest = &text[start..];
+        rest[..rest.find(after).unwrap()].parse().unwrap()
+    };
+    let mut seen = 0;
+    for line in ran.out.lines().filter(|line| line.contains("<ellipse")) {
+        let [a, b] = [number(line, "rx=\"", '"'), number(line, "ry=\"", '"')];
+        let x = number(line, "translate(", ' ');
+        let y = number(line, &format!("translate({x:.1} "), ')');
+        let turned = number(line, "rotate(", ')').to_radians();
+        let across = (a * turned.cos()).hypot(b * turned.sin());
+        let along = (a * turned.sin()).hypot(b * turned.cos());
+        let left = if x < 440.0 { 0.0 } else { 440.0 };
+        assert!(x - across >= left && x + across <= left + 440.0, "{line}");
+        assert!(y - along >= 64.0 && y + along <= 504.0, "{line}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
 }

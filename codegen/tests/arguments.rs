@@ -158,6 +158,81 @@ fn a_load_is_the_payload_in_the_robot_file() {
     }
 }
 
+/// The last joint turns about the y axis of its own frame, which so is turned by a
+/// quarter about x in the frame of the table's last row; payloads are given beside it.
+const PLACED: &str = "\
+name = \"arm\"
+gravity = [0.3, 0, -9.81]
+payload_frame = { xyz = [0.1, -0.2, 0.05] }
+[[joint]]
+kind = \"revolute\"
+placement = { xyz = [0, 0, 0.3] }
+axis = [0, 0, 1]
+mass = 2
+com = [0.2, -0.1, 0.03]
+inertia = [0.02, 0.03, 0.04, 0, 0, 0.001]
+[[joint]]
+kind = \"revolute\"
+placement = { xyz = [0.1, 0, 0.2], rpy = [\"pi/2\", 0, 0] }
+axis = [0, 0, 1]
+mass = 1.5
+com = [0.2, 0.1, 0.03]
+inertia = [0.01, 0.02, 0.02, 0, 0.001, 0]
+[[joint]]
+kind = \"revolute\"
+placement = { xyz = [0.3, 0, 0], rpy = [\"pi/2\", 0, 0] }
+axis = [0, 1, 0]
+mass = 1
+com = [-0.1, 0.02, 0.05]
+inertia = [0.02, 0.03, 0.04, 0, 0, 0]
+";
+
+/// A payload is given in the last link's own frame, at run time as in a scene: the
+/// same arm by its table takes the same body with its numbers turned by hand.
+#[test]
+fn a_payload_is_in_the_links_own_frame() {
+    let placed = support::read_robot(PLACED);
+    let request = request(&[Function::InverseDynamics], PAYLOAD);
+    check(&placed, &request, 10);
+    // Any angle: numbers that are no permutation of others.
+    let tilted = "axis = [0.2, 0.9, -0.4]\nmass = 1\n";
+    check(
+        &support::read_robot(&PLACED.replace("axis = [0, 1, 0]\nmass = 1\n", tilted)),
+        &request,
+        10,
+    );
+
+    let own = placed.payload_frame.clone().unwrap();
+    assert_eq!(own.rpy[0], Angle::right_angles(1));
+    let rows = Robot {
+        payload_frame: None,
+        ..placed.clone()
+    };
+    let [of_frames, of_rows] = [&placed, &rows].map(|robot| generate(robot, &request));
+    for state in request.setting(&placed).unwrap().states(10, 7) {
+        let &[mass, x, y, z, xx, yy, zz, xy, yz, xz] = state.payload.as_slice() else {
+            panic!("a payload has ten numbers");
+        };
+        let (x, y, z) = (x + 0.1, y - 0.2, z + 0.05);
+        let turned = JointState {
+            payload: vec![mass, x, -z, y, xx, zz, yy, -xz, -yz, xy],
+            ..state.clone()
+        };
+        let pairs = of_frames.emitted.iter().zip(&of_rows.emitted);
+        for (one, other) in pairs.filter(|(one, _)| one.scalar == ScalarType::F64) {
+            let found = run(&of_frames, one, &state);
+            let expected = run(&of_rows, other, &turned);
+            let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            for (a, b) in found.iter().zip(&expected) {
+                assert!((a - b).abs() <= 1e-12 * size, "{}: {a} {b}", one.function);
+            }
+        }
+    }
+    let frame =
+        "in that of joint 3 in the table\n/// at xyz (0.1, -0.05, -0.2) m, rpy (pi/2, 0, 0)";
+    assert!(of_frames.text.contains(frame), "{}", of_frames.text);
+}
+
 /// All zero, the payload is none.
 #[test]
 fn a_load_of_nothing_is_the_robot() {

@@ -57,21 +57,39 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
         })
     });
     let links: Vec<Link> = links.collect::<Option<_>>()?;
-    for (moving, link) in chain.moving.iter().zip(&links) {
+    let empty = chain.moving.iter().zip(&links).filter(|(_, link)| {
         let body = &link.body.inertia.rows();
-        if link.mass.is_zero() && body.iter().flatten().all(Zero::is_zero) {
-            let child = &urdf.joints[moving.joint].child.0;
-            let span = urdf.links.iter().find(|link| link.name == *child);
-            let span = span.map_or(0..0, |link| link.span.clone());
-            let message = format!("link `{child}`, and what is fixed to it, has no mass");
-            let help = "give it an <inertial>, unless it weighs nothing";
-            problems.warning(&span, message, help);
-        }
-    }
+        link.mass.is_zero() && body.iter().flatten().all(Zero::is_zero)
+    });
+    let empty = empty.map(|(moving, _)| urdf.joints[moving.joint].child.0.as_str());
+    without_mass(urdf, &empty.collect::<Vec<_>>(), problems);
     Some(Arm {
         links,
         tool: placement(&way(urdf, &chain.tool)?, &size),
     })
+}
+
+/// Says of links that they have no mass, once, where the first is.
+fn without_mass(urdf: &Urdf, links: &[&str], problems: &mut Problems) {
+    let Some(first) = links.first() else {
+        return;
+    };
+    let span = urdf.links.iter().find(|link| link.name == *first);
+    let span = span.map_or(0..0, |link| link.span.clone());
+    let (message, help) = match links {
+        [link] => (
+            format!("link `{link}`, and what is fixed to it, has no mass"),
+            "give it an <inertial>, unless it weighs nothing",
+        ),
+        _ => (
+            format!(
+                "the links `{}`, and what is fixed to them, have no mass",
+                links.join("`, `")
+            ),
+            "give each an <inertial>, unless it weighs nothing",
+        ),
+    };
+    problems.warning(&span, message, help);
 }
 
 /// What lengths are small against.

@@ -64,14 +64,16 @@ pub(crate) fn file(
     if !arm.tool.is_identity() {
         line(&mut text, "tool", &placement(&arm.tool));
     }
+    let mut left_out = LeftOut::default();
     for (moving, link) in chain.moving.iter().zip(&arm.links) {
         text.push_str("\n[[joint]]\n");
-        joint(&mut text, &urdf.joints[moving.joint], link, problems);
+        joint(&mut text, &urdf.joints[moving.joint], link, &mut left_out);
     }
+    left_out.say(problems);
     text
 }
 
-fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems) {
+fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut LeftOut<'u>) {
     line(text, "name", &quoted(&joint.name));
     let kind = match joint.kind {
         Kind::Prismatic => "prismatic",
@@ -99,20 +101,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems)
         line(text, "armature", &number(&joint.armature));
     }
     if let Some(friction) = joint.friction.as_ref().filter(|f| !f.value.is_zero()) {
-        let message = format!(
-            "the Coulomb friction of joint `{}`, {}, is left out",
-            joint.name, friction.text
-        );
-        let unit = match joint.kind {
-            Kind::Prismatic => "m/s",
-            _ => "rad/s",
-        };
-        let help = format!(
-            "to have it in the torques, give the joint `coulomb = {}` and `coulomb_width = 0.01`, \
-             the speed in {unit} over which its sign is smoothed",
-            number(&friction.value)
-        );
-        problems.note(&friction.span, message, &help);
+        left_out.friction.push((joint, friction));
     }
     let mut limits = Vec::new();
     if let Some(range) = &joint.position {
@@ -120,7 +109,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems)
         limits.push(format!("position = [{low}, {high}]"));
     }
     for (key, limit) in [("velocity", &joint.velocity), ("torque", &joint.effort)] {
-        limits.extend(limit_of(joint, key, limit.as_ref(), problems));
+        limits.extend(limit_of(joint, key, limit.as_ref(), left_out));
     }
     if !limits.is_empty() {
         line(text, "limits", &format!("{{ {} }}", limits.join(", ")));
@@ -128,22 +117,87 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, problems: &mut Problems)
 }
 
 /// A limit of zero is one that was never filled in.
-fn limit_of(
-    joint: &Joint,
-    key: &str,
-    limit: Option<&Number>,
-    problems: &mut Problems,
+fn limit_of<'u>(
+    joint: &'u Joint,
+    key: &'static str,
+    limit: Option<&'u Number>,
+    left_out: &mut LeftOut<'u>,
 ) -> Option<String> {
     let limit = limit?;
     if limit.value.is_positive() {
         return Some(format!("{key} = {}", number(&limit.value)));
     }
-    let message = format!(
-        "the limit of {key} of joint `{}` is {}",
-        joint.name, limit.text
-    );
-    problems.note(&limit.span, message, "it is left out: nothing would move");
+    left_out.limits.push((key, joint, limit));
     None
+}
+
+/// What of the URDF is not in the robot file: one note says it of all joints.
+#[derive(Default)]
+struct LeftOut<'u> {
+    friction: Vec<(&'u Joint, &'u Number)>,
+    limits: Vec<(&'static str, &'u Joint, &'u Number)>,
+}
+
+impl LeftOut<'_> {
+    fn say(&self, problems: &mut Problems) {
+        self.say_friction(problems);
+        for key in ["velocity", "torque"] {
+            let own = self.limits.iter().filter(|(own, ..)| *own == key);
+            let own: Vec<(&Joint, &Number)> =
+                own.map(|(_, joint, limit)| (*joint, *limit)).collect();
+            let Some((_, first)) = own.first() else {
+                continue;
+            };
+            let message = match own.as_slice() {
+                [(joint, limit)] => {
+                    format!(
+                        "the limit of {key} of joint `{}` is {}",
+                        joint.name, limit.text
+                    )
+                }
+                _ => format!("the limits of {key} of {} are zero or less", names(&own)),
+            };
+            let help = match own.len() {
+                1 => "it is left out: nothing would move",
+                _ => "they are left out: nothing would move",
+            };
+            problems.note(&first.span, message, help);
+        }
+    }
+
+    fn say_friction(&self, problems: &mut Problems) {
+        let Some((joint, first)) = self.friction.first() else {
+            return;
+        };
+        let unit = match joint.kind {
+            Kind::Prismatic => "m/s",
+            _ => "rad/s",
+        };
+        let message = match self.friction.as_slice() {
+            [_] => format!(
+                "the Coulomb friction of joint `{}`, {}, is left out",
+                joint.name, first.text
+            ),
+            all => format!("the Coulomb friction of {} is left out", names(all)),
+        };
+        let whose = match self.friction.len() {
+            1 => "the joint",
+            _ => "each joint its own, such as",
+        };
+        let help = format!(
+            "to have it in the torques, give {whose} `coulomb = {}` and `coulomb_width = 0.01`, \
+             the speed in {unit} over which its sign is smoothed",
+            number(&first.value)
+        );
+        problems.note(&first.span, message, &help);
+    }
+}
+
+/// Joints by their names, with the numbers that they have.
+fn names(joints: &[(&Joint, &Number)]) -> String {
+    let name = |(joint, number): &(&Joint, &Number)| format!("`{}` ({})", joint.name, number.text);
+    let names: Vec<String> = joints.iter().map(name).collect();
+    format!("the joints {}", names.join(", "))
 }
 
 fn line(text: &mut String, key: &str, value: &str) {

@@ -98,6 +98,43 @@ fn the_file_says_what_the_urdf_says() {
     );
 }
 
+/// What is so of several joints is said once, where it is first.
+#[test]
+fn one_note_for_one_fact() {
+    let slow = ARM.replace("effort=\"50\"", "effort=\"0\"").replace(
+        "effort=\"0\" velocity=\"1\"/>\n  </joint>\n  <link name=\"lower\">",
+        "effort=\"0\" velocity=\"0\"/>\n  <dynamics friction=\"3\"/></joint>\n  <link name=\"lower\">",
+    );
+    let notes = taken(&slow, &at_the_hand()).notes;
+    let notes: Vec<_> = notes
+        .iter()
+        .map(|note| (note.line, note.message.as_str()))
+        .collect();
+    let expected = [
+        (
+            11,
+            "the limits of torque of the joints `turn` (0), `reach` (0) are zero or less",
+        ),
+        (
+            12,
+            "the Coulomb friction of the joints `turn` (0.25), `reach` (3) is left out",
+        ),
+        (20, "the limit of velocity of joint `reach` is 0"),
+    ];
+    assert_eq!(notes, expected);
+    let weightless = ARM
+        .replace("<inertial>", "<!--")
+        .replace("</inertial>", "-->");
+    let notes = taken(&weightless, &at_the_hand()).notes;
+    let massless: Vec<&str> = notes
+        .iter()
+        .map(|note| note.message.as_str())
+        .filter(|message| message.contains("no mass"))
+        .collect();
+    let expected = "the links `upper`, `lower`, and what is fixed to them, have no mass";
+    assert_eq!(massless, [expected]);
+}
+
 /// A locked finger weighs what it weighs, where it is.
 #[test]
 fn what_is_locked_moves_with_the_link() {

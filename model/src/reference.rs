@@ -18,7 +18,6 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::equations::dalembert::Part;
 use crate::equations::energy::contracted;
-use crate::equations::friction::per_speed;
 use crate::equations::kinematics::poses;
 use crate::equations::load::Loading;
 use crate::equations::matrix::{Columns, total};
@@ -135,6 +134,7 @@ impl<T> JointVectors<T> {
 /// spread to the outputs.
 ///
 /// ```
+/// use dalembert_model::equations::friction::Friction;
 /// use dalembert_model::equations::{Arm, Link, SinCosPair};
 /// use dalembert_model::reference::Reference;
 /// use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -157,8 +157,7 @@ impl<T> JointVectors<T> {
 ///         mass: 1.0,
 ///         com: [0.0; 3],
 ///         inertia: Inertia::default(),
-///         viscous: 0.1,
-///         coulomb: None,
+///         friction: Friction { viscous: 0.1, coulomb: None },
 ///         armature: 0.0,
 ///     }],
 /// };
@@ -345,13 +344,11 @@ impl<T: Float> Reference<T> {
     /// The arm with its Coulomb friction at these velocities.
     fn arm_at(&self, qd: &[T]) -> Cow<'_, Arm<T>> {
         let links = &self.arm.links;
-        if links.iter().all(|link| link.coulomb.is_none()) {
+        if links.iter().all(|link| link.friction.coulomb.is_none()) {
             return Cow::Borrowed(&self.arm);
         }
-        let speeds = links.iter().zip(qd).map(|(link, qd)| {
-            let own = link.coulomb.as_ref()?;
-            Some(per_speed(qd, &own.width.mul(&own.width), |x| x.root()))
-        });
+        let speeds = links.iter().zip(qd);
+        let speeds = speeds.map(|(link, qd)| link.friction.per_speed(qd, |x| x.root()));
         let speeds: Vec<Option<T>> = speeds.collect();
         Cow::Owned(self.arm.clone().at_speeds(&speeds))
     }

@@ -1,6 +1,7 @@
 //! Operation counts of the formulas as written.
 
 use crate::equations_support::golden;
+use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::count::{Count, Counter};
@@ -33,8 +34,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
             yz: value(),
             xz: value(),
         },
-        viscous: Count::Zero,
-        coulomb: None,
+        friction: Friction::none(),
         armature: Count::Zero,
     };
     let arm = Arm {

@@ -125,7 +125,6 @@ fn a_width_without_a_force_changes_nothing() {
 
 #[cfg(feature = "bigfloat")]
 mod slopes {
-    use dalembert_model::equations::friction::per_speed;
     use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
     use dalembert_model::number::{Angle, Exact};
     use dalembert_model::robot::JointKind;
@@ -150,10 +149,8 @@ mod slopes {
     /// The arm at a velocity.
     fn at_speed(qd: &[Big]) -> Arm<Big> {
         let arm = Arm::from_robot(&super::robot(), &mut number);
-        let speeds = arm.links.iter().zip(qd).map(|(link, qd)| {
-            let own = link.coulomb.as_ref()?;
-            Some(per_speed(qd, &own.width.mul(&own.width), Big::sqrt))
-        });
+        let speeds = arm.links.iter().zip(qd);
+        let speeds = speeds.map(|(link, qd)| link.friction.per_speed(qd, Big::sqrt));
         let speeds: Vec<Option<Big>> = speeds.collect();
         arm.at_speeds(&speeds)
     }

@@ -195,7 +195,7 @@ fn products(
         let products = row.iter().zip(&pi).map(|(y, pi)| y.mul(pi));
         let links = products.fold(Field::ZERO, |sum, x| sum.add(&x));
         let link = &arm.links[i];
-        let friction = link.damping().mul(&rates[i]);
+        let friction = link.friction.torque(&rates[i]);
         links.add(&friction.add(&link.armature.mul(&accelerations[i])))
     };
     y.iter().enumerate().map(sum).collect()
@@ -244,7 +244,7 @@ fn coriolis_matrix_is_the_christoffels() {
                 rate = rate.add(&own.add(&d[i][k].value.mul(&qdd[k])));
             }
             assert_eq!(load, h[i]);
-            let damping = arm.links[i].damping().mul(&qd[i]);
+            let damping = arm.links[i].friction.torque(&qd[i]);
             let rest = tau[i].add(&slope[i]).sub(&gravity[i]).sub(&damping);
             assert_eq!(rate, rest);
         }
@@ -281,7 +281,10 @@ fn energy_and_wrenches_belong_to_the_torques() {
                 JointKind::Prismatic => &wrenches[i].force,
             };
             let along = (0..3).fold(Field::zero(), |sum, k| sum.add(&axis[k].mul(&load[k])));
-            let drive = link.damping().mul(&qd[i]).add(&link.armature.mul(&qdd[i]));
+            let drive = link
+                .friction
+                .torque(&qd[i])
+                .add(&link.armature.mul(&qdd[i]));
             assert_eq!(along.add(&drive), tau[i]);
         }
     }
@@ -347,7 +350,7 @@ fn forward_dynamics_solves_the_equations_of_motion() {
 /// angle q̇ is w 2t/(1 − t²), and r is (1 − t²)/(w (1 + t²)).
 fn at_true_speeds(case: &mut Case, points: &mut Points) {
     for (link, qd) in case.arm.links.iter_mut().zip(&mut case.qd) {
-        let Some(coulomb) = &mut link.coulomb else {
+        let Some(coulomb) = &mut link.friction.coulomb else {
             continue;
         };
         let (one, t) = (Field::one(), points.field());
@@ -375,7 +378,7 @@ fn acceleration_slopes_are_its_rates() {
             .iter_mut()
             .zip(case.qd.iter().zip(&case.qdd));
         for (link, (qd, qdd)) in joints {
-            let r = &mut link.coulomb.as_mut().unwrap().per_speed;
+            let r = &mut link.friction.coulomb.as_mut().unwrap().per_speed;
             let cube = r.value.mul(&r.value).mul(&r.value);
             r.rate = qd.mul(&cube).mul(qdd).neg();
         }

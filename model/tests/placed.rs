@@ -192,8 +192,15 @@ fn errors_say_where_and_what() {
             "xyz = [0, 0, 0.387]",
             "xyz = [0, 0, 387]",
             8,
-            "d is 387 m",
-            "millimetres",
+            "xyz is 387 m",
+            "millimetres, write 0.387",
+        ),
+        (
+            "rpy = [0, 0, \"pi/2\"]",
+            "rpy = [0, 0, 90]",
+            8,
+            "rpy is 90 rad",
+            "\"90deg\"",
         ),
         (
             "xyz = [0, 0, 0.387]",
@@ -215,6 +222,10 @@ fn errors_say_where_and_what() {
         let said = found.help.as_deref().unwrap_or_default();
         assert!(said.contains(help), "{to}: {said}");
     }
+    // Once, at the line that has it, and of nothing that follows from it.
+    let text = placed.replace("xyz = [0, 0, 0.387]", "xyz = [0, 0, 387]");
+    let odd = reading(&text).notes;
+    assert_eq!(odd.len(), 1, "{odd:?}");
     // A convention that says what there is does no harm.
     let said = placed.replacen("gravity", "convention = \"standard\"\ngravity", 1);
     assert_eq!(reading(&said).robot, reading(&placed).robot);

@@ -43,6 +43,9 @@ const ROWS: &[Row] = &[
     ("name = \"arm\"", "nmae = \"arm\"", "the robot has no `name`", ""),
     ("convention = \"standard\"", "convention = \"standrad\"", "expected \"standard\" or \"modified\"", "did you mean \"standard\""),
     ("convention = \"standard\"", "convention = \"craig\"", "found the string `craig`", "did you mean \"modified\""),
+    ("convention = \"standard\"", "convention = \"DH\"", "found the string `DH`", "\"standard\" where joint i acts along z of frame i − 1, \"modified\" (Craig)"),
+    ("convention = \"standard\"", "convention = 1", "found the number `1`", "\"modified\" (Craig)"),
+    ("a = 0.5", "axis = [0, 0, 1]", "`axis` beside `alpha`, and no `placement`", "joints act along z: leave `axis` out"),
     ("convention = \"standard\"", "convention = true", "found `true`", ""),
     ("gravity = [0, 0, -9.81]", "gravity = [0, -9.81]", "expected an array of 3, found an array of 2", "gravity ="),
     ("gravity = [0, 0, -9.81]", "gravity = -9.81", "expected an array of 3, found the number `-9.81`", "base axes"),
@@ -87,6 +90,8 @@ const ROWS: &[Row] = &[
     ("viscous = 0.1", "coulomb = -0.1", "coulomb is negative", "energy"),
     ("viscous = 0.1", "coulomb = 0.1", "Coulomb friction without a `coulomb_width`", "coulomb_width = 0.01, in rad/s"),
     ("viscous = 0.1", "coulomb = \"0.1 Nm\"", "expected a number, found the string `0.1 Nm`", "SI units"),
+    ("viscous = 0.1", "coulomb = 0.1\ncoulomb_width = 0", "Coulomb friction without a `coulomb_width`", "coulomb_width = 0.01"),
+    ("viscous = 0.1", "friction = 0.1", "unknown key `friction`", "write `viscous` for friction that grows with the speed, `coulomb` for"),
     ("viscous = 0.1", "coulomb_width = -0.1", "coulomb_width is negative", "coulomb_width = 0.01"),
     ("viscous = 0.1", "coulomb_width = 1e-12", "a coulomb_width too large or too small", "coulomb_width = 0.01"),
     ("viscous = 0.1", "coulomb_width = \"narrow\"", "expected a number", ""),
@@ -94,6 +99,7 @@ const ROWS: &[Row] = &[
     ("armature = 0.1", "armature = -1", "armature is negative", "rotor"),
     ("alpha = \"pi/2\"", "alpha = \"pi/0\"", "expected an angle, found the string `pi/0`", "90deg"),
     ("alpha = \"pi/2\"", "alpha = \"1.5\"", "expected an angle", "without quotes"),
+    ("alpha = \"pi/2\"", "alpha = \"180\"", "expected an angle", "of radians write 180 without quotes, of degrees \"180deg\""),
     ("alpha = \"pi/2\"", "alpha = [1]", "expected an angle, found an array of 1", "radians"),
     ("alpha = \"pi/2\"", "alpha = pi/2", "`pi/2` is not a number", "write \"pi/2\", in quotes"),
     ("alpha = \"pi/2\"", "alpha = -pi/2", "expected the end of the value, found `/`", "in quotes"),
@@ -114,6 +120,10 @@ const ROWS: &[Row] = &[
     ("position = [-1, 1]", "position = [\"pi\", \"180deg\"]", "the lowest position is not below", ""),
     ("position = [-1, 1]", "position = [1]", "expected an array of 2", "lowest"),
     ("velocity = 2", "velocity = -2", "velocity is negative", "both directions"),
+    ("velocity = 2", "velocity = \"120deg\"", "expected a number, found the string `120deg`", "in rad/s, as a number: write 2.0944"),
+    ("velocity = 2", "velocity = \"2*pi/3\"", "expected a number", "write 2.0944"),
+    ("velocity = 2", "velocity = \"120deg/s\"", "expected a number", "write 2.0944"),
+    ("acceleration = 3", "acceleration = \"90deg\"", "expected a number", "in rad/s², as a number: write 1.5708"),
     ("torque = 4", "torque = inf", "not a finite number", "leave the key out"),
     // TOML itself.
     ("a = 0.5", "a = 0.5\na = 0.6", "the key `a` is defined twice", "line 8"),
@@ -203,6 +213,8 @@ fn lines_and_columns() {
         ("torque = 4", "tork = 4", 17, 64),
         ("mass = 2", "", 4, 1),
         ("a = 0.5", "a = 0.5 ü", 8, 9),
+        ("viscous = 0.1", "coulomb = 0.1\ncoulomb_width = 0", 16, 17),
+        ("viscous = 0.1", "coulomb = 0.1", 15, 11),
     ] {
         let found = errors(&GOOD.replacen(what, by, 1));
         assert_eq!(
@@ -395,6 +407,20 @@ fn sizes_of_other_units() {
             "110 rad/s is fast",
             "write 1.9199",
         ),
+        (
+            "[1, 1, 1, 0, 0, 0]",
+            "[12300, 12300, 1, 0, 0, 0]",
+            14,
+            "a mass of 2 kg with a moment of 12300 kg·m² is 78.422 m from its axis, and the arm reaches 0.850 m",
+            "of kg·mm², write 0.0123 for 12300",
+        ),
+        (
+            "viscous = 0.1",
+            "coulomb = 1\ncoulomb_width = 2",
+            16,
+            "smoothed over 2 rad/s, and the joint reaches 2",
+            "a tenth of the slowest speed",
+        ),
     ] {
         let source = GOOD.replacen(what, by, 1);
         let notes = parse(&source, &Options::default()).expect("reads").notes;
@@ -444,6 +470,10 @@ fn sizes_that_are_none_of_our_business() {
         ("a = 0.5", "a = 10"),
         ("mass = 2", "mass = 999"),
         ("[-1, 1]", "[-31, 31]"),
+        // All mass further away than the arm reaches, but not far further.
+        ("[1, 1, 1, 0, 0, 0]", "[12, 12, 12, 0, 0, 0]"),
+        ("viscous = 0.1", "coulomb = 1\ncoulomb_width = 0.2"),
+        ("viscous = 0.1", "coulomb_width = 3"),
         ("[-1, 1]", "[\"-36000deg\", \"36000deg\"]"),
     ] {
         let source = GOOD.replacen(what, by, 1);
@@ -466,6 +496,9 @@ fn other_ways_to_say_it() {
         .replace("mass = 2", "mass = 0.0")
         .replace("com = [0, 0.1, 0]\n", "");
     assert_eq!(errors(&massless), []);
+    let bare = massless.replace("inertia = [1, 1, 1, 0, 0, 0]\n", "");
+    let zeros = massless.replace("[1, 1, 1, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]");
+    assert_eq!(robot(&bare), robot(&zeros));
     // Line ends of another system, and a byte order mark.
     assert_eq!(robot(&GOOD.replace('\n', "\r\n")), robot(GOOD));
     assert_eq!(robot(&format!("\u{feff}{GOOD}")), robot(GOOD));

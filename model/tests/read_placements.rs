@@ -71,6 +71,30 @@ fn what_moves_nothing_is_none() {
     assert_eq!(write(&said), write(&robot("")));
 }
 
+/// A scene's payload is given in the frame that the file says, moved and turned: by
+/// Rz(π/2), x′ = −y and y′ = x.
+#[test]
+fn payloads_have_a_frame() {
+    let read = |frame: &str, payload: &str| {
+        let scene = format!("[scene.pick]\npayload = {{ mass = 2, {payload} }}\n");
+        let text = format!("{}{scene}", file(frame));
+        let reading = parse(&text, &Options::default()).unwrap();
+        let robot = reading.scenes[0].apply(&reading.robot);
+        (reading, robot)
+    };
+    let frame = "payload_frame = { xyz = [1, 2, 3], rpy = [0, 0, \"pi/2\"] }";
+    let own = "com = [0.1, 0.2, 0.3], inertia = [0.02, 0.03, 0.04, 0.001, 0.002, 0.003]";
+    let (reading, carrying) = read(frame, own);
+    let moved = "com = [0.8, 2.1, 3.3], inertia = [0.03, 0.02, 0.04, -0.001, 0.003, -0.002]";
+    let (plain, expected) = read("", moved);
+    assert_eq!(carrying.joints, expected.joints);
+    // The file that says the same keeps both, and is another robot's.
+    assert!(write(&reading.robot).contains(frame));
+    let again = parse(&write(&reading.robot), &Options::default()).unwrap();
+    assert_eq!(again.robot, reading.robot);
+    assert_ne!(reading.robot.input_hash(), plain.robot.input_hash());
+}
+
 #[test]
 fn errors_say_where_and_what() {
     let text = errors(

@@ -2,7 +2,7 @@
 //! round through the canonical text.
 
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::read::{Options, Severity, parse, parse_bytes};
+use dalembert_model::read::{Doubt, Options, Severity, parse, parse_bytes};
 use dalembert_model::robot::{Convention, Inertia, JointKind, Position, Robot, write};
 use num_traits::ToPrimitive;
 
@@ -175,4 +175,28 @@ fn files_agree_with_their_sources() {
             assert!(joint.theta.quarter_turns().is_some());
         }
     }
+}
+
+/// None of the robots that are checked in is odd in a way that its file does not know.
+#[test]
+fn known_robots_are_not_far_off() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let mut seen = 0;
+    for folder in ["generated/robots", "gallery/robots", "model/tests/data"] {
+        let entries = std::fs::read_dir(format!("{root}/{folder}")).unwrap();
+        for path in entries.map(|entry| entry.unwrap().path()) {
+            if path.extension().is_none_or(|extension| extension != "toml") {
+                continue;
+            }
+            let source = std::fs::read_to_string(&path).unwrap();
+            let Ok(reading) = parse(&source, &Options::default()) else {
+                continue;
+            };
+            seen += 1;
+            let mut doubts = reading.notes.iter().filter_map(|note| note.doubt);
+            let far = |doubt: &Doubt| matches!(doubt, Doubt::LargeInertia | Doubt::LargeWidth);
+            assert_eq!(doubts.find(far), None, "{}", path.display());
+        }
+    }
+    assert!(seen > 25, "{seen}");
 }

@@ -2,7 +2,7 @@
 
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::outputs::Function;
-use dalembert_model::read::{Options, parse};
+use dalembert_model::read::{Doubt, Options, parse};
 use dalembert_model::robot::{Position, Severity};
 use dalembert_model::scene::{Float, Scale, Scene, write};
 
@@ -224,7 +224,28 @@ fn mistakes() {
             "outputs = [\"a=gravity+inertia\", \"a=gravity+jacobian\"]",
             "`a` is in the list already",
         ),
-        (2, "velocity = 0", "expected \"zero\""),
+        (
+            2,
+            "velocity = 0",
+            "velocity = \"zero\" for an arm without any",
+        ),
+        (
+            2,
+            "acceleration = [1, 1, 1]",
+            "box = { acceleration = [1, …] }",
+        ),
+        (2, "lock = \"wrist\"", "lock = { wrist = 0 }"),
+        (2, "lock = 3", "lock = { wrist = 0 }"),
+        (
+            2,
+            "box = { velocity = [\"120deg\", 1, 1] }",
+            "in rad/s, as a number: write 2.0944",
+        ),
+        (
+            2,
+            "outputs = [\"hold = inertia + gravity\", \"servo = hold + jacobian\"]",
+            "`hold` is a bundle itself (bundles do not nest: write its parts, inertia + gravity)",
+        ),
         (
             2,
             "payload = { mass = -1, com = [0, 0, 0] }",
@@ -407,6 +428,21 @@ fn a_tolerance_of_one_or_more() {
         assert_eq!(read(value), Some((Severity::Warning, line)), "{value}");
     }
     assert_eq!(read("0.999"), None);
+}
+
+/// A payload's inertia in kg·mm² is far beyond the arm.
+#[test]
+fn a_payload_in_other_units() {
+    let scene = "payload = { mass = 2, com = [0, 0, 0.1], inertia = [4e4, 4e4, 4e4, 0, 0, 0] }";
+    let source = format!("{ROBOT}[scene.a]\n{scene}\n");
+    let notes = parse(&source, &Options::default()).unwrap().notes;
+    let note = notes
+        .iter()
+        .find(|note| note.doubt == Some(Doubt::LargeInertia));
+    let note = note.expect("a warning");
+    assert_eq!(note.line, ROBOT.lines().count() + 2);
+    let help = note.help.as_deref().unwrap_or_default();
+    assert!(help.contains("write 0.04 for 40000"), "{help}");
 }
 
 /// Everything at once.

@@ -68,6 +68,12 @@ pub fn run(args: &NewArgs) -> Outcome {
 fn crate_name(folder: &Path) -> Result<String, Failure> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     match suggested_name(&name) {
+        Some(good) if good == name && texts::DEPENDENCIES.contains(&good.as_str()) => {
+            Err(Failure::Input(format!(
+                "error: a crate `{name}` cannot depend on the crate `{name}`, and a new one does\n  \
+                 = help: write \"my_{name}\""
+            )))
+        }
         Some(good) if good == name => Ok(good),
         suggested => {
             let help = suggested.map_or_else(

@@ -27,6 +27,9 @@ inertia = [0, \"1/12\", \"1/12\", 0, 0, 0]
 limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque = 30 }
 ";
 
+/// The crates that the new one depends on.
+pub(super) const DEPENDENCIES: [&str; 2] = ["dalembert", "nalgebra"];
+
 /// Cargo.toml. It is a workspace of its own, wherever it is put.
 pub(super) fn manifest(name: &str, dependency: &str) -> String {
     format!(

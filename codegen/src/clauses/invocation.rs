@@ -12,7 +12,7 @@ use dalembert_model::read::closest;
 use super::errors::Errors;
 use super::list;
 use super::messages as m;
-use super::statement::{self, Pair, pairs, trees};
+use super::statement::{self, Pair, pairs_of, trees};
 use crate::backend::Entries;
 use crate::emit::Interface;
 use crate::function::Function;
@@ -173,7 +173,26 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
         }
         None => trees.len(),
     };
-    pairs(&trees[..end], ';', errors)
+    pairs_of(&trees[..end], ';', may_stand, errors)
+}
+
+/// What may stand behind a clause's name, for who wrote nothing there.
+fn may_stand(clause: &str) -> String {
+    match clause {
+        "outputs" => list::known::<Function>(),
+        "scalar" => list::known::<ScalarType>(),
+        "formulation" => list::known::<Start>(),
+        "effort" => list::known::<Effort>(),
+        "prefer" => list::known::<Prefer>(),
+        "sincos" => list::known::<SinCos>(),
+        "entries" => list::known::<Entries>(),
+        "interface" => list::known::<Interface>(),
+        "parameters" => list::known::<RuntimeParameter>(),
+        "sincos_error" => m::SINCOS_ERROR.help.to_owned(),
+        "scene" => m::SCENE_CLAUSE.help.to_owned(),
+        "crate" => m::CRATE_PATH.help.to_owned(),
+        _ => String::new(),
+    }
 }
 
 impl Invocation {

@@ -1,7 +1,7 @@
 //! Lists of words, and of outputs, where a bundle is an item too:
 //! `gravity, servo = inverse_dynamics + jacobian`.
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens;
 
 use dalembert_model::read::for_bundle;
@@ -16,7 +16,7 @@ use crate::function::{BundleError, Function};
 /// unknown one counts as the one that was probably meant, so that its users are
 /// not told that it is missing.
 pub(super) fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
-    read(value, W::WHAT, errors, |item, errors| known(item, errors))
+    read::<W, W>(value, errors, |item, _, errors| meant(item, errors))
 }
 
 /// One word.
@@ -32,19 +32,25 @@ pub(super) fn word<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Option<
 /// Outputs with commas between, as [`words`]; some may be bundles of others.
 pub(super) fn outputs(value: &[TokenTree], errors: &mut Errors) -> Vec<(Function, TokenStream)> {
     let sign = |tree: &TokenTree| is_punct(tree, '=') || is_punct(tree, '+');
-    read(value, Function::WHAT, errors, |item, errors| {
+    read::<Function, Function>(value, errors, |item, before, errors| {
         match item.iter().any(sign) {
-            true => bundle(item, errors),
-            false => known(item, errors),
+            true => bundle(item, before, errors),
+            false => meant(item, errors),
         }
     })
 }
 
-fn read<T>(
+/// Every word that there is of a kind.
+pub(super) fn known<W: Word>() -> String {
+    let words: Vec<&str> = W::all().into_iter().map(|(word, _)| word).collect();
+    format!("known: {}", words.join(", "))
+}
+
+/// The items of a list of words of a kind, each read with those before it.
+fn read<W: Word, T>(
     value: &[TokenTree],
-    what: &str,
     errors: &mut Errors,
-    mut one: impl FnMut(&[TokenTree], &mut Errors) -> Option<T>,
+    mut one: impl FnMut(&[TokenTree], &[(T, TokenStream)], &mut Errors) -> Option<T>,
 ) -> Vec<(T, TokenStream)> {
     let mut read = Vec::new();
     let list = match value {
@@ -53,24 +59,27 @@ fn read<T>(
     };
     let inner = list.map(|list| trees(list.stream()));
     if let (Some(list), Some([])) = (list, inner.as_deref()) {
-        errors.push(list, &m::NO_VALUE);
+        errors.say(list, m::NO_VALUE.text, &known::<W>());
     }
     let value = inner.as_deref().unwrap_or(value);
+    // The comma that an item ends before.
+    let mut comma = 0;
     for item in statement::items(value) {
+        let before = comma + item.len();
+        comma = before + 1;
         if item.is_empty() {
-            let at = value.first().map(ToTokens::to_token_stream);
-            let text = format!("expected the word for the {what}");
-            errors.say(at.unwrap_or_default(), &text, "");
+            let text = format!("expected the word for the {} before this comma", W::WHAT);
+            errors.say(value.get(before), &text, "one comma between two words");
             continue;
         }
-        let found = one(item, errors);
+        let found = one(item, &read, errors);
         read.extend(found.map(|found| (found, tokens(item))));
     }
     read
 }
 
 /// The value of a word, or of the word that was probably meant.
-fn known<W: Word>(item: &[TokenTree], errors: &mut Errors) -> Option<W> {
+fn meant<W: Word>(item: &[TokenTree], errors: &mut Errors) -> Option<W> {
     match item {
         [TokenTree::Ident(ident)] => match words::parse(&ident.to_string()) {
             Ok(value) => Some(value),
@@ -91,7 +100,11 @@ fn known<W: Word>(item: &[TokenTree], errors: &mut Errors) -> Option<W> {
 }
 
 /// `name = output + output`
-fn bundle(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
+fn bundle(
+    item: &[TokenTree],
+    before: &[(Function, TokenStream)],
+    errors: &mut Errors,
+) -> Option<Function> {
     let (name, parts) = match item {
         [TokenTree::Ident(name), equals, parts @ ..] if is_punct(equals, '=') => (name, parts),
         _ => {
@@ -104,10 +117,17 @@ fn bundle(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
             return None;
         }
     };
+    let said = errors.len();
+    let before: Vec<Function> = before.iter().map(|(output, _)| *output).collect();
     let mut read = Vec::new();
     for part in parts.split(|tree| is_punct(tree, '+')) {
         match part {
-            [TokenTree::Ident(_)] => read.extend(known(part, errors).map(|output| (output, part))),
+            [TokenTree::Ident(word)] if nested(word, &before).is_some() => {
+                if let Some(error) = nested(word, &before) {
+                    errors.say(word, &error.message(), &error.help());
+                }
+            }
+            [TokenTree::Ident(_)] => read.extend(meant(part, errors).map(|output| (output, part))),
             [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_PLUS),
             [] => errors.push(tokens(item), &m::NO_PART),
             _ => errors.push(tokens(part), &m::NO_PART),
@@ -116,8 +136,8 @@ fn bundle(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
     let made = Function::bundle(&name.to_string(), read.iter().map(|(output, _)| *output));
     match made {
         Ok(bundle) => Some(bundle),
-        // What is missing from the list was said already.
-        Err(BundleError::Few(_)) if !errors.is_empty() => None,
+        // What is missing from the bundle was said already.
+        Err(BundleError::Few(_)) if errors.len() > said => None,
         Err(error) => {
             let of = |wrong: &Function| {
                 let mut parts = read.iter().rev();
@@ -135,6 +155,12 @@ fn bundle(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
             None
         }
     }
+}
+
+/// Why a word is no part: it is a bundle before this one.
+fn nested(word: &Ident, before: &[Function]) -> Option<BundleError> {
+    let error = BundleError::Unknown(word.to_string()).among(before);
+    matches!(error, BundleError::Nested(_)).then_some(error)
 }
 
 /// Whether words are added in it, and nothing else.

@@ -69,7 +69,7 @@ pub(super) const CRATE_RELATIVE: Message = message(
 );
 pub(super) const NO_ITEM: Message = message(
     "expected `key: value;`, `joint { … }` or `scene NAME { … }`",
-    "a robot has: convention, gravity, base, tool, allow, joint, scene",
+    "a robot has: convention, gravity, base, tool, payload_frame, allow, joint, scene",
 );
 pub(super) const SCENE_NAME: Message = message(
     "expected the scene's name after `scene`",

@@ -17,6 +17,16 @@ pub(super) struct Pair {
 
 /// Reads pairs. A key that is there twice counts the first time.
 pub(super) fn pairs(trees: &[TokenTree], separator: char, errors: &mut Errors) -> Vec<Pair> {
+    pairs_of(trees, separator, |_| String::new(), errors)
+}
+
+/// The same where somebody knows what may stand behind a key.
+pub(super) fn pairs_of(
+    trees: &[TokenTree],
+    separator: char,
+    may_stand: impl Fn(&str) -> String,
+    errors: &mut Errors,
+) -> Vec<Pair> {
     let mut pairs: Vec<Pair> = Vec::new();
     let mut rest = trees;
     while let Some((first, after)) = rest.split_first() {
@@ -35,7 +45,7 @@ pub(super) fn pairs(trees: &[TokenTree], separator: char, errors: &mut Errors) -
         let after = colon(key, after, separator, errors);
         let (value, next) = after.split_at(length(after, separator));
         if value.is_empty() {
-            errors.push(key, &m::NO_VALUE);
+            errors.say(key, m::NO_VALUE.text, &may_stand(&key.to_string()));
         }
         if let Some(TokenTree::Ident(next)) = next.first() {
             wanted(next, separator, errors);

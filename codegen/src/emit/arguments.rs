@@ -6,7 +6,7 @@ use std::fmt::Write;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
-use super::figures::decimal;
+use super::figures::{decimal, placed};
 use crate::backend::function::{LOAD, PAYLOAD};
 use crate::function::{Argument, Function};
 use crate::program::ScalarType;
@@ -33,11 +33,18 @@ pub(super) fn types(setting: &Setting, scalar: ScalarType) -> String {
     let sizes = setting.sizes(Function::Load);
     let [payload, load] = [Argument::Payload, Argument::Load].map(|a| a.length(sizes));
     let n = setting.joints().len();
+    let frame = match setting.robot().payload_frame.as_ref() {
+        None => format!("that of joint {n} in the table"),
+        Some(frame) => {
+            let at = placed(frame);
+            format!("which is in that of joint {n} in the table\n/// at {at}")
+        }
+    };
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "/// A body that is fixed to the last link, beside what the robot file has there: its mass in kg;\n\
-         /// x, y and z of its centre of mass in m, in the last link's frame, that of joint {n} in the table\n\
+         /// x, y and z of its centre of mass in m, in the last link's frame, {frame}\n\
          /// (a tool's pose moves poses and Jacobians only); and its inertia tensor about the centre of\n\
          /// mass in kg·m², in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the\n\
          /// matrix. All zero: nothing is carried.\n\

@@ -53,6 +53,13 @@ pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
     dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
+/// Where a frame is in another.
+pub(super) fn placed(placement: &dalembert_model::robot::Placement) -> String {
+    let xyz = placement.xyz.each_ref().map(decimal).join(", ");
+    let rpy = placement.rpy.each_ref().map(ToString::to_string).join(", ");
+    format!("xyz ({xyz}) m, rpy ({rpy})")
+}
+
 /// Three digits, not below: what is read off is a bound too.
 pub fn bound(x: f64) -> String {
     bound_of(x, 3)

@@ -2,10 +2,10 @@
 
 use std::fmt::{Display, Write};
 
-use dalembert_model::robot::{Convention, JointKind, Placement, Robot};
+use dalembert_model::robot::{Convention, JointKind, Robot};
 
 use super::escape::escaped;
-use super::figures::decimal;
+use super::figures::{decimal, placed};
 use super::friction;
 use super::scene::describe;
 use super::state_box::StateBox;
@@ -332,12 +332,6 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
 }
 
 /// A placement as a header has it.
-fn placed(placement: &Placement) -> String {
-    let xyz = placement.xyz.each_ref().map(decimal).join(", ");
-    let rpy = placement.rpy.each_ref().map(ToString::to_string).join(", ");
-    format!("xyz ({xyz}) m, rpy ({rpy})")
-}
-
 fn function_doc(
     generated: &GeneratedFunction,
     setting: &Setting,

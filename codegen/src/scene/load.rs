@@ -91,7 +91,10 @@ impl Setting {
         let robot = self.robot();
         let rows = robot.joints.iter();
         let rows = rows.flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
-        let frames = robot.base.iter().chain(&robot.tool);
+        let frames = robot
+            .placements()
+            .into_iter()
+            .filter_map(|(.., frame)| frame);
         let frames = frames.flat_map(|Placement { rpy, .. }| rpy);
         let locks = self.scene().into_iter().flat_map(|scene| &scene.lock);
         let locks = locks.filter_map(|(_, at)| match at {

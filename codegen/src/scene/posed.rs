@@ -2,8 +2,9 @@
 //! a computation.
 
 use dalembert_model::equations::load::{Loading, carried};
+use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::equations::{Arm, Formulation, exact_pose};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, RuntimeParameter};
 use dalembert_model::scalar::{Divide, Scalar};
@@ -45,16 +46,12 @@ impl Setting {
             arm = arm.with_gravity(&[0, 1, 2].map(entry));
         }
         if self.takes(function, RuntimeParameter::Payload) || function == Function::Load {
-            let payload = self.payload(&mut input);
             if function == Function::Load {
-                let rows = self.load().map_or(&[][..], |load| &load.rows);
-                let rows = rows.iter().map(|row| row.map(&mut constant));
-                motion.loading = Some(Loading {
-                    rows: rows.collect(),
-                    payload,
-                });
+                motion.loading = Some(self.loading(&mut input, &mut constant));
             } else {
-                arm = arm.with_link(carried(&payload));
+                let frame = self.payload_frame(&mut constant);
+                let link = carried(&self.payload(&mut input), frame.as_ref());
+                arm = arm.with_link(link);
                 motion = motion.with_still_link();
                 joints.push(joints.len());
             }
@@ -78,14 +75,29 @@ impl Setting {
     pub fn load_of<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
-        mut constant: impl FnMut(&Exact) -> S,
+        constant: impl FnMut(&Exact) -> S,
     ) -> Vec<S> {
+        self.loading(input, constant).load()
+    }
+
+    /// A payload, and what turns it into a load.
+    fn loading<S: Scalar>(
+        &self,
+        input: impl FnMut(Input) -> S,
+        mut constant: impl FnMut(&Exact) -> S,
+    ) -> Loading<S> {
         let rows = self.load().map_or(&[][..], |load| &load.rows);
-        let loading = Loading {
+        Loading {
             payload: self.payload(input),
             rows: rows.iter().map(|row| row.map(&mut constant)).collect(),
-        };
-        loading.load()
+            frame: self.payload_frame(constant),
+        }
+    }
+
+    /// The frame that payloads are given in, in the last link's, where it is another.
+    fn payload_frame<S>(&self, constant: impl FnMut(&Exact) -> S) -> Option<Columns<S>> {
+        let frame = self.robot().payload_frame.as_ref()?;
+        Some(exact_pose(frame).map(constant))
     }
 }
 

@@ -100,6 +100,7 @@ impl Draw {
             ],
             base: None,
             tool: None,
+            payload_frame: None,
             joints: (0..n).map(|_| self.joint()).collect(),
         }
     }

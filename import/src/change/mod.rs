@@ -164,7 +164,10 @@ impl fmt::Display for Change {
             Some(part) => write!(f, "≤ {} of the effort limits", upward(part)),
             None => {
                 let worst = self.torques(&self.limits).into_iter().fold(0.0, f64::max);
-                write!(f, "≤ {} N·m or N", upward(worst))
+                match worst == 0.0 {
+                    true => f.write_str("nothing"),
+                    false => write!(f, "≤ {} N·m or N", upward(worst)),
+                }
             }
         }
     }

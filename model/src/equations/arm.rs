@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::friction::{self, Coulomb};
+use super::friction::Friction;
 use super::matrix::{Columns, Vector, plus, zero_vector};
 use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::{Scalar, SinCosPair};
@@ -43,11 +43,9 @@ pub struct Link<S> {
     pub com: [S; 3],
     /// About the centre of mass, link axes.
     pub inertia: Inertia<S>,
-    /// Viscous damping b_i.
-    pub viscous: S,
-    /// Coulomb friction, of a joint that has it.
-    pub coulomb: Option<Coulomb<S>>,
-    /// SinCosPair inertia felt at the joint.
+    /// What the drive takes while the joint moves.
+    pub friction: Friction<S>,
+    /// Rotor inertia felt at the joint.
     pub armature: S,
 }
 
@@ -109,6 +107,24 @@ impl<S: Scalar> Arm<S> {
         self.links.push(link);
         self
     }
+
+    /// The same arm without friction.
+    #[must_use]
+    pub fn without_friction(mut self) -> Arm<S> {
+        for link in &mut self.links {
+            link.friction = Friction::none();
+        }
+        self
+    }
+
+    /// The same arm without Coulomb friction.
+    #[must_use]
+    pub fn without_coulomb(mut self) -> Arm<S> {
+        for link in &mut self.links {
+            link.friction.coulomb = None;
+        }
+        self
+    }
 }
 
 impl<S: Clone> Arm<S> {
@@ -116,23 +132,14 @@ impl<S: Clone> Arm<S> {
     /// Coulomb friction.
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Arm<S> {
-        let frictions = self.links.iter_mut().map(|link| &mut link.coulomb);
-        friction::at_speeds(frictions, per_speed);
+        for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
+            link.friction = link.friction.clone().at_speed(per_speed.as_ref());
+        }
         self
     }
 }
 
 impl<S: Scalar> Link<S> {
-    /// b_i + F_i r_i: what q̇_i is multiplied by.
-    pub fn damping(&self) -> S {
-        friction::damping(&self.viscous, self.coulomb.as_ref())
-    }
-
-    /// What friction grows by with the velocity: b_i + F_i w_i² r_i³.
-    pub fn damping_slope(&self) -> S {
-        friction::damping_slope(&self.viscous, self.coulomb.as_ref())
-    }
-
     /// A link without mass on a slide whose frame, at position zero, is the one
     /// before.
     pub fn still() -> Link<S> {
@@ -150,8 +157,7 @@ impl<S: Scalar> Link<S> {
             mass: S::zero(),
             com: zero_vector(),
             inertia: Inertia::symmetric(|_, _| S::zero()),
-            viscous: S::zero(),
-            coulomb: None,
+            friction: Friction::none(),
             armature: S::zero(),
         }
     }
@@ -187,8 +193,7 @@ impl<S> Link<S> {
             mass: f(&self.mass),
             com: self.com.each_ref().map(&mut f),
             inertia: self.inertia.map(&mut f),
-            viscous: f(&self.viscous),
-            coulomb: self.coulomb.as_ref().map(|own| own.map(&mut f)),
+            friction: self.friction.map(&mut f),
             armature: f(&self.armature),
         }
     }

@@ -39,10 +39,9 @@ pub enum Part {
 impl Part {
     /// The arm whose links have this alone; drives left out.
     pub fn of<S: Scalar>(self, arm: &Arm<S>) -> Arm<S> {
-        let mut arm = arm.clone();
+        let mut arm = arm.clone().without_friction();
         for link in &mut arm.links {
-            (link.armature, link.viscous) = (S::zero(), S::zero());
-            link.coulomb = None;
+            link.armature = S::zero();
             match self {
                 Part::Rotation => link.mass = S::zero(),
                 Part::Translation => link.inertia = link.inertia.map(|_| S::zero()),

@@ -40,7 +40,7 @@ impl Formulation {
             let mut rows = self.coriolis_matrix(arm, at, qd);
             for (i, (row, link)) in rows.iter_mut().zip(&arm.links).enumerate() {
                 row.iter_mut().for_each(|c| *c = twice(c));
-                row[i] = plus(&row[i], &link.damping_slope());
+                row[i] = plus(&row[i], &link.friction.slope());
             }
             return rows;
         }
@@ -88,7 +88,7 @@ pub fn by_velocity<S: Scalar>(
         velocity_terms(&moving_arm, &at, &qd)
     });
     for (i, link) in arm.links.iter().enumerate() {
-        rows[i][i] = plus(&rows[i][i], &link.damping_slope());
+        rows[i][i] = plus(&rows[i][i], &link.friction.slope());
     }
     rows
 }

@@ -96,7 +96,7 @@ impl Formulation {
             ),
         };
         let links = load.iter().zip(&arm.links).zip(v);
-        let damped = links.map(|((load, link), v)| plus(load, &times(&link.damping(), v)));
+        let damped = links.map(|((load, link), v)| plus(load, &link.friction.torque(v)));
         damped.collect()
     }
 

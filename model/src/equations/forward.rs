@@ -7,7 +7,7 @@ use super::articulated;
 use super::derivatives::columns;
 use super::energy::moving;
 use super::factor::{Factor, among, spread};
-use super::from_torques::{undamped, weightless};
+use super::from_torques::weightless;
 use super::matrix::{minus, negative, times, total, zeros};
 use super::{Arm, DhVariables, Formulation};
 use crate::scalar::dual::Dual;
@@ -55,7 +55,7 @@ pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> 
 fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
     let links = arm.links.iter().zip(qd);
     links
-        .map(|(link, qd)| match &link.coulomb {
+        .map(|(link, qd)| match &link.friction.coulomb {
             None => [S::zero(), S::zero()],
             Some(coulomb) => [coulomb.torque(qd), coulomb.slope()],
         })
@@ -94,7 +94,7 @@ impl Formulation {
             return inverted(&self.inertia(arm, at), moves);
         }
         let n = at.len();
-        let arm = undamped(&weightless(arm));
+        let arm = weightless(arm).without_friction();
         let row = |k: usize| {
             let mut tau = zeros(n);
             if moves[k] {
@@ -126,8 +126,8 @@ impl Formulation {
         let n = at.len();
         let rubbed = rubbed(arm, qd);
         let run = |rates: &[S], growth: &[S]| {
-            let (mut arm, at) = moving(arm, at, rates);
-            arm.links.iter_mut().for_each(|link| link.coulomb = None);
+            let (arm, at) = moving(arm, at, rates);
+            let arm = arm.without_coulomb();
             let grown = qd.iter().zip(growth).map(|(value, rate)| Dual {
                 value: value.clone(),
                 rate: rate.clone(),

@@ -19,7 +19,16 @@
 use super::matrix::{plus, times};
 use crate::scalar::{Divide, Scalar};
 
-/// Coulomb friction of a joint at the velocity that it has.
+/// Friction of a joint, at the velocity that it has.
+#[derive(Clone, Debug)]
+pub struct Friction<S> {
+    /// Viscous damping b_i.
+    pub viscous: S,
+    /// Coulomb friction, of a joint that has it.
+    pub coulomb: Option<Coulomb<S>>,
+}
+
+/// Coulomb friction of a joint, at the velocity that it has.
 #[derive(Clone, Debug)]
 pub struct Coulomb<S> {
     /// F_i, N·m or N.
@@ -36,56 +45,85 @@ pub fn per_speed<S: Divide>(qd: &S, square_of_width: &S, sqrt: impl Fn(&S) -> S)
     S::one().div(&sqrt(&qd.mul(qd).add(square_of_width)))
 }
 
-/// b + F r: what the velocity is multiplied by.
-pub(super) fn damping<S: Scalar>(viscous: &S, coulomb: Option<&Coulomb<S>>) -> S {
-    match coulomb {
-        None => viscous.clone(),
-        Some(Coulomb {
-            force, per_speed, ..
-        }) => plus(viscous, &times(force, per_speed)),
+impl<S: Scalar> Friction<S> {
+    /// Of a joint that moves freely.
+    pub fn none() -> Friction<S> {
+        Friction {
+            viscous: S::zero(),
+            coulomb: None,
+        }
+    }
+
+    /// b + F r: what the velocity is multiplied by.
+    pub fn damping(&self) -> S {
+        match &self.coulomb {
+            None => self.viscous.clone(),
+            Some(coulomb) => plus(&self.viscous, &coulomb.damping()),
+        }
+    }
+
+    /// (b + F r) q̇: what the drive takes at a velocity, N·m or N.
+    pub fn torque(&self, qd: &S) -> S {
+        times(&self.damping(), qd)
+    }
+
+    /// ∂((b + F r) q̇)/∂q̇ = b + F r (w r)²: what that grows by with the velocity.
+    pub fn slope(&self) -> S {
+        match &self.coulomb {
+            None => self.viscous.clone(),
+            Some(coulomb) => plus(&self.viscous, &coulomb.slope()),
+        }
     }
 }
 
-/// ∂((b + F r) q̇)/∂q̇ = b + F r (w r)².
-pub(super) fn damping_slope<S: Scalar>(viscous: &S, coulomb: Option<&Coulomb<S>>) -> S {
-    match coulomb {
-        None => viscous.clone(),
-        Some(coulomb) => plus(viscous, &coulomb.slope()),
+impl<S: Clone> Friction<S> {
+    /// The same at a velocity of which r is this, where there is Coulomb friction
+    /// that reads it and the velocity is known.
+    #[must_use]
+    pub fn at_speed(mut self, per_speed: Option<&S>) -> Friction<S> {
+        if let (Some(coulomb), Some(given)) = (&mut self.coulomb, per_speed) {
+            coulomb.per_speed = given.clone();
+        }
+        self
+    }
+}
+
+impl<S: Divide> Friction<S> {
+    /// r at a velocity; none where there is no Coulomb friction that reads it.
+    pub fn per_speed(&self, qd: &S, sqrt: impl Fn(&S) -> S) -> Option<S> {
+        let Coulomb { width, .. } = self.coulomb.as_ref()?;
+        Some(per_speed(qd, &width.mul(width), sqrt))
+    }
+}
+
+impl<S> Friction<S> {
+    /// Every number through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Friction<T> {
+        Friction {
+            viscous: f(&self.viscous),
+            coulomb: self.coulomb.as_ref().map(|own| Coulomb {
+                force: f(&own.force),
+                width: f(&own.width),
+                per_speed: f(&own.per_speed),
+            }),
+        }
     }
 }
 
 impl<S: Scalar> Coulomb<S> {
+    /// F r: the damping that it is at its velocity.
+    fn damping(&self) -> S {
+        times(&self.force, &self.per_speed)
+    }
+
     /// F r q̇, N·m or N.
     pub fn torque(&self, qd: &S) -> S {
-        times(&times(&self.force, &self.per_speed), qd)
+        times(&self.damping(), qd)
     }
 
     /// What it grows by with the velocity, F r (w r)².
     pub fn slope(&self) -> S {
         let part = times(&self.width, &self.per_speed);
-        times(&times(&self.force, &self.per_speed), &times(&part, &part))
-    }
-}
-
-impl<S> Coulomb<S> {
-    /// Every number through `f`.
-    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Coulomb<T> {
-        Coulomb {
-            force: f(&self.force),
-            width: f(&self.width),
-            per_speed: f(&self.per_speed),
-        }
-    }
-}
-
-/// Gives frictions the r of the velocities that joints have, where one is given.
-pub(super) fn at_speeds<'a, S: Clone + 'a>(
-    frictions: impl Iterator<Item = &'a mut Option<Coulomb<S>>>,
-    per_speed: &[Option<S>],
-) {
-    for (friction, given) in frictions.zip(per_speed) {
-        if let (Some(friction), Some(given)) = (friction, given) {
-            friction.per_speed = given.clone();
-        }
+        times(&self.damping(), &times(&part, &part))
     }
 }

@@ -1,6 +1,6 @@
 //! From a robot with exact parameters to an arm in any scalar.
 
-use super::friction::Coulomb;
+use super::friction::{Coulomb, Friction};
 use super::matrix::Columns;
 use super::{Arm, Link, SinCosPair};
 use crate::number::{Angle, Exact, Rational};
@@ -11,13 +11,8 @@ impl<S> Arm<S> {
     /// The arm of a robot, each exact parameter sent through `scalar`:
     /// rounding for floats, a constant for symbols, a residue for fields.
     pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
-        let exact = |placement| {
-            pose_of(placement, Exact::sincos, |x: &Rational| {
-                Exact::from(x.clone())
-            })
-        };
-        let base = robot.base.as_ref().map(exact);
-        let tool = robot.tool.as_ref().map(exact);
+        let base = robot.base.as_ref().map(exact_pose);
+        let tool = robot.tool.as_ref().map(exact_pose);
         // The robot has gravity in base axes, the equations in those of frame 0.
         let gravity = robot.gravity.each_ref().map(|g| Exact::from(g.clone()));
         let gravity = match &base {
@@ -47,12 +42,14 @@ impl<S> Arm<S> {
                 mass: number(&joint.mass),
                 com: [0, 1, 2].map(|axis| number(&joint.com[axis])),
                 inertia: joint.inertia.map(&mut number),
-                viscous: number(&joint.viscous),
-                coulomb: joint.has_coulomb().then(|| Coulomb {
-                    force: number(&joint.coulomb),
-                    width: number(&joint.coulomb_width),
-                    per_speed: number(&joint.coulomb_width.recip()),
-                }),
+                friction: Friction {
+                    viscous: number(&joint.viscous),
+                    coulomb: joint.has_coulomb().then(|| Coulomb {
+                        force: number(&joint.coulomb),
+                        width: number(&joint.coulomb_width),
+                        per_speed: number(&joint.coulomb_width.recip()),
+                    }),
+                },
                 armature: number(&joint.armature),
             }
         });
@@ -64,6 +61,11 @@ impl<S> Arm<S> {
             links: links.collect(),
         }
     }
+}
+
+/// [R | p] of a placement, exactly.
+pub fn exact_pose(placement: &Placement) -> Columns<Exact> {
+    pose_of(placement, Exact::sincos, |x| Exact::from(x.clone()))
 }
 
 /// [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll), from what its angles

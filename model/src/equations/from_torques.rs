@@ -32,7 +32,12 @@ pub fn velocity_terms<S: Scalar>(
     at: &[DhVariables<S>],
     qd: &[S],
 ) -> Vec<S> {
-    torques(&undamped(&weightless(arm)), at, qd, &zeros(qd.len()))
+    torques(
+        &weightless(arm).without_friction(),
+        at,
+        qd,
+        &zeros(qd.len()),
+    )
 }
 
 /// D a + C v + c without damping: C v is bilinear in q̇ and v, so h of half
@@ -48,7 +53,7 @@ pub fn passivity<S: Scalar>(
         let rates = qd.iter().zip(v);
         rates.map(|(qd, v)| halved(&combine(qd, v))).collect()
     };
-    let with = torques(&undamped(arm), at, &of(plus), a);
+    let with = torques(&arm.clone().without_friction(), at, &of(plus), a);
     let without = velocity_terms(torques, arm, at, &of(minus));
     let pairs = with.iter().zip(&without);
     pairs.map(|(with, without)| minus(with, without)).collect()
@@ -72,7 +77,7 @@ pub fn christoffel<S: Scalar>(
     at: &[DhVariables<S>],
 ) -> Vec<Vec<Vec<S>>> {
     let n = arm.links.len();
-    let arm = undamped(&weightless(arm));
+    let arm = weightless(arm).without_friction();
     let velocity_terms = |qd: &[S]| torques(&arm, at, qd, &zeros(n));
     let squares: Vec<Vec<S>> = (0..n).map(|k| velocity_terms(&unit(n, k))).collect();
     // [m][k], k < m: h(e_k + e_m)
@@ -109,13 +114,4 @@ pub(super) fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
         gravity: zero_vector(),
         ..arm.clone()
     }
-}
-
-/// The arm without friction.
-pub(super) fn undamped<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
-    let mut arm = arm.clone();
-    for link in &mut arm.links {
-        (link.viscous, link.coulomb) = (S::zero(), None);
-    }
-    arm
 }

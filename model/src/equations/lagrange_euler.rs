@@ -241,7 +241,7 @@ pub(super) fn assemble<S: Scalar>(
         .map(|i| {
             let inertial = total(d[i].iter().zip(qdd).map(|(d, qdd)| times(d, qdd)));
             let passive = plus(&h[i], &c[i]);
-            let damping = times(&arm.links[i].damping(), &qd[i]);
+            let damping = arm.links[i].friction.torque(&qd[i]);
             plus(&plus(&inertial, &passive), &damping)
         })
         .collect()

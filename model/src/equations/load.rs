@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use super::Link;
 use super::chain::Body;
-use super::matrix::{plus, times};
+use super::matrix::{Columns, plus, times};
 use super::regressor::LinkParameter;
 use crate::robot::Inertia;
 use crate::scalar::Scalar;
@@ -40,6 +40,8 @@ impl<S> LoadRow<S> {
 /// A payload, and the load that it is to an arm.
 #[derive(Clone, Debug)]
 pub struct Loading<S> {
+    /// The frame that the payload is given in, in the last link's.
+    pub frame: Option<Columns<S>>,
     /// [`PAYLOAD`] numbers: the mass, three of the centre of mass, six of the tensor
     /// about it.
     pub payload: Vec<S>,
@@ -50,7 +52,7 @@ pub struct Loading<S> {
 impl<S: Scalar> Loading<S> {
     /// The numbers of the load.
     pub fn load(&self) -> Vec<S> {
-        let body = Body::of(&carried(&self.payload));
+        let body = Body::of(&carried(&self.payload, self.frame.as_ref()));
         let row = |row: &LoadRow<S>| {
             let terms = row.of.iter();
             let terms = terms.map(|(parameter, factor)| times(factor, &parameter.of_body(&body)));
@@ -61,20 +63,27 @@ impl<S: Scalar> Loading<S> {
 }
 
 /// A payload as a link behind the last one that does not move: its frame is the
-/// last link's. Entries that are missing are zero.
-pub fn carried<S: Scalar>(payload: &[S]) -> Link<S> {
+/// last link's, in which the payload's own frame is placed. Entries that are missing
+/// are zero.
+pub fn carried<S: Scalar>(payload: &[S], frame: Option<&Columns<S>>) -> Link<S> {
     let entry = |index: usize| payload.get(index).cloned().unwrap_or_else(S::zero);
+    let com = [1, 2, 3].map(entry);
+    let inertia = Inertia {
+        xx: entry(4),
+        yy: entry(5),
+        zz: entry(6),
+        xy: entry(7),
+        yz: entry(8),
+        xz: entry(9),
+    };
+    let (com, inertia) = match frame {
+        None => (com, inertia),
+        Some(frame) => (frame.apply(&com, &S::one()), frame.turn_tensor(&inertia)),
+    };
     Link {
         mass: entry(0),
-        com: [1, 2, 3].map(entry),
-        inertia: Inertia {
-            xx: entry(4),
-            yy: entry(5),
-            zz: entry(6),
-            xy: entry(7),
-            yz: entry(8),
-            xz: entry(9),
-        },
+        com,
+        inertia,
         ..Link::still()
     }
 }

@@ -244,6 +244,15 @@ impl<S: Scalar> Columns<S> {
         sum(&self.rotate(a), &scaled(s, &self.origin))
     }
 
+    /// R T Rᵀ: a symmetric tensor of the last frame, in the axes of this one.
+    pub fn turn_tensor(&self, tensor: &Inertia<S>) -> Inertia<S> {
+        let half = tensor.rows().each_ref().map(|column| self.rotate(column));
+        // (R T) Rᵀ, row by row: T is symmetric, so its rows were its columns.
+        let row = |i: usize| [0, 1, 2].map(|k| half[k][i].clone());
+        let turned = [0, 1, 2].map(|i| self.rotate(&row(i)));
+        Inertia::symmetric(|i, k| turned[i][k].clone())
+    }
+
     /// Tr(M Nᵀ), the sum of the products of equal entries.
     pub fn trace_with(&self, other: &Self) -> S {
         let axes = self.axes.iter().zip(&other.axes);

@@ -15,7 +15,7 @@
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
-//! | [`Arm::from_robot`], [`pose_of`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
+//! | [`Arm::from_robot`], [`pose_of`], [`exact_pose`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
 //! | [`regressor`] | Y in τ = Y π of every formulation, the parameters that its columns are of |
 //! | [`load`] | what a payload adds to regrouped parameters |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
@@ -52,4 +52,4 @@ pub mod regressor;
 pub use crate::scalar::SinCosPair;
 pub use arm::{Arm, DhVariables, JointPosition, Link};
 pub use formulation::Formulation;
-pub use from_robot::pose_of;
+pub use from_robot::{exact_pose, pose_of};

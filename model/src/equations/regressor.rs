@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 
 pub use super::chain::Column;
 use super::chain::body::{Body, entry};
+use super::friction::Friction;
 use super::matrix::{minus, times, zero_vector, zeros};
 use super::{Arm, DhVariables, Formulation, Link};
 use crate::robot::{Inertia, Robot};
@@ -209,8 +210,7 @@ fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
         link.mass = S::zero();
         link.com = zero_vector();
         link.inertia = Inertia::symmetric(|_, _| S::zero());
-        link.viscous = S::zero();
-        link.coulomb = None;
+        link.friction = Friction::none();
         link.armature = S::zero();
     }
     empty

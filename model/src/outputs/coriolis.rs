@@ -55,11 +55,8 @@ impl Formula for Coriolis {
                 .torques(&still, &at.motion.qd, &rest, form.spin);
             return Some(torques);
         }
-        let mut still = chain.clone();
+        let mut still = chain.clone().without_friction();
         still.gravity = zero_vector();
-        for link in &mut still.links {
-            (link.viscous, link.coulomb) = (S::zero(), None);
-        }
         Some(still.inverse_dynamics(at.at, &at.motion.qd, &rest, form.spin, form.couple))
     }
 

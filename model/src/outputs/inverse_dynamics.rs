@@ -33,7 +33,7 @@ pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
     let torques = links.map(|(i, (link, torque))| {
         let drive = plus(
             &times(&link.armature, &qdd[i]),
-            &times(&link.damping(), &qd[i]),
+            &link.friction.torque(&qd[i]),
         );
         plus(&torque, &drive)
     });

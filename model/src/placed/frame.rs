@@ -62,19 +62,12 @@ pub fn moved(body: &Body, pose: &Columns<Wide>) -> Body {
     let origin = pose.origin.iter().map(|x| x.to_rational().abs());
     let size = lengths.chain(origin).sum::<Rational>();
 
-    let tensor = body.inertia.map(Wide::from_rational).rows();
-    // (R I) Rᵀ, column by column.
-    let columns: [Vector<Wide>; 3] =
-        core::array::from_fn(|k| core::array::from_fn(|i| tensor[i][k].clone()));
-    let half = columns.map(|column| pose.rotate(&column));
-    let row = |i: usize| core::array::from_fn(|k| half[k][i].clone());
-    let turned = |i: usize, k: usize| pose.rotate(&row(i))[k].clone();
+    let turned = pose.turn_tensor(&body.inertia.map(Wide::from_rational));
     let entries = body.inertia.rows();
     let moments: Rational = entries.iter().flatten().map(Signed::abs).sum();
-    let entry = |i: usize, k: usize| recovered(&turned(i, k), &moments);
     Body {
         com: com.each_ref().map(|x| recovered(x, &size)),
-        inertia: Inertia::symmetric(entry),
+        inertia: turned.map(|x| recovered(x, &moments)),
     }
 }
 

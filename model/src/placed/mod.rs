@@ -15,8 +15,9 @@
 //! there is one; of the two directions that it can have, it is the one in which
 //! θ_i is nearer to zero. Frame 0 is on the first axis, next to the origin of the
 //! base; the last frame is at the origin of the last link's own frame. What is
-//! left over at both ends are the robot's base and tool, so that poses are those
-//! of the frames which were given.
+//! left over at both ends are the robot's base, its tool and the frame of its
+//! payloads, so that poses are those of the frames which were given, and what the
+//! hand carries is given in the last link's own.
 //!
 //! Everything is computed with 256 bits and then recovered
 //! ([`recover`](crate::number::recover)): exact where the geometry is, rounded
@@ -39,7 +40,6 @@ mod row;
 
 use alloc::vec::Vec;
 
-use crate::equations::matrix::Columns;
 use crate::number::recover::recovered;
 use crate::number::{Rational, Wide};
 use crate::robot::{Placement, Robot};
@@ -59,17 +59,6 @@ pub struct Placed {
     pub axis: [Rational; 3],
 }
 
-/// The last link's own frame, seen from the last frame of the table.
-#[derive(Clone, Debug)]
-pub struct LastLink(Columns<Wide>);
-
-impl LastLink {
-    /// A body that is given in the last link's own frame, in the table's.
-    pub fn carried(&self, body: &Body) -> Body {
-        frame::moved(body, &self.0)
-    }
-}
-
 /// A joint's axis has no direction; the joint is counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoDirection(pub usize);
@@ -77,13 +66,13 @@ pub struct NoDirection(pub usize);
 /// Gives a robot whose joints are placed its DH rows.
 ///
 /// The robot's centres of mass and inertias are in the links' own frames, its
-/// tool in the last link's; its rows are not read. All of them are replaced,
-/// and so is the base. Where there are fewer placements than joints, or the
+/// tool and its frame of payloads in the last link's; its rows are not read. All of
+/// them are replaced, and so is the base. Where there are fewer placements than joints, or the
 /// other way round, the rest is left alone.
 ///
 /// # Errors
 /// [`NoDirection`], and then the robot is unchanged.
-pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<LastLink, NoDirection> {
+pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
     let steps = placed.iter().enumerate().map(|(joint, placed)| {
         let axis = frame::direction(&placed.axis).ok_or(NoDirection(joint))?;
         let link = frame::pose(&placed.placement);
@@ -95,7 +84,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<LastLink, NoDirect
     });
     let axes = steps.collect::<Result<Vec<row::Axis>, NoDirection>>()?;
     let Some(first) = axes.first() else {
-        return Ok(LastLink(Columns::identity()));
+        return Ok(());
     };
     let size = size(robot, placed);
 
@@ -127,18 +116,21 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<LastLink, NoDirect
         before = row.frame;
     }
     let last = frame::inverse(&before);
-    let tool = match &robot.tool {
-        None => last.clone(),
-        Some(tool) => last.then(&frame::pose(tool)),
-    };
-    robot.tool = frame::placement(&tool, &size).unless_identity();
-    Ok(LastLink(last))
+    for end in [&mut robot.tool, &mut robot.payload_frame] {
+        let pose = match &*end {
+            None => last.clone(),
+            Some(own) => last.then(&frame::pose(own)),
+        };
+        *end = frame::placement(&pose, &size).unless_identity();
+    }
+    Ok(())
 }
 
 /// What lengths are small against: the arm stretched out, or a metre if it has
 /// no length.
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
-    let ends = [&robot.base, &robot.tool].into_iter().flatten();
+    let ends = [&robot.base, &robot.tool, &robot.payload_frame];
+    let ends = ends.into_iter().flatten();
     let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
     let lengths = placements.flat_map(|placement| placement.xyz.iter());
     let total: Rational = lengths.map(num_traits::Signed::abs).sum();

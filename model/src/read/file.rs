@@ -14,17 +14,18 @@ use super::table::Keys;
 use super::value::{Context, first_line};
 use super::{Options, allow, guard, joint, placed, scene, syntax};
 use crate::number::Rational;
-use crate::placed::{LastLink, Placed};
-use crate::robot::{Convention, Joint, Place, Placement, Robot};
+use crate::placed::Placed;
+use crate::robot::{Convention, Finding, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
 
 /// The keys of a robot.
-const KEYS: [&str; 8] = [
+const KEYS: [&str; 9] = [
     "name",
     "convention",
     "gravity",
     "base",
     "tool",
+    "payload_frame",
     "allow",
     "joint",
     "scene",
@@ -52,8 +53,8 @@ pub(super) fn read<'s>(
         sink,
     };
     let mut places = Places::default();
-    let (robot, last) = robot(&mut cx, &mut places, &root)?;
-    for finding in robot.validate() {
+    let (robot, findings) = robot(&mut cx, &mut places, &root)?;
+    for finding in findings {
         if !places.was_read(finding.place) {
             continue;
         }
@@ -64,19 +65,14 @@ pub(super) fn read<'s>(
     let scenes = root.as_table().and_then(|table| table.get("scene"));
     // Without joints, every joint of a scene would be unknown as well.
     let scenes = scenes.filter(|_| !robot.joints.is_empty());
-    let mut scenes = scenes.map_or_else(Vec::new, |scenes| {
+    let scenes = scenes.map_or_else(Vec::new, |scenes| {
         scene::read(&mut cx, &robot, &places, scenes)
     });
-    if let Some(last) = &last {
-        for scene in &mut scenes {
-            placed::carry(scene, last);
-        }
-    }
     Some((robot, scenes))
 }
 
-/// The robot, and where its last link's own frame is if its joints are placed.
-fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Option<LastLink>)> {
+/// The robot, and what is wrong or odd about it beside what cannot be read.
+fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Vec<Finding>)> {
     let keys = Keys {
         table: cx.table(root, "")?,
         span: 0..0,
@@ -106,6 +102,7 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
 
     let base = placement(cx, places, &keys, "base", Place::Base);
     let tool = placement(cx, places, &keys, "tool", Place::Tool);
+    let payload_frame = placement(cx, places, &keys, "payload_frame", Place::PayloadFrame);
 
     let list = keys.require(
         "joint",
@@ -116,13 +113,14 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
     let read = list.and_then(|list| joints(cx, places, list));
     let read = places.keep(Place::Joints, span, read, Vec::new);
 
+    const WHICH: &str = "\"standard\" where joint i acts along z of frame i − 1, \"modified\" (Craig) where it acts along z of frame i";
     const CONVENTION: &str =
         "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a";
     let convention = match read.iter().any(|joint| joint.placed.is_some()) {
         true => placed::convention(cx, keys.get("convention")),
         false => keys
             .require("convention", CONVENTION, cx.sink)
-            .and_then(|value| cx.word(value, &Convention::WORDS))
+            .and_then(|value| cx.word_or(value, &Convention::WORDS, WHICH))
             .unwrap_or(Convention::Standard),
     };
     let (joints, placements) = read
@@ -135,10 +133,11 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
         gravity,
         base,
         tool,
+        payload_frame,
         joints,
     };
-    let last = placed::rows(cx, places, &mut robot, placements);
-    Some((robot, last))
+    let findings = placed::rows(cx, places, &mut robot, placements);
+    Some((robot, findings))
 }
 
 /// A `[[joint]]` table.

@@ -80,8 +80,9 @@ pub(super) fn read(
     let beta = fields.angle(Field::Beta);
     let a = fields.number(Field::A);
     let (d, theta) = fields.variable(kind);
-    let (mass, com) = fields.mass_and_com();
-    let inertia = fields.inertia();
+    let (mass, is_massless) = fields.mass();
+    let com = fields.com(is_massless);
+    let inertia = fields.inertia(is_massless);
     let joint = Joint {
         name,
         kind: kind.unwrap_or(JointKind::Revolute),
@@ -130,6 +131,16 @@ impl Fields<'_, '_, '_, '_, '_> {
         const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
         let given = self.keys.get("placement").or(self.keys.get("axis"))?;
         let span = first_line(self.cx.source, Context::span(given));
+        let row = ROW
+            .iter()
+            .find(|field| self.keys.get(field.key()).is_some());
+        if let (None, Some(row)) = (self.keys.get("placement"), row) {
+            let message = format!("`axis` beside `{}`, and no `placement`", row.key());
+            let help = "an axis belongs to a joint that is placed; in a DH table joints act along \
+                        z: leave `axis` out";
+            self.cx.sink.error(Context::span(given), message, help);
+            return None;
+        }
         for field in ROW {
             if let Some(value) = self.keys.get(field.key()) {
                 let message = format!("`{}` of a joint that is placed", field.key());
@@ -179,11 +190,13 @@ impl Fields<'_, '_, '_, '_, '_> {
     }
 
     /// The width of Coulomb friction; of one that cannot be read nothing is said
-    /// but that.
+    /// but that, and one that is missing is missing where the friction stands.
     fn coulomb_width(&mut self) -> Rational {
         let field = Field::CoulombWidth;
         let Some(value) = self.keys.get(field.key()) else {
-            return Rational::zero();
+            let coulomb = self.keys.get(Field::Coulomb.key());
+            let span = coulomb.map_or(self.keys.span.clone(), Context::span);
+            return self.keep_at(field, span, Some(Rational::zero()), Rational::zero);
         };
         let read = self.cx.number(value);
         self.keep(field, value, read, Rational::one)
@@ -226,31 +239,40 @@ impl Fields<'_, '_, '_, '_, '_> {
         }
     }
 
-    fn mass_and_com(&mut self) -> (Rational, [Rational; 3]) {
-        let zeros = || [(); 3].map(|()| Rational::zero());
+    /// The mass, and whether the file says that there is none.
+    fn mass(&mut self) -> (Rational, bool) {
         let help = "mass = 4.8, in kg; a link without mass has mass = 0";
         let value = self.keys.require("mass", help, self.cx.sink);
         let read = value.and_then(|value| self.cx.number(value));
-        let massless = read.as_ref().is_some_and(Zero::is_zero);
+        let is_massless = read.as_ref().is_some_and(Zero::is_zero);
         let span = value.map_or(self.keys.span.clone(), Context::span);
         let mass = self.keep_at(Field::Mass, span, read, Rational::zero);
+        (mass, is_massless)
+    }
 
+    /// The centre of mass; what has no mass has none.
+    fn com(&mut self, is_massless: bool) -> [Rational; 3] {
+        let zeros = || [(); 3].map(|()| Rational::zero());
         const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
         let value = match self.keys.get("com") {
-            None if massless => return (mass, zeros()),
+            None if is_massless => return zeros(),
             _ => self.keys.require("com", COM, self.cx.sink),
         };
         let read = value.and_then(|value| self.cx.array(value, COM, Context::number));
-        let com = match value {
+        match value {
             Some(value) => self.keep(Field::Com, value, read, zeros),
             None => zeros(),
-        };
-        (mass, com)
+        }
     }
 
-    fn inertia(&mut self) -> Inertia<Rational> {
-        let help = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²";
-        let Some(value) = self.keys.require("inertia", help, self.cx.sink) else {
+    /// The inertia; what has no mass has none unless the file says so.
+    fn inertia(&mut self, is_massless: bool) -> Inertia<Rational> {
+        const HELP: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
+        let value = match self.keys.get("inertia") {
+            None if is_massless => None,
+            _ => self.keys.require("inertia", HELP, self.cx.sink),
+        };
+        let Some(value) = value else {
             return Inertia::default();
         };
         let read = self.cx.inertia(value);
@@ -280,10 +302,21 @@ impl Fields<'_, '_, '_, '_, '_> {
         };
         Limits {
             position: inner.position(kind),
-            velocity: inner.limit(Field::Velocity),
-            acceleration: inner.limit(Field::Acceleration),
+            velocity: inner.rate(Field::Velocity, kind),
+            acceleration: inner.rate(Field::Acceleration, kind),
             torque: inner.limit(Field::Torque),
         }
+    }
+
+    /// A limit of velocity or acceleration: of a joint that turns in radians, as a
+    /// number.
+    fn rate(&mut self, field: Field, kind: Option<JointKind>) -> Option<Rational> {
+        let value = self.keys.get(field.key())?;
+        let read = match kind {
+            Some(JointKind::Revolute) => self.cx.rate(value, field.key()),
+            _ => self.cx.number(value),
+        };
+        Some(self.keep(field, value, read, Rational::zero))
     }
 
     fn limit(&mut self, field: Field) -> Option<Rational> {

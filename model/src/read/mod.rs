@@ -13,6 +13,7 @@
 //! ```toml
 //! base = { xyz = [0, 0, 0.8], rpy = ["pi", 0, 0] }    # frame 0 in base axes
 //! tool = { xyz = [0, 0, 0.107] }                      # the hand in the last frame
+//! payload_frame = { xyz = [0, 0, 0.05] }              # of payloads in the last frame
 //! allow = ["impossible_inertia"]                      # warnings that are known, by name
 //!
 //! [[joint]]                       # a joint without a row of the DH table:
@@ -27,7 +28,7 @@
 //! own without a `base`. A placement is where a frame is in the one before: moved
 //! by `xyz` metres, its axes turned by `rpy` about the fixed axes x, y and z, in
 //! this order, as in URDF. Joints are placed all or none; their `com` and
-//! `inertia`, the `tool` and a scene's payload are in the links' own frames, whose
+//! `inertia`, the `tool` and payloads are in the links' own frames, whose
 //! origins lie on the joints' axes. [`placed`](crate::placed) says which rows they
 //! get; `link_poses` are those of the rows' frames. A row may turn about y after
 //! its twist, `beta`, where axes are nearly parallel.

@@ -9,9 +9,8 @@ use toml_span::Value;
 
 use super::places::Places;
 use super::value::Context;
-use crate::placed::{Body, LastLink, Placed, derive};
-use crate::robot::{Convention, Field, Place, Robot};
-use crate::scene::Scene;
+use crate::placed::{Placed, derive};
+use crate::robot::{Convention, Field, Finding, Place, Placement, Robot, Severity};
 
 /// The convention where joints are placed: rows that are derived have one.
 pub(super) fn convention(cx: &mut Context, value: Option<&Value>) -> Convention {
@@ -25,13 +24,14 @@ pub(super) fn convention(cx: &mut Context, value: Option<&Value>) -> Convention 
 }
 
 /// Gives a robot its rows where all joints are placed; what is placed only in
-/// part is refused, with the joints' places in the file.
+/// part is refused, with the joints' places in the file. Returns what is wrong or odd
+/// about the robot: of joints that are placed, about what the file says of them.
 pub(super) fn rows(
     cx: &mut Context,
     places: &Places,
     robot: &mut Robot,
     joints: Vec<(Option<Placed>, Range<usize>)>,
-) -> Option<LastLink> {
+) -> Vec<Finding> {
     let placed = joints.iter().any(|(placed, _)| placed.is_some());
     let mut all = Vec::with_capacity(joints.len());
     for (index, (joint, span)) in joints.into_iter().enumerate() {
@@ -46,22 +46,19 @@ pub(super) fn rows(
         }
     }
     let read = |index: usize| places.was_read(Place::Joint(index, Field::Placement));
-    let ends = places.was_read(Place::Base) && places.was_read(Place::Tool);
+    let ends = robot.placements().map(|(place, ..)| place);
+    let ends = ends.into_iter().all(|place| places.was_read(place));
     let whole = !all.is_empty() && all.len() == robot.joints.len();
     if !whole || !ends || !(0..all.len()).all(read) {
-        return None;
+        return robot.validate();
     }
-    // Directions of length zero were refused where they stand.
-    derive(robot, &all).ok()
-}
-
-/// What a scene's hand carries, in the last frame of the table.
-pub(super) fn carry(scene: &mut Scene, last: &LastLink) {
-    if let Some(payload) = &mut scene.payload {
-        let moved = last.carried(&Body {
-            com: payload.com.clone(),
-            inertia: payload.inertia.clone(),
-        });
-        (payload.com, payload.inertia) = (moved.com, moved.inertia);
+    let placements: Vec<Placement> = all.iter().map(|own| own.placement.clone()).collect();
+    let mut findings = robot.validate_placed(&placements);
+    let is_error = |finding: &Finding| finding.severity == Severity::Error;
+    // Directions of length zero were refused where they stand, and then there is an
+    // error already. What is odd about a row that follows says nothing of the file.
+    if derive(robot, &all).is_ok() && !findings.iter().any(is_error) {
+        findings.extend(robot.validate().into_iter().filter(is_error));
     }
+    findings
 }

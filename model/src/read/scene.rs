@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -167,7 +167,7 @@ impl Reader<'_, '_, '_> {
         let items = self.list(value, HELP).unwrap_or_default();
         let mut outputs: Vec<Function> = Vec::new();
         for item in items {
-            let read = self.output(item);
+            let read = self.output(item, &outputs);
             let Some(output) = self.noted(read) else {
                 continue;
             };
@@ -189,7 +189,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// An output by its name, or a bundle of some.
-    fn output(&mut self, item: &Value) -> Option<Function> {
+    fn output(&mut self, item: &Value, before: &[Function]) -> Option<Function> {
         let words = Function::ALL.map(|function| (function.name(), function));
         let Some(text) = item.as_str().filter(|text| text.contains(['=', '+'])) else {
             return self.cx.word(item, &words);
@@ -197,6 +197,7 @@ impl Reader<'_, '_, '_> {
         match Function::parse(text) {
             Ok(bundle) => Some(bundle),
             Err(error) => {
+                let error = error.among(before);
                 let help = suggest::for_bundle(&error);
                 let span = Context::span(item);
                 self.cx.sink.error(span, error.message(), &help);
@@ -263,12 +264,12 @@ impl Reader<'_, '_, '_> {
     }
 
     fn lock(&mut self, keys: &Keys) -> Vec<(usize, Position)> {
-        const HELP: &str = "lock = { 4 = 0, elbow = \"pi/2\" }";
         let Some(value) = keys.get("lock") else {
             return Vec::new();
         };
         self.mark(Part::Lock(usize::MAX), value);
-        let table = self.cx.table(value, HELP);
+        let help = self.lock_of(value.as_str());
+        let table = self.cx.table(value, &help);
         let Some(table) = self.noted(table) else {
             return Vec::new();
         };
@@ -291,6 +292,24 @@ impl Reader<'_, '_, '_> {
         locks
     }
 
+    /// How a lock is written: of the joint with this name or number, if there is one.
+    fn lock_of(&self, word: Option<&str>) -> String {
+        let joints = self.robot.joints.iter().enumerate();
+        let names = joints.map(|(i, joint)| (format!("{}", i + 1), joint.name.as_deref()));
+        let names: Vec<(String, Option<&str>)> = names.collect();
+        let is_meant = |(number, name): &&(String, Option<&str>)| {
+            word.is_some() && (*name == word || Some(number.as_str()) == word)
+        };
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let key = |(number, name): &(String, Option<&str>)| match name {
+            Some(name) if name.chars().all(plain) => (*name).to_string(),
+            _ => number.clone(),
+        };
+        let meant = names.iter().find(is_meant).or(names.last());
+        let joint = meant.map_or_else(|| "1".to_string(), key);
+        format!("lock = {{ {joint} = 0 }}: each joint, by its name or number, with its position")
+    }
+
     /// An angle or a length, as the joint has it.
     fn position(&mut self, joint: usize, value: &Value) -> Option<Position> {
         match self.robot.joints.get(joint).map(|joint| joint.kind) {
@@ -307,7 +326,10 @@ impl Reader<'_, '_, '_> {
 
     fn zero(&mut self, keys: &Keys, key: &str) -> bool {
         let value = keys.get(key);
-        let read = value.and_then(|value| self.cx.word(value, &[("zero", ())]));
+        let help = format!(
+            "{key} = \"zero\" for an arm without any; a range goes into the box: box = {{ {key} = [1, …] }}"
+        );
+        let read = value.and_then(|value| self.cx.word_or(value, &[("zero", ())], &help));
         self.incomplete |= value.is_some() && read.is_none();
         read.is_some()
     }
@@ -355,13 +377,21 @@ impl Reader<'_, '_, '_> {
                     }
                 })
             }),
-            velocity: self.each(&inner, Field::Velocity, |reader, _, item| {
-                reader.cx.number(item)
+            velocity: self.each(&inner, Field::Velocity, |reader, joint, item| {
+                reader.rate(joint, item, "velocity")
             }),
-            acceleration: self.each(&inner, Field::Acceleration, |reader, _, item| {
-                reader.cx.number(item)
+            acceleration: self.each(&inner, Field::Acceleration, |reader, joint, item| {
+                reader.rate(joint, item, "acceleration")
             }),
         })
+    }
+
+    /// An entry of the box's velocities or accelerations.
+    fn rate(&mut self, joint: usize, item: &Value, what: &str) -> Option<Rational> {
+        match self.robot.joints.get(joint).map(|joint| joint.kind) {
+            Some(JointKind::Prismatic) => self.cx.number(item),
+            _ => self.cx.rate(item, what),
+        }
     }
 
     /// A list of the box: an entry a joint.

@@ -6,7 +6,7 @@ use alloc::string::String;
 use crate::outputs::{BundleError, Function};
 
 /// What other tools and textbooks call the same thing.
-const OTHER_WORDS: [(&str, &str); 33] = [
+const OTHER_WORDS: [(&str, &str); 32] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -16,7 +16,6 @@ const OTHER_WORDS: [(&str, &str); 33] = [
     ("i", "inertia"),
     ("b", "viscous"),
     ("damping", "viscous"),
-    ("friction", "viscous"),
     ("coulomb_friction", "coulomb"),
     ("dry_friction", "coulomb"),
     ("width", "coulomb_width"),
@@ -53,6 +52,24 @@ pub fn for_bundle(error: &BundleError) -> String {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => error.help(),
     }
+}
+
+/// Words for what has several keys: these, and what tells them apart.
+const SEVERAL: [(&str, &[&str], &str); 1] = [(
+    "friction",
+    &["viscous", "coulomb"],
+    "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both",
+)];
+
+/// What to write instead of a key that is not known, if that is one or several of
+/// these.
+pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
+    let has_all = |keys: &[&str]| keys.iter().all(|key| known.contains(key));
+    let mut several = SEVERAL.iter();
+    if let Some((.., help)) = several.find(|(other, keys, _)| *other == word && has_all(keys)) {
+        return Some((*help).into());
+    }
+    closest(word, known).map(|meant| format!("did you mean `{meant}`?"))
 }
 
 /// The candidate that `word` is most likely a slip of, if one is near.

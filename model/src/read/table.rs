@@ -50,10 +50,8 @@ impl<'v, 'de> Keys<'v, 'de> {
                 .copied()
                 .filter(|known| self.get(known).is_none())
                 .collect();
-            let help = match suggest::closest(&key.name, &free) {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => format!("{} has: {}", self.what, known.join(", ")),
-            };
+            let help = suggest::for_key(&key.name, &free);
+            let help = help.unwrap_or_else(|| format!("{} has: {}", self.what, known.join(", ")));
             let message = format!("unknown key {}", quote(&key.name));
             sink.error(key.span.start..key.span.end, message, &help);
         }

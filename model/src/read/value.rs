@@ -69,6 +69,26 @@ impl<'s> Context<'s, '_> {
         )
     }
 
+    /// A velocity or an acceleration of a joint that turns, called so: a number, and
+    /// of an angle the help says which.
+    pub(super) fn rate(&mut self, value: &Value, what: &str) -> Option<Rational> {
+        let text = value.as_str().unwrap_or_default();
+        let a_second = text.trim().trim_end_matches("/s²").trim_end_matches("/s");
+        if parse_decimal(a_second).is_err()
+            && let Ok(angle) = Angle::parse(a_second)
+        {
+            let radians = angle.to_f64();
+            let unit = match what {
+                "acceleration" => "rad/s²",
+                _ => "rad/s",
+            };
+            let help = format!("in {unit}, as a number: write {radians:.4}");
+            self.wanted(value, "a number", &help);
+            return None;
+        }
+        self.number(value)
+    }
+
     /// A part of something, without unit.
     pub(super) fn part(&mut self, value: &Value) -> Option<Rational> {
         self.number_of(
@@ -118,11 +138,11 @@ impl<'s> Context<'s, '_> {
             ValueInner::String(text) => match Angle::parse(text) {
                 Ok(angle) => Snap::near(angle),
                 Err(_) if parse_decimal(text.trim()).is_ok() => {
-                    self.wanted(
-                        value,
-                        "an angle",
-                        "write a number of radians without quotes",
+                    let number = text.trim();
+                    let help = format!(
+                        "of radians write {number} without quotes, of degrees \"{number}deg\""
                     );
+                    self.wanted(value, "an angle", &help);
                     return None;
                 }
                 Err(_) => {
@@ -183,11 +203,22 @@ impl<'s> Context<'s, '_> {
 
     /// One of a few words.
     pub(super) fn word<T: Copy>(&mut self, value: &Value, words: &[(&str, T)]) -> Option<T> {
+        self.word_or(value, words, "")
+    }
+
+    /// One of a few words; `which` says what they mean to whoever wrote none that is
+    /// like them.
+    pub(super) fn word_or<T: Copy>(
+        &mut self,
+        value: &Value,
+        words: &[(&str, T)],
+        which: &str,
+    ) -> Option<T> {
         let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
         let listed: Vec<String> = names.iter().map(|n| format!("\"{n}\"")).collect();
         let listed = listed.join(" or ");
         let Some(text) = value.as_str() else {
-            self.wanted(value, &listed, "");
+            self.wanted(value, &listed, which);
             return None;
         };
         if let Some((_, meaning)) = words.iter().find(|(name, _)| *name == text) {
@@ -198,7 +229,7 @@ impl<'s> Context<'s, '_> {
             None if text == "fixed" => {
                 "a joint that does not move is part of the link before it".to_string()
             }
-            None => String::new(),
+            None => which.to_string(),
         };
         self.wanted(value, &listed, &help);
         None

@@ -54,7 +54,7 @@ impl<T: Float> Reference<T> {
         let [v, a] = [self.values("v", v)?, self.values("a", a)?];
         let mut tau = from_torques::passivity(torques, &self.arm, &at, qd, [v, a]);
         for ((tau, link), v) in tau.iter_mut().zip(&self.arm_at(qd).links).zip(v) {
-            *tau = tau.add(&link.damping().mul(v));
+            *tau = tau.add(&link.friction.torque(v));
         }
         Ok(DVector::from_vec(tau))
     }

@@ -14,12 +14,16 @@ pub enum Doubt {
     LargeLength,
     /// A mass looks like grams.
     LargeMass,
+    /// An inertia looks like kg·mm².
+    LargeInertia,
     /// An angle looks like degrees.
     LargeAngle,
     /// A limit of position looks like degrees.
     LargeLimit,
     /// A limit of velocity looks like degrees or millimetres a second.
     LargeVelocity,
+    /// Coulomb friction is smoothed over all speeds that a joint reaches.
+    LargeWidth,
     /// An angle is near a multiple of π/2, but not near enough to be taken for it.
     NearRightAngle,
     /// A scene's box goes beyond the limits of a joint.
@@ -30,14 +34,16 @@ pub enum Doubt {
 
 impl Doubt {
     /// All of them with their names in robot files.
-    pub const WORDS: [(&'static str, Doubt); 10] = [
+    pub const WORDS: [(&'static str, Doubt); 12] = [
         ("impossible_inertia", Doubt::ImpossibleInertia),
         ("unusual_gravity", Doubt::UnusualGravity),
         ("large_length", Doubt::LargeLength),
         ("large_mass", Doubt::LargeMass),
+        ("large_inertia", Doubt::LargeInertia),
         ("large_angle", Doubt::LargeAngle),
         ("large_limit", Doubt::LargeLimit),
         ("large_velocity", Doubt::LargeVelocity),
+        ("large_width", Doubt::LargeWidth),
         ("near_right_angle", Doubt::NearRightAngle),
         ("box_beyond_limits", Doubt::BoxBeyondLimits),
         ("loose_tolerance", Doubt::LooseTolerance),

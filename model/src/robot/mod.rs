@@ -8,6 +8,7 @@
 //! - `findings`: what is said of a robot, and how much it matters
 //! - `doubt`: the names of warnings, by which a file silences them ([`Doubt`])
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
+//! - `reach`: how far an arm reaches, and inertias too large for that
 //! - `units`: sizes that were probably meant in another unit
 //! - `body`: which inertia tensors a body can have
 //! - [`values`]: numbers, angles and placements as robot files have them
@@ -18,6 +19,7 @@ mod doubt;
 mod findings;
 mod place;
 mod placement;
+pub(crate) mod reach;
 mod units;
 mod validate;
 pub mod values;
@@ -90,11 +92,28 @@ pub struct Robot {
     /// The hand in the last frame, unless it is that frame: what forward
     /// kinematics and Jacobians are of.
     pub tool: Option<Placement>,
+    /// The frame that payloads are given in, those of scenes and those at run time,
+    /// in the last frame, unless it is that frame. Of an arm by placements it is the
+    /// last link's own.
+    pub payload_frame: Option<Placement>,
     /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`].
     pub joints: Vec<Joint>,
 }
 
 impl Robot {
+    /// The placements that it may have, with the place and the key of each.
+    pub fn placements(&self) -> [(Place, &'static str, Option<&Placement>); 3] {
+        [
+            (Place::Base, "base", self.base.as_ref()),
+            (Place::Tool, "tool", self.tool.as_ref()),
+            (
+                Place::PayloadFrame,
+                "payload_frame",
+                self.payload_frame.as_ref(),
+            ),
+        ]
+    }
+
     /// The most joints a robot may have.
     pub const MAX_JOINTS: usize = 64;
     /// The longest name of a robot or a joint, in characters.
@@ -147,7 +166,7 @@ pub struct Joint {
     /// The speed w_i over which its sign is smoothed, rad/s or m/s: more than zero
     /// where a joint has Coulomb friction.
     pub coulomb_width: Rational,
-    /// SinCosPair inertia felt at the joint, added to D_ii, kg·m² or kg.
+    /// Rotor inertia felt at the joint, added to D_ii, kg·m² or kg.
     pub armature: Rational,
     /// Limits of motion and load, each optional.
     pub limits: Limits,

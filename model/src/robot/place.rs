@@ -14,6 +14,8 @@ pub enum Place {
     Base,
     /// The placement of the hand.
     Tool,
+    /// The placement of the frame of payloads.
+    PayloadFrame,
     /// The list of joints as a whole.
     Joints,
     /// A field of the joint with this zero-based index.
@@ -56,7 +58,7 @@ pub enum Field {
     Coulomb,
     /// Over which speeds its sign is smoothed.
     CoulombWidth,
-    /// SinCosPair inertia.
+    /// Rotor inertia.
     Armature,
     /// Range of positions, of the limits.
     Position,
@@ -103,6 +105,7 @@ impl fmt::Display for Place {
             Place::Gravity => f.write_str("gravity"),
             Place::Base => f.write_str("base"),
             Place::Tool => f.write_str("tool"),
+            Place::PayloadFrame => f.write_str("payload_frame"),
             Place::Joints => f.write_str("joints"),
             // People count joints from one, as the equations do.
             Place::Joint(index, field) => write!(f, "joint {}: {}", index + 1, field.key()),

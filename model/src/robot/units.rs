@@ -27,12 +27,12 @@ const MAX_VELOCITY: i64 = 100;
 /// From the Moon's gravity to Jupiter's, in m/s², with some room.
 const GRAVITY: [f64; 2] = [1.5, 30.0];
 
-fn whole(value: i64) -> Rational {
+pub(super) fn whole(value: i64) -> Rational {
     Rational::from_integer(value.into())
 }
 
 /// A number as the file would have it.
-fn shown(value: &Rational) -> String {
+pub(super) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
@@ -105,6 +105,32 @@ impl Findings {
             );
         }
         self.doubtful_limits(index, joint);
+        self.doubtful_width(index, joint);
+    }
+
+    /// Coulomb friction that is smoothed over every speed that there is.
+    fn doubtful_width(&mut self, index: usize, joint: &Joint) {
+        let width = &joint.coulomb_width;
+        let Some(limit) = &joint.limits.velocity else {
+            return;
+        };
+        if !joint.has_coulomb() || !limit.is_positive() || width < limit {
+            return;
+        }
+        let unit = match joint.kind {
+            JointKind::Revolute => "rad/s",
+            JointKind::Prismatic => "m/s",
+        };
+        self.doubt(
+            Doubt::LargeWidth,
+            Place::Joint(index, Field::CoulombWidth),
+            format!(
+                "the sign of Coulomb friction is smoothed over {} {unit}, and the joint reaches {}",
+                shown(width),
+                shown(limit)
+            ),
+            "at such speeds it is a damping: take a tenth of the slowest speed that matters",
+        );
     }
 
     fn doubtful_limits(&mut self, index: usize, joint: &Joint) {

@@ -14,7 +14,9 @@ use num_traits::{Signed, Zero};
 
 use super::body::Defect;
 use super::findings::{Finding, Findings};
-use super::{Convention, Doubt, Field, Joint, JointKind, Place, Placement, Position, Robot, units};
+use super::{
+    Convention, Doubt, Field, Joint, JointKind, Place, Placement, Position, Robot, reach, units,
+};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -25,13 +27,20 @@ impl Robot {
     /// Everything that is wrong or odd about the robot; without an error among
     /// it, every later stage accepts the robot.
     pub fn validate(&self) -> Vec<Finding> {
+        self.validate_placed(&[])
+    }
+
+    /// The same of a robot whose joints are placed, before it has rows: what is wrong
+    /// or odd about the numbers that somebody wrote, not about those that follow.
+    pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Finding> {
         let mut findings = Findings::default();
+        let reach = reach::reach(self, placed);
         findings.robot_name(&self.name);
         for value in &self.gravity {
             findings.size(Place::Gravity, value);
         }
         findings.doubtful_gravity(&self.gravity);
-        for (place, placement) in [(Place::Base, &self.base), (Place::Tool, &self.tool)] {
+        for (place, _, placement) in self.placements() {
             if let Some(placement) = placement {
                 findings.placement(place, placement);
                 findings.doubtful_placement(place, placement);
@@ -52,6 +61,12 @@ impl Robot {
         for (index, joint) in self.joints.iter().enumerate() {
             findings.joint(index, joint);
             findings.doubtful_joint(index, joint);
+            findings.doubtful_inertia(index, joint, &reach);
+            if let Some(placement) = placed.get(index) {
+                let place = Place::Joint(index, Field::Placement);
+                findings.placement(place, placement);
+                findings.doubtful_placement(place, placement);
+            }
             if self.convention == Convention::Modified && !joint.beta.is_zero() {
                 findings.error(
                     Place::Joint(index, Field::Beta),
@@ -185,7 +200,7 @@ impl Findings {
         } else if width.is_zero() {
             if joint.coulomb.is_positive() {
                 let message = "Coulomb friction without a `coulomb_width` above zero".to_owned();
-                self.error(at(Field::Coulomb), message, &help);
+                self.error(at(Field::CoulombWidth), message, &help);
             }
         } else if !WIDTHS.contains(&f64::nearest_rational(width)) {
             let message = "a coulomb_width too large or too small".to_owned();

@@ -30,7 +30,7 @@ pub fn write(robot: &Robot) -> String {
     };
     line(&mut text, "convention", convention);
     line(&mut text, "gravity", &list([x, y, z].map(number)));
-    for (key, value) in [("base", &robot.base), ("tool", &robot.tool)] {
+    for (_, key, value) in robot.placements() {
         if let Some(value) = value {
             line(&mut text, key, &placement(value));
         }

@@ -2,8 +2,9 @@
 
 use num_traits::Zero;
 
-use super::{Payload, Scene};
+use super::Scene;
 use crate::number::Rational;
+use crate::placed::{Body, frame};
 use crate::robot::{Inertia, Joint, Robot};
 
 impl Scene {
@@ -16,8 +17,17 @@ impl Scene {
         if let Some(gravity) = &self.gravity {
             robot.gravity = gravity.clone();
         }
+        let frame = robot.payload_frame.as_ref().map(frame::pose);
         if let (Some(payload), Some(last)) = (&self.payload, robot.joints.last_mut()) {
-            carry(last, payload);
+            let own = Body {
+                com: payload.com.clone(),
+                inertia: payload.inertia.clone(),
+            };
+            let body = match &frame {
+                None => own,
+                Some(frame) => frame::moved(&own, frame),
+            };
+            carry(last, &payload.mass, &body);
         }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
             let limits = &mut joint.limits;
@@ -33,14 +43,14 @@ impl Scene {
     }
 }
 
-/// Both bodies as one: with d between the centres of mass and
+/// A link and what is fixed to it, in the same frame, as one: with d between the centres of mass and
 /// μ = m₁m₂/(m₁ + m₂), I = I₁ + I₂ + μ (d·d 1 − d dᵀ).
-fn carry(link: &mut Joint, payload: &Payload) {
-    let total = &link.mass + &payload.mass;
+fn carry(link: &mut Joint, mass: &Rational, payload: &Body) {
+    let total = &link.mass + mass;
     let share = if total.is_zero() {
         Rational::zero()
     } else {
-        &payload.mass / &total
+        mass / &total
     };
     let reduced = &link.mass * &share;
     let d: [Rational; 3] = core::array::from_fn(|i| &payload.com[i] - &link.com[i]);

@@ -48,14 +48,15 @@ pub struct Scene {
     pub scalar: Option<Float>,
 }
 
-/// A body fixed to the last link.
+/// A body fixed to the last link, given in its own frame: in the robot's
+/// [`payload_frame`](crate::robot::Robot::payload_frame).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Payload {
     /// Mass, kg.
     pub mass: Rational,
-    /// Centre of mass in the last link's frame, m.
+    /// Centre of mass in that frame, m.
     pub com: [Rational; 3],
-    /// About its centre of mass, in the axes of the last link, kg·m².
+    /// About its centre of mass, in the axes of that frame, kg·m².
     pub inertia: Inertia<Rational>,
 }
 

@@ -19,7 +19,7 @@ use num_traits::Signed;
 use super::Scene;
 use crate::number::Rational;
 use crate::number::parse::write_decimal;
-use crate::robot::{Doubt, Field, Joint, JointKind, Position, Robot, Severity};
+use crate::robot::{Doubt, Field, Joint, JointKind, Position, Robot, Severity, reach};
 
 /// A part of a scene, so that a reader can say on which line it is. Indices
 /// are places in the scene's lists, zero-based.
@@ -222,6 +222,12 @@ impl<'a> Check<'a> {
             let message = "no body has this inertia".to_owned();
             let help = "about the payload's centre of mass: Ixx, Iyy, Izz, Ixy, Iyz, Ixz";
             self.say(Part::Payload(Field::Inertia), message, help);
+        }
+        let reach = reach::reach(self.robot, &[]);
+        let odd = reach::large_inertia(&payload.inertia, &payload.mass, &reach);
+        if let Some((message, help)) = odd {
+            let part = Part::Payload(Field::Inertia);
+            self.warn(Doubt::LargeInertia, part, message, &help);
         }
     }
 }

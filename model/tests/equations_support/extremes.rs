@@ -3,8 +3,10 @@
 
 use std::path::PathBuf;
 
+use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
+use dalembert_model::scalar::Scalar;
 use serde_json::Value;
 
 use super::golden::{numbers, triple};
@@ -58,7 +60,11 @@ fn texts(json: &Value) -> Vec<String> {
 impl Extreme {
     /// The arm in any scalar, from its float parameters and the pair of a
     /// float angle.
-    pub fn arm<S>(&self, number: impl Fn(f64) -> S, pair: impl Fn(f64) -> SinCosPair<S>) -> Arm<S> {
+    pub fn arm<S: Scalar>(
+        &self,
+        number: impl Fn(f64) -> S,
+        pair: impl Fn(f64) -> SinCosPair<S>,
+    ) -> Arm<S> {
         let robot = &self.robot;
         let column = |key: &str| numbers(&robot[key]);
         let [alpha, a, d, offset, mass] = ["alpha", "a", "d", "off", "m"].map(column);
@@ -92,8 +98,7 @@ impl Extreme {
                     yz: inertia(4),
                     xz: inertia(5),
                 },
-                viscous: number(0.0),
-                coulomb: None,
+                friction: Friction::none(),
                 armature: number(0.0),
             }
         };

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use serde_json::Value;
@@ -93,8 +94,7 @@ fn link(json: &Value) -> Link<f64> {
             yz: rows[1][2],
             xz: rows[0][2],
         },
-        viscous: 0.0,
-        coulomb: None,
+        friction: Friction::none(),
         armature: 0.0,
     }
 }

@@ -1,7 +1,7 @@
 //! Random general arms in the prime field: every parameter its own residue, so
 //! that no slip can hide behind a zero or a right angle.
 
-use dalembert_model::equations::friction::Coulomb;
+use dalembert_model::equations::friction::{Coulomb, Friction};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -77,13 +77,15 @@ fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
             yz: points.field(),
             xz: points.field(),
         },
-        viscous: points.field(),
-        // Any three numbers: what formulations agree on rests on no relation of them.
-        coulomb: Some(Coulomb {
-            force: points.field(),
-            width: points.field(),
-            per_speed: points.field(),
-        }),
+        friction: Friction {
+            viscous: points.field(),
+            // Any three numbers: what formulations agree on rests on no relation of them.
+            coulomb: Some(Coulomb {
+                force: points.field(),
+                width: points.field(),
+                per_speed: points.field(),
+            }),
+        },
         armature: points.field(),
     }
 }

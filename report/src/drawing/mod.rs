@@ -3,6 +3,7 @@
 //!
 //! - this file: what is drawn where
 //! - `view`: a projection onto the paper
+//! - `labels`: the numbers of joints at their axes
 //! - `outline`: the ellipse that a link's inertia is seen as
 //! - `page`: lines, texts and shapes as SVG
 //! - `table`: the DH rows, masses and centres as text
@@ -11,6 +12,7 @@
 //! Bodies that no link can have are named below the table. The same robot and position
 //! give the same bytes: sines are libm's, numbers have one decimal.
 
+mod labels;
 mod outline;
 mod page;
 mod table;
@@ -22,6 +24,7 @@ use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{Convention, JointKind, Robot};
 use nalgebra::DVector;
 
+use labels::Labels;
 use page::Page;
 pub use page::escaped;
 use view::View;
@@ -32,24 +35,24 @@ use view::View;
 /// The position has not one value a joint.
 pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
     let runtime = Reference::<f64>::from_robot(robot);
-    let q = DVector::from_column_slice(q);
-    let frames = runtime.poses(&q)?;
+    let at = DVector::from_column_slice(q);
+    let frames = runtime.poses(&at)?;
     let base = runtime.arm().base.clone();
     let first = base.unwrap_or_else(Columns::identity);
     let scene = Scene {
         robot,
-        hand: runtime.hand(&q)?,
+        hand: runtime.hand(&at)?,
         bodies: bodies(robot, &frames),
         axes: axes(robot, &first, &frames),
         first,
         frames,
     };
     let points = scene.points();
-    let mut page = Page::new(&robot.name, table::height(robot));
-    for view in View::both(&points) {
+    let mut page = Page::new(&robot.name, table::height(robot, q));
+    for view in View::both(&points, &scene.outlines()) {
         scene.draw(&view, &mut page);
     }
-    table::write(robot, &mut page);
+    table::write(robot, q, &mut page);
     Ok(page.end())
 }
 
@@ -117,6 +120,17 @@ impl Scene<'_> {
         points
     }
 
+    /// The corners of boxes around the bodies, for which the paper must have room.
+    fn outlines(&self) -> Vec<Vector<f64>> {
+        let solid = self.bodies.iter().filter(|body| body.mass > 0.0);
+        let boxes = solid.filter_map(|body| {
+            let half = outline::reach(body.mass, &body.inertia)?;
+            let corner = |sign: f64| core::array::from_fn(|k| body.centre[k] + sign * half[k]);
+            Some([corner(-1.0), corner(1.0)])
+        });
+        boxes.flatten().collect()
+    }
+
     fn draw(&self, view: &View, page: &mut Page) {
         view.head(page);
         let gravity = self.robot.gravity.each_ref().map(f64::nearest_rational);
@@ -136,6 +150,7 @@ impl Scene<'_> {
             .map(|frame| view.place(&frame.origin));
         page.chain(&origins.collect::<Vec<_>>());
         let reach = view.reach();
+        let mut labels = Labels::default();
         for (i, (axis, joint)) in self.axes.iter().zip(&self.robot.joints).enumerate() {
             let end = |by: f64| -> Vector<f64> {
                 core::array::from_fn(|k| axis.through[k] + by * axis.along[k])
@@ -149,8 +164,9 @@ impl Scene<'_> {
                 view.place(&end(0.12 * reach)),
             );
             page.arrow(class, from, to);
-            page.label(to, &(i + 1).to_string());
+            labels.add(to, i + 1);
         }
+        labels.write(page);
         view.triad(&Columns::identity(), 0.16, page);
         for frame in &self.frames {
             view.triad(frame, 0.06, page);

@@ -22,6 +22,15 @@ pub(super) fn seen(mass: f64, inertia: &[[f64; 3]; 3], view: &View) -> Option<El
     )
 }
 
+/// How far the ellipsoid goes from its centre along each axis of the base; none of
+/// what is no body.
+pub(super) fn reach(mass: f64, inertia: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
+    let half_trace = 0.5 * (inertia[0][0] + inertia[1][1] + inertia[2][2]);
+    let squares = [0, 1, 2].map(|k| 5.0 * (half_trace - inertia[k][k]) / mass);
+    let is_body = squares.iter().all(|square| square.is_finite());
+    is_body.then(|| squares.map(|square| libm::sqrt(square.max(0.0))))
+}
+
 /// From the block [[a, b], [b, c]].
 fn ellipse([a, b, c]: [f64; 3], scale: f64) -> Option<Ellipse> {
     let (mean, difference) = (0.5 * (a + c), 0.5 * (a - c));

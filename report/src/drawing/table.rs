@@ -7,28 +7,30 @@ use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 use super::page::{Page, ROW};
 
 /// The room that the table takes.
-pub(super) fn height(robot: &Robot) -> f64 {
-    ROW * (rows(robot).len() as f64 + 1.5)
+pub(super) fn height(robot: &Robot, q: &[f64]) -> f64 {
+    ROW * (rows(robot, q).len() as f64 + 1.5)
 }
 
 /// Writes it below the views.
-pub(super) fn write(robot: &Robot, page: &mut Page) {
-    for (index, row) in rows(robot).iter().enumerate() {
+pub(super) fn write(robot: &Robot, q: &[f64], page: &mut Page) {
+    for (index, row) in rows(robot, q).iter().enumerate() {
         page.row(index, row);
     }
 }
 
-fn rows(robot: &Robot) -> Vec<String> {
+fn rows(robot: &Robot, q: &[f64]) -> Vec<String> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
         Convention::Modified => "modified DH (Craig)",
     };
     let gravity = robot.gravity.each_ref().map(number).join(", ");
-    let mut rows = vec![format!(
-        "{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"
-    )];
-    for (what, end) in [("base", &robot.base), ("tool", &robot.tool)] {
-        rows.extend(end.as_ref().map(|end| placement(what, end)));
+    let at: Vec<String> = q.iter().map(|&q| short(q)).collect();
+    let mut rows = vec![
+        format!("{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"),
+        format!("drawn at q = ({})", at.join(", ")),
+    ];
+    for (_, what, end) in robot.placements() {
+        rows.extend(end.map(|end| placement(what, end)));
     }
     let head = [
         "joint",
@@ -108,6 +110,14 @@ fn angle(value: &Angle) -> String {
     match value.to_string() {
         text if text.len() <= 10 => text,
         _ => six(value.to_f64()),
+    }
+}
+
+/// A position as it was given, if that is short; six digits otherwise.
+fn short(value: f64) -> String {
+    match format!("{value}") {
+        text if text.len() <= 7 => text,
+        _ => six(value),
     }
 }
 

@@ -21,11 +21,14 @@ pub(super) struct View {
 
 /// Room around what is drawn, as a part of a view.
 const MARGIN: f64 = 0.16;
+/// Room around bodies.
+const EDGE: f64 = 0.02;
 
 impl View {
     /// The view from the front, x to the right and z upward, and from above, x to
-    /// the right and y upward.
-    pub(super) fn both(points: &[Vector<f64>]) -> [View; 2] {
+    /// the right and y upward. Both have room for what is drawn at the points, and
+    /// for the outlines of bodies.
+    pub(super) fn both(points: &[Vector<f64>], outlines: &[Vector<f64>]) -> [View; 2] {
         let range = |k: usize| {
             let values = || points.iter().map(move |point| point[k]);
             [
@@ -44,8 +47,17 @@ impl View {
         } else {
             1.0
         };
-        let scale = SIDE * (1.0 - 2.0 * MARGIN) / reach;
         let middle = |k: usize| 0.5 * (ranges[k][0] + ranges[k][1]);
+        let offsets = outlines.iter().flat_map(|corner| {
+            let offset = |k: usize| (corner[k] - middle(k)).abs();
+            [0, 1, 2].map(offset)
+        });
+        let furthest = offsets.fold(0.0, f64::max);
+        let scale = SIDE * (1.0 - 2.0 * MARGIN) / reach;
+        let scale = match furthest > 0.0 {
+            true => scale.min(SIDE * (0.5 - EDGE) / furthest),
+            false => scale,
+        };
         let view = |name, coordinates: [usize; 2], left: f64| View {
             name,
             coordinates,

@@ -113,6 +113,7 @@ pub fn chain(n: usize, seed: u64) -> Robot {
         gravity: [1.3, -2.1, -9.4].map(|x| Rational::new(((x * 10.0) as i64).into(), 10.into())),
         base: None,
         tool: None,
+        payload_frame: None,
         joints: (0..n.min(Robot::MAX_JOINTS)).map(joint).collect(),
     }
 }

@@ -72,6 +72,7 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
         gravity: triple(&robot.gravity)?,
         base: placement(&robot.base)?,
         tool: placement(&robot.tool)?,
+        payload_frame: placement(&robot.payload_frame)?,
         joints: robot.joints.iter().map(joint).collect::<Option<_>>()?,
         ..robot.clone()
     })

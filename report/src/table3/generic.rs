@@ -44,6 +44,7 @@ pub fn robot(n: usize) -> Robot {
         gravity,
         base: None,
         tool: None,
+        payload_frame: None,
         joints,
     }
 }

@@ -1,5 +1,6 @@
 //! What the formulas cost as they are written: run with the counting scalar.
 
+use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::{Convention, Inertia, JointKind, Robot};
@@ -35,8 +36,7 @@ pub fn generic(formulation: Formulation, n: usize) -> Pair {
             yz: value(),
             xz: value(),
         },
-        viscous: Count::Zero,
-        coulomb: None,
+        friction: Friction::none(),
         armature: Count::Zero,
     };
     let arm = Arm {

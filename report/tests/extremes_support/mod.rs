@@ -92,6 +92,7 @@ fn robot(json: &Value) -> Robot {
         gravity: [0, 1, 2].map(|axis| exact(gravity[axis])),
         base: None,
         tool: None,
+        payload_frame: None,
         joints: kinds.enumerate().map(joint).collect(),
     }
 }

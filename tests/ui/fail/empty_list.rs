@@ -16,4 +16,11 @@ dalembert::dynamics! {
     outputs: gravity,, inertia;
 }
 
+// What is wrong with one item hides nothing of the others.
+dalembert::dynamics! {
+    mod nothing = "robots/planar2r.toml";
+    outputs: gravity, other = gravty + jacobian, alone = inertia;
+    parameters: [];
+}
+
 fn main() {}

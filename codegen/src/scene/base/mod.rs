@@ -220,7 +220,7 @@ impl BaseParameters {
                 let own = match *parameter {
                     Parameter::Link(joint, own) => own.of(&arm.links[joint]),
                     Parameter::Armature(joint) => arm.links[joint].armature.clone(),
-                    Parameter::Viscous(joint) => arm.links[joint].viscous.clone(),
+                    Parameter::Viscous(joint) => arm.links[joint].friction.viscous.clone(),
                 };
                 own.mul(factor)
             });

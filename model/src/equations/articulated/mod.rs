@@ -68,7 +68,7 @@ pub fn forward_dynamics<S: Divide>(
         let (whole, whole_bias) = step.at_joint(whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
         let pivot = plus(&step.feels(&push), &link.armature);
-        let damped = minus(&tau[i], &times(&link.damping(), &qd[i]));
+        let damped = minus(&tau[i], &link.friction.torque(&qd[i]));
         let left = minus(&damped, &step.feels(&whole_bias));
         let inverse = match moves[i] {
             true => over(&S::one(), &pivot),

@@ -80,7 +80,7 @@ impl<S: Scalar> Composite<'_, S> {
             }
         }
         for (i, link) in chain.links.iter().enumerate() {
-            slopes.velocity[i][i] = plus(&slopes.velocity[i][i], &link.damping_slope());
+            slopes.velocity[i][i] = plus(&slopes.velocity[i][i], &link.friction.slope());
         }
         slopes
     }

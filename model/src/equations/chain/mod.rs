@@ -43,7 +43,7 @@ pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 
 use super::SinCosPair;
-use super::friction::{self, Coulomb};
+use super::friction::Friction;
 use super::matrix::{Vector, difference, dot, opposite, plus, scaled, sum, times, zero_vector};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -86,12 +86,10 @@ pub struct ChainLink<S> {
     /// Mass, first and second moment along the axis that the link could keep
     /// (revolute): its own and what arrived from the links after it.
     pub free: [S; 3],
-    /// SinCosPair inertia felt at the joint.
+    /// Rotor inertia felt at the joint.
     pub armature: S,
-    /// Viscous damping b_i.
-    pub viscous: S,
-    /// Coulomb friction, of a joint that has it.
-    pub coulomb: Option<Coulomb<S>>,
+    /// What the drive takes while the joint moves.
+    pub friction: Friction<S>,
     /// Whether the frame may stay behind while the link turns: for a last
     /// link that is symmetric about its axis.
     pub spins_freely: bool,
@@ -122,8 +120,7 @@ impl<S: Scalar> Chain<S> {
                 }),
                 free: zero_vector(),
                 armature: segment.armature.clone(),
-                viscous: segment.viscous.clone(),
-                coulomb: segment.coulomb.clone(),
+                friction: segment.friction.clone(),
                 spins_freely: false,
                 axes: regrouping.axes,
             });
@@ -149,6 +146,15 @@ impl<S: Scalar> Chain<S> {
                 && last.probes.is_empty()
                 && last.body.is_axisymmetric();
         }
+    }
+
+    /// The same chain without friction.
+    #[must_use]
+    pub fn without_friction(mut self) -> Chain<S> {
+        for link in &mut self.links {
+            link.friction = Friction::none();
+        }
+        self
     }
 
     /// A rate in the chain's unit: slides are scaled.
@@ -181,8 +187,7 @@ impl<S> Chain<S> {
             probes: Probe::each(&link.probes, |body| body.map(&mut f)),
             free: link.free.each_ref().map(&mut f),
             armature: f(&link.armature),
-            viscous: f(&link.viscous),
-            coulomb: link.coulomb.as_ref().map(|own| own.map(&mut f)),
+            friction: link.friction.map(&mut f),
             spins_freely: link.spins_freely,
             axes: link.axes,
         });
@@ -201,23 +206,14 @@ impl<S: Clone> Chain<S> {
     /// Coulomb friction.
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Chain<S> {
-        let frictions = self.links.iter_mut().map(|link| &mut link.coulomb);
-        friction::at_speeds(frictions, per_speed);
+        for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
+            link.friction = link.friction.clone().at_speed(per_speed.as_ref());
+        }
         self
     }
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// b_i + F_i r_i: what q̇_i is multiplied by.
-    pub fn damping(&self) -> S {
-        friction::damping(&self.viscous, self.coulomb.as_ref())
-    }
-
-    /// What friction grows by with the velocity: b_i + F_i w_i² r_i³.
-    pub fn damping_slope(&self) -> S {
-        friction::damping_slope(&self.viscous, self.coulomb.as_ref())
-    }
-
     /// Components from frame i−1 into frame i.
     fn inward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
         match at {

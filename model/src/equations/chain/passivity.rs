@@ -92,10 +92,7 @@ impl<S: Scalar> Chain<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
         let drive = |i: usize| {
             let link = &self.links[i];
-            plus(
-                &times(&link.armature, &a[i]),
-                &times(&link.damping(), &v[i]),
-            )
+            plus(&times(&link.armature, &a[i]), &link.friction.torque(&v[i]))
         };
         self.torques(at, &motions, MomentForm::SecondMoments, drive)
     }

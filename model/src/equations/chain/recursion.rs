@@ -226,7 +226,7 @@ impl<S: Scalar> Chain<S> {
             let link = &self.links[i];
             plus(
                 &times(&link.armature, &qdd[i]),
-                &times(&link.damping(), &qd[i]),
+                &link.friction.torque(&qd[i]),
             )
         };
         self.torques(at, &motions, couple, drive)

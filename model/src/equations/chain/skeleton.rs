@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::probe::{Column, Probe, probes};
 use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
-use crate::equations::friction::Coulomb;
+use crate::equations::friction::Friction;
 use crate::equations::matrix::{Vector, plus, sum, zero_vector};
 use crate::equations::{Arm, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
@@ -49,12 +49,10 @@ pub struct Segment<S> {
     pub probes: Vec<Probe<S>>,
     /// The axes and the origin of the joint's own DH frame, in the frame.
     pub dh: (Rotation<S>, Vector<S>),
-    /// SinCosPair inertia felt at the joint.
+    /// Rotor inertia felt at the joint.
     pub armature: S,
-    /// Viscous damping b_i.
-    pub viscous: S,
-    /// Coulomb friction, of a joint that has it.
-    pub coulomb: Option<Coulomb<S>>,
+    /// What the drive takes while the joint moves.
+    pub friction: Friction<S>,
 }
 
 impl<S: Scalar> Skeleton<S> {
@@ -123,8 +121,7 @@ impl<S: Scalar> Skeleton<S> {
                 probes: Vec::new(),
                 dh: (identity(), zero_vector()),
                 armature: link.armature.clone(),
-                viscous: link.viscous.clone(),
-                coulomb: link.coulomb.clone(),
+                friction: link.friction.clone(),
             };
             match link.kind {
                 JointKind::Revolute => {

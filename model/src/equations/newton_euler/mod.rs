@@ -31,6 +31,6 @@ fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
 /// What the drive adds to the torque of the chain: friction and the armature's
 /// inertia.
 fn with_drive<S: Scalar>(link: &Link<S>, torque: &S, qd: &S, qdd: &S) -> S {
-    let damped = plus(torque, &times(&link.damping(), qd));
+    let damped = plus(torque, &link.friction.torque(qd));
     plus(&damped, &times(&link.armature, qdd))
 }

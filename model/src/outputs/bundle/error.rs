@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 use core::fmt;
 
 use crate::outputs::{Function, Quantity};
@@ -24,6 +25,8 @@ pub enum BundleError {
     Nameless(String),
     /// There is no output of this name.
     Unknown(String),
+    /// A bundle is no part of another.
+    Nested(Function),
     /// It has no part, or only this.
     Few(Option<Function>),
     /// Two parts return the same.
@@ -33,6 +36,20 @@ pub enum BundleError {
 }
 
 impl BundleError {
+    /// The same where these functions are known beside the outputs: a word that is
+    /// the name of a bundle among them is that.
+    #[must_use]
+    pub fn among(self, functions: &[Function]) -> BundleError {
+        match self {
+            BundleError::Unknown(word) => {
+                let mut bundles = functions.iter();
+                let bundle = bundles.find(|function| function.name() == word);
+                bundle.map_or(BundleError::Unknown(word), |own| BundleError::Nested(*own))
+            }
+            other => other,
+        }
+    }
+
     /// What is wrong.
     pub fn message(&self) -> String {
         match self {
@@ -48,6 +65,7 @@ impl BundleError {
             }
             BundleError::Nameless(parts) => format!("`{parts}` has no name"),
             BundleError::Unknown(word) => format!("unknown output `{word}`"),
+            BundleError::Nested(bundle) => format!("`{bundle}` is a bundle itself"),
             BundleError::Few(_) => "a bundle has two parts at least".to_string(),
             BundleError::Twice(_, [one, other]) if one == other => {
                 format!("`{one}` is in it twice")
@@ -74,6 +92,13 @@ impl BundleError {
             BundleError::Nameless(parts) => format!("write NAME = {parts}"),
             BundleError::Unknown(_) | BundleError::Few(None) => {
                 "a bundle is NAME = OUTPUT + OUTPUT".to_string()
+            }
+            BundleError::Nested(bundle) => {
+                let parts: Vec<&str> = bundle.parts().iter().map(|part| part.name()).collect();
+                format!(
+                    "bundles do not nest: write its parts, {}",
+                    parts.join(" + ")
+                )
             }
             BundleError::Few(Some(part)) => format!("ask for `{part}` by itself"),
             BundleError::Twice(..) => "leave one of them out".to_string(),

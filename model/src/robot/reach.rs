@@ -1,0 +1,86 @@
+//! How far an arm reaches, and inertias that are far too large for that.
+
+use alloc::format;
+use alloc::string::String;
+
+use num_traits::{Signed, Zero};
+
+use super::findings::Findings;
+use super::units::{shown, whole};
+use super::{Doubt, Field, Inertia, Joint, Place, Placement, Position, Robot};
+use crate::number::{Rational, Rounded};
+
+/// A body whose mass is further from its centre than this many times the arm's reach
+/// was probably given in kg·mm².
+const MAX_GYRATION: i64 = 3;
+/// The same in metres, of an arm without lengths.
+const MAX_GYRATION_ALONE: i64 = 3;
+
+/// How far an arm reaches at most, m, without its base: zero of one without lengths.
+pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
+    let largest = |xyz: &[Rational; 3]| xyz.iter().map(Signed::abs).sum::<Rational>();
+    let travel = |joint: &Joint| {
+        let ends = joint.limits.position.iter().flatten();
+        let lengths = ends.filter_map(|end| match end {
+            Position::Length(length) => Some(length.abs()),
+            Position::Angle(_) => None,
+        });
+        lengths.max().unwrap_or_default()
+    };
+    let rows = robot.joints.iter();
+    let rows = rows.map(|joint| joint.a.abs() + joint.d.abs() + travel(joint));
+    let placements = placed.iter().chain(&robot.tool);
+    let steps: Rational = placements.map(|own| largest(&own.xyz)).sum();
+    let bodies = robot.joints.iter().map(|joint| largest(&joint.com));
+    rows.sum::<Rational>() + steps + bodies.max().unwrap_or_default()
+}
+
+/// What is odd about an inertia that is far too large for its mass on an arm that
+/// reaches so far, and what to do about it. A body whose mass is all at a distance k
+/// from an axis has the moment m k².
+pub(crate) fn large_inertia(
+    inertia: &Inertia<Rational>,
+    mass: &Rational,
+    reach: &Rational,
+) -> Option<(String, String)> {
+    let moments = [&inertia.xx, &inertia.yy, &inertia.zz];
+    let largest = moments
+        .into_iter()
+        .max()
+        .filter(|most| most.is_positive())?;
+    let most = match reach.is_zero() {
+        true => whole(MAX_GYRATION_ALONE),
+        false => whole(MAX_GYRATION) * reach,
+    };
+    if !mass.is_positive() || *largest <= &most * &most * mass {
+        return None;
+    }
+    let away = libm::sqrt(f64::nearest_rational(&(largest / mass)));
+    let arm = match reach.is_zero() {
+        true => String::new(),
+        false => {
+            let reach = f64::nearest_rational(reach);
+            format!(", and the arm reaches {reach:.3} m")
+        }
+    };
+    let mass = shown(mass);
+    let less = shown(&(largest / whole(1_000_000)));
+    let largest = shown(largest);
+    Some((
+        format!(
+            "a mass of {mass} kg with a moment of {largest} kg·m² is {away:.3} m from its axis{arm}"
+        ),
+        format!(
+            "inertias are in kg·m²: of kg·mm², write {less} for {largest}; it is taken as it stands"
+        ),
+    ))
+}
+
+impl Findings {
+    pub(super) fn doubtful_inertia(&mut self, index: usize, joint: &Joint, reach: &Rational) {
+        if let Some((message, help)) = large_inertia(&joint.inertia, &joint.mass, reach) {
+            let place = Place::Joint(index, Field::Inertia);
+            self.warning(Doubt::LargeInertia, place, message, &help);
+        }
+    }
+}
