@@ -42,8 +42,10 @@ impl BundleError {
     pub fn among(self, functions: &[Function]) -> BundleError {
         match self {
             BundleError::Unknown(word) => {
-                let mut bundles = functions.iter();
-                let bundle = bundles.find(|function| function.name() == word);
+                let is_it = |function: &&Function| {
+                    matches!(function, Function::Bundle(_)) && function.name() == word
+                };
+                let bundle = functions.iter().find(is_it);
                 bundle.map_or(BundleError::Unknown(word), |own| BundleError::Nested(*own))
             }
             other => other,
