@@ -109,6 +109,7 @@ fn ur10_at_a_tenth() {
 
 /// A search over seven joints takes longer than a test may: rounding alone.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
 fn panda_at_a_billionth() {
     campaign("panda", 1e-9, &[ScalarType::F64], 0);
 }

@@ -87,7 +87,7 @@ fn never_contradicted(reading: &Reading, request: &Request, seed: usize) -> bool
 }
 
 /// So many arms; a tenth of them where nothing is optimised.
-const ARMS: usize = if cfg!(debug_assertions) { 40 } else { 400 };
+const ARMS: usize = if cfg!(debug_assertions) { 12 } else { 100 };
 
 const OUTPUTS: [Function; 8] = [
     Function::InverseDynamics,

@@ -67,3 +67,12 @@ pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
 pub fn each_scalar() -> [Vec<ScalarType>; 2] {
     ScalarType::ALL.map(|scalar| vec![scalar])
 }
+
+/// All of these where the tests are optimised, so many of the first where they are
+/// not: the whole takes minutes then.
+pub fn dose<T>(all: &[T], first: usize) -> &[T] {
+    match cfg!(debug_assertions) {
+        true => all.get(..first).unwrap_or(all),
+        false => all,
+    }
+}
