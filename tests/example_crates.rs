@@ -1,5 +1,5 @@
 //! The example crates that are workspaces of their own: built as a user would
-//! build them, each in its own target directory, and run.
+//! build them, outside this workspace's target directory, and run.
 //!
 //! The others are members, and have tests themselves.
 
@@ -8,7 +8,8 @@ use std::process::{Command, Output};
 use std::time::Instant;
 
 fn cargo(arguments: &[&str], example: &str) -> Output {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join(example);
+    // One for all crates that tests build: the generator is compiled once for them.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("crates");
     let folder = Path::new("examples").join(example);
     // The versions that everything else here is tested with.
     std::fs::copy("Cargo.lock", folder.join("Cargo.lock")).unwrap();
