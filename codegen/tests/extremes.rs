@@ -86,8 +86,8 @@ fn never_contradicted(reading: &Reading, request: &Request, seed: usize) -> bool
     }
 }
 
-/// So many arms; a tenth of them where nothing is optimised.
-const ARMS: usize = if cfg!(debug_assertions) { 12 } else { 100 };
+/// So many arms; fewer of them where nothing is optimised.
+const ARMS: usize = if cfg!(debug_assertions) { 12 } else { 40 };
 
 const OUTPUTS: [Function; 8] = [
     Function::InverseDynamics,
