@@ -15,18 +15,20 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
 use super::classes::{ClassId, Classes, ENode, Leaf};
+use super::sieve::Sieve;
 use crate::function::Argument;
 use crate::graph::Fingerprint;
 use crate::program::Input;
 
 /// Tries every pair of the pool; returns how many new ways there are.
 pub fn pairs(classes: &mut Classes, pool: &[ClassId]) -> usize {
-    let known: Table<()> = (0..classes.len() as ClassId)
-        .map(|id| (key(&classes.get(id).print), ()))
-        .collect();
+    let mut known = Sieve::new(classes.len());
+    for id in 0..classes.len() as ClassId {
+        known.note(key(&classes.get(id).print));
+    }
     let mut found = Vec::new();
     for_pairs(classes, pool, |first, way| {
-        if known.contains_key(&first) {
+        if known.passes(first) {
             found.push(way);
         }
     });
@@ -47,6 +49,31 @@ fn for_pairs(classes: &Classes, pool: &[ClassId], mut call: impl FnMut(Field, EN
             call(up_to_sign(x.add(y)), ENode::Sum(a, b));
             call(up_to_sign(x.sub(y)), ENode::Difference(a, b));
             call(up_to_sign(x.mul(y)), ENode::Product(a, b));
+        }
+    }
+}
+
+/// Calls with the key of every y − c, y + c and y / c, the target y, c, and whether
+/// c is a factor of y.
+fn for_inner(
+    classes: &Classes,
+    targets: &[ClassId],
+    pool: &[ClassId],
+    mut call: impl FnMut(Field, ClassId, ClassId, bool),
+) {
+    let first = |id: ClassId| classes.get(id).print.0[0];
+    let others: Vec<(ClassId, Field, Option<Field>)> = pool
+        .iter()
+        .map(|&c| (c, first(c), first(c).inverse()))
+        .collect();
+    for &y in targets {
+        let target = first(y);
+        for (c, other, inverse) in others.iter().filter(|(c, ..)| *c != y) {
+            call(up_to_sign(target.sub(other)), y, *c, false);
+            call(up_to_sign(target.add(other)), y, *c, false);
+            if let Some(inverse) = inverse {
+                call(up_to_sign(target.mul(inverse)), y, *c, true);
+            }
         }
     }
 }
@@ -138,34 +165,25 @@ pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<ENode
 
 /// Tries (a ∘ b) ∘ c for every class of `targets` over the pool.
 pub fn resubstitute(classes: &mut Classes, targets: &[ClassId], pool: &[ClassId]) -> usize {
+    // The keys that a ∘ b would have to have: of millions of pairs some thousands have
+    // one of them, and only those are kept.
+    let mut wanted = Sieve::new(3 * targets.len() * pool.len());
+    for_inner(classes, targets, pool, |key, _, _, _| wanted.note(key));
     // a ∘ b → the first such pair.
     let mut table: Table<ENode> = Table::default();
     for_pairs(classes, pool, |first, way| {
-        table.entry(first).or_insert(way);
-    });
-    let others: Vec<(ClassId, Field, Option<Field>)> = pool
-        .iter()
-        .map(|&c| (c, classes.get(c).print.0[0]))
-        .map(|(c, x)| (c, x, x.inverse()))
-        .collect();
-    let mut found: Vec<(ClassId, ENode, ClassId, bool)> = Vec::new();
-    for &y in targets {
-        let target = classes.get(y).print.0[0];
-        for (c, other, inverse) in &others {
-            if *c == y {
-                continue;
-            }
-            let quotient = inverse.map(|inverse| (target.mul(&inverse), true));
-            let sums = [(target.sub(other), false), (target.add(other), false)];
-            for (inner, product) in sums.into_iter().chain(quotient) {
-                if let Some(&way) = table.get(&up_to_sign(inner))
-                    && !way.operands().contains(&y)
-                {
-                    found.push((y, way, *c, product));
-                }
-            }
+        if wanted.passes(first) {
+            table.entry(first).or_insert(way);
         }
-    }
+    });
+    let mut found: Vec<(ClassId, ENode, ClassId, bool)> = Vec::new();
+    for_inner(classes, targets, pool, |key, y, c, product| {
+        if let Some(&way) = table.get(&key)
+            && !way.operands().contains(&y)
+        {
+            found.push((y, way, c, product));
+        }
+    });
     let mut count = 0;
     for (y, inner, c, product) in found {
         let print = classes.way_print(inner);

@@ -9,6 +9,7 @@
 use std::collections::BTreeMap;
 
 use super::classes::{ClassId, Classes, ENode, Leaf};
+use super::order::Order;
 use crate::program::AngleSum;
 use crate::random::Random;
 
@@ -46,6 +47,11 @@ impl CostModel {
             0 => self.sincos,
             _ => self.sum_sincos,
         }
+    }
+
+    /// The cheapest operation.
+    fn least(&self) -> u64 {
+        self.mul.min(self.add).min(self.div)
     }
 
     fn way(&self, way: ENode) -> u64 {
@@ -93,14 +99,19 @@ pub struct Extraction<'a> {
     angle_uses: Vec<u32>,
     angle_cost: Vec<u64>,
     cost: u64,
-    /// Marks of the depth-first search for cycles.
-    mark: Vec<u32>,
-    stamp: u32,
+    /// Each class after what its chosen way reads.
+    order: Order,
     /// Choices changed by the current move, to take it back.
     undo: Vec<(ClassId, u32)>,
 }
 
 const NONE: u32 = u32::MAX;
+
+/// What the chosen way of a class reads.
+fn operands(classes: &Classes, chosen: &[u32], id: ClassId) -> Option<[ClassId; 2]> {
+    let ways = &classes.get(id).ways;
+    Some(ways.get(chosen[id as usize] as usize)?.operands())
+}
 
 /// The ways of a dead operand that are looked at: the first found, which are
 /// those of real programs.
@@ -136,11 +147,11 @@ impl<'a> Extraction<'a> {
             angle_uses: vec![0; angle_cost.len()],
             angle_cost,
             cost: 0,
-            mark: vec![0; n],
-            stamp: 0,
+            order: Order::new(0, |_| None),
             undo: Vec::new(),
         };
         search.seed(seed);
+        search.order = Order::new(n, |id| operands(classes, &search.chosen, id));
         for output in classes.outputs.iter().flatten() {
             search.acquire(output.class, 0);
         }
@@ -268,9 +279,8 @@ impl<'a> Extraction<'a> {
         }
         let mut best = (u64::MAX, self.chosen[id as usize]);
         for (index, &way) in ways.iter().enumerate() {
-            let cost = self.marginal(way, 2);
-            if cost < best.0 && (index as u32 == self.chosen[id as usize] || !self.reaches(way, id))
-            {
+            let cost = self.marginal(way, 2, best.0);
+            if cost < best.0 && (index as u32 == self.chosen[id as usize] || self.admits(id, way)) {
                 best = (cost, index as u32);
             }
         }
@@ -280,10 +290,14 @@ impl<'a> Extraction<'a> {
         }
     }
 
-    /// What a way adds, looking `depth` levels into dead operands.
-    fn marginal(&self, way: ENode, depth: u32) -> u64 {
+    /// What a way adds, looking `depth` levels into dead operands, where that is less
+    /// than `below`; else something that is not.
+    fn marginal(&self, way: ENode, depth: u32, below: u64) -> u64 {
         let mut cost = self.model.way(way);
         for operand in way.operands() {
+            if cost >= below {
+                break;
+            }
             if self.uses[operand as usize] > 0 {
                 continue;
             }
@@ -291,38 +305,34 @@ impl<'a> Extraction<'a> {
             if angle != NONE && self.angle_uses[angle as usize] == 0 {
                 cost += self.angle_cost[angle as usize];
             }
-            let ways = &self.classes.get(operand).ways;
-            if self.classes.get(operand).leaf.is_some() {
+            let class = self.classes.get(operand);
+            if class.leaf.is_some() {
                 continue;
             }
-            cost += if depth == 0 {
-                2 * self.model.add
-            } else {
-                let ways = ways.iter().take(MAX_ENODES);
-                let costs = ways.map(|&way| self.marginal(way, depth - 1));
-                costs.min().unwrap_or(u64::MAX / 4)
-            };
+            if depth == 0 {
+                cost += 2 * self.model.add;
+                continue;
+            }
+            let mut least = u64::MAX / 4;
+            for &way in class.ways.iter().take(MAX_ENODES) {
+                // No way costs less than one operation.
+                let one = self.model.least();
+                if least <= one || cost + one >= below {
+                    break;
+                }
+                let room = least.min(below - cost);
+                least = least.min(self.marginal(way, depth - 1, room));
+            }
+            cost += least;
         }
         cost
     }
 
-    /// Whether an operand of the way depends on the class.
-    fn reaches(&mut self, way: ENode, target: ClassId) -> bool {
-        self.stamp += 1;
-        let mut stack = Vec::from(way.operands());
-        while let Some(id) = stack.pop() {
-            if id == target {
-                return true;
-            }
-            if self.mark[id as usize] == self.stamp {
-                continue;
-            }
-            self.mark[id as usize] = self.stamp;
-            if let Some(way) = self.way(id) {
-                stack.extend(way.operands());
-            }
-        }
-        false
+    /// Whether the class may take the way: no operand of it depends on the class.
+    fn admits(&mut self, id: ClassId, way: ENode) -> bool {
+        let (classes, chosen) = (self.classes, &self.chosen);
+        self.order
+            .admits(id, way.operands(), |id| operands(classes, chosen, id))
     }
 
     /// Whether every operand has a way or is a leaf.
@@ -337,7 +347,7 @@ impl<'a> Extraction<'a> {
     fn switch(&mut self, id: ClassId, index: u32) -> Option<()> {
         let old = self.way(id)?;
         let new = *self.classes.get(id).ways.get(index as usize)?;
-        if !self.computable(new) || self.reaches(new, id) {
+        if !self.computable(new) || !self.admits(id, new) {
             return None;
         }
         self.undo.clear();
@@ -376,13 +386,13 @@ impl<'a> Extraction<'a> {
         for operand in now.operands() {
             self.release(operand);
         }
-        while self.undo.len() > 1 {
-            if let Some((id, index)) = self.undo.pop() {
-                self.chosen[id as usize] = index;
+        while let Some((id, index)) = self.undo.pop() {
+            self.chosen[id as usize] = index;
+            // As before the move, each in turn: no cycle, but another order.
+            if let Some(way) = self.way(id) {
+                self.admits(id, way);
             }
         }
-        self.undo.clear();
-        self.chosen[id as usize] = index;
         self.cost += self.model.way(before);
         for operand in before.operands() {
             self.acquire(operand, 0);
@@ -458,6 +468,8 @@ impl<'a> Extraction<'a> {
             self.release(output.class);
         }
         self.chosen.copy_from_slice(chosen);
+        let (classes, chosen) = (self.classes, &self.chosen);
+        self.order.sort(|id| operands(classes, chosen, id));
         for output in self.classes.outputs.iter().flatten() {
             self.acquire(output.class, 0);
         }

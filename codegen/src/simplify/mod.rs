@@ -3,8 +3,9 @@
 //! - [`effort`]: how much work a search may do, in moves and nodes
 //! - [`classes`]: values up to sign by fingerprint, and the ways to compute each
 //! - [`rules`], [`egraph`]: equality saturation with rules as data
-//! - [`discover`]: ways that only the fingerprints show
-//! - [`extract`]: the cheapest program that the ways allow
+//! - [`discover`]: ways that only the fingerprints show; `sieve`: whether a value may be
+//!   among others
+//! - [`extract`]: the cheapest program that the ways allow; `order`: none of them in a circle
 //! - [`search`]: discovery and extraction in turns, to a plateau
 
 pub mod classes;
@@ -12,8 +13,10 @@ pub mod discover;
 pub mod effort;
 pub mod egraph;
 pub mod extract;
+mod order;
 pub mod rules;
 pub mod search;
+mod sieve;
 
 use std::fmt;
 
