@@ -65,10 +65,11 @@ fn every_start_leads_to_the_same_function() {
             continue;
         }
         let function = function(n, &mut draw);
-        for name in Start::NAMES {
+        for start in Start::all() {
+            let name = start.name();
             let request = Request {
                 functions: vec![function],
-                start: Start::from_name(name).unwrap(),
+                start,
                 ..Request::default()
             };
             if let Err(error) = generate(&robot, &request) {

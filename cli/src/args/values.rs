@@ -66,7 +66,7 @@ pub(super) fn function_parser() -> FunctionParser {
 }
 
 pub(super) fn start_parser() -> impl TypedValueParser<Value = Start> {
-    PossibleValuesParser::new(Start::NAMES)
+    PossibleValuesParser::new(Start::all().map(Start::name))
         .try_map(|name| Start::from_name(&name).ok_or("no such formulation"))
 }
 
