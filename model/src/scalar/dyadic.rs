@@ -41,7 +41,7 @@ impl Dyadic {
     }
 
     /// a + b; like everything here none beyond its range.
-    pub fn add(self, other: Dyadic) -> Option<Dyadic> {
+    pub fn checked_add(self, other: Dyadic) -> Option<Dyadic> {
         let halvings = self.halvings.max(other.halvings);
         let scaled = |x: Dyadic| {
             let factor = 1i64.checked_shl(halvings - x.halvings)?;
@@ -52,14 +52,14 @@ impl Dyadic {
     }
 
     /// a b
-    pub fn mul(self, other: Dyadic) -> Option<Dyadic> {
+    pub fn checked_mul(self, other: Dyadic) -> Option<Dyadic> {
         let halvings = self.halvings + other.halvings;
         let units = self.units.checked_mul(other.units)?;
         (halvings < 63).then_some(Dyadic { units, halvings })
     }
 
     /// −a
-    pub fn neg(self) -> Option<Dyadic> {
+    pub fn checked_neg(self) -> Option<Dyadic> {
         let units = self.units.checked_neg()?;
         Some(Dyadic { units, ..self })
     }
@@ -86,16 +86,28 @@ mod tests {
     fn is_exact_or_nothing() {
         let one = Dyadic::ONE;
         let quarter = one.half().unwrap().half().unwrap();
-        let five = one.add(one.add(one).unwrap().mul(one.add(one).unwrap()).unwrap());
+        let five = one.checked_add(
+            one.checked_add(one)
+                .unwrap()
+                .checked_mul(one.checked_add(one).unwrap())
+                .unwrap(),
+        );
         let five = five.unwrap();
-        assert_eq!(of(five.add(quarter)), Some(5.25));
-        assert_eq!(of(quarter.mul(quarter.neg().unwrap())), Some(-0.0625));
-        assert!(one.add(one.neg().unwrap()).unwrap().is_zero());
+        assert_eq!(of(five.checked_add(quarter)), Some(5.25));
+        assert_eq!(
+            of(quarter.checked_mul(quarter.checked_neg().unwrap())),
+            Some(-0.0625)
+        );
+        assert!(
+            one.checked_add(one.checked_neg().unwrap())
+                .unwrap()
+                .is_zero()
+        );
         let most = |x: Dyadic, of: fn(Dyadic) -> Option<Dyadic>| {
             core::iter::successors(Some(x), |x| of(*x)).count()
         };
         // 2⁶² is the last power of two, and 2⁻⁶² the last half.
-        assert_eq!(most(one, |x| x.add(x)), 63);
+        assert_eq!(most(one, |x| x.checked_add(x)), 63);
         assert_eq!(most(one, Dyadic::half), 63);
     }
 }

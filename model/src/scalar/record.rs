@@ -339,16 +339,16 @@ impl<I, C: Scalar> Scalar for Recorded<I, C> {
         Recorded(Form::Number(Dyadic::ONE))
     }
     fn add(&self, other: &Self) -> Self {
-        self.combine(other, Dyadic::add, Call::Add)
+        self.combine(other, Dyadic::checked_add, Call::Add)
     }
     fn sub(&self, other: &Self) -> Self {
-        self.combine(other, |a, b| a.add(b.neg()?), Call::Sub)
+        self.combine(other, |a, b| a.checked_add(b.checked_neg()?), Call::Sub)
     }
     fn mul(&self, other: &Self) -> Self {
-        self.combine(other, Dyadic::mul, Call::Mul)
+        self.combine(other, Dyadic::checked_mul, Call::Mul)
     }
     fn neg(&self) -> Self {
-        self.apply(Dyadic::neg, Call::Neg)
+        self.apply(Dyadic::checked_neg, Call::Neg)
     }
     fn half(&self) -> Self {
         self.apply(Dyadic::half, Call::Half)

@@ -124,17 +124,17 @@ impl Scalar for Residue {
         Residue::free(Some(Dyadic::ONE))
     }
     fn add(&self, other: &Self) -> Self {
-        self.zip(other, Dyadic::add, Prime::add)
+        self.zip(other, Dyadic::checked_add, Prime::add)
     }
     fn sub(&self, other: &Self) -> Self {
         self.add(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
-        self.zip(other, Dyadic::mul, Prime::mul)
+        self.zip(other, Dyadic::checked_mul, Prime::mul)
     }
     fn neg(&self) -> Self {
         Residue(match self.0 {
-            Form::Free(x) => return Residue::free(x.neg()),
+            Form::Free(x) => return Residue::free(x.checked_neg()),
             Form::Of(prime, value) => Form::Of(prime, prime.neg(value)),
             Form::Lost => Form::Lost,
         })
