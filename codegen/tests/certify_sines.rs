@@ -2,7 +2,7 @@
 //! from the tolerance, and are caught when they lie.
 
 use dalembert_codegen::approximate::sines::within;
-use dalembert_codegen::backend::{MathPath, function};
+use dalembert_codegen::backend::{Printed, function};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::scale;
 use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
@@ -13,9 +13,9 @@ use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::interval::Interval;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::kernel::Term;
-use dalembert_codegen::program::{AngleSum, Literal, Program, ScalarType};
+use dalembert_codegen::program::{AngleSum, Library, Literal, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::sincos::{Sines, counts, stated};
+use dalembert_codegen::sincos::{Sines, counts, lowered, stated};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 
@@ -76,8 +76,8 @@ impl Case {
     /// The certificate with other sines in its text, and the same claims.
     fn with_other(&self, honest: &Certificate, sines: Sines) -> Certificate {
         let mut other = honest.clone();
-        let math = MathPath::default();
-        other.text = function::with_sines(&self.program, honest.scalar, &math, &sines, &[]);
+        let code = lowered(&self.program, honest.scalar, Library::Libm, &sines);
+        other.text = function::write(&Printed::of(&self.program, &code), "libm", &[]);
         other.sines = sines;
         other
     }

@@ -6,7 +6,9 @@ use dalembert_codegen::backend::MathPath;
 use dalembert_codegen::backend::entries::angles::Angles;
 use dalembert_codegen::emit::Layout;
 use dalembert_codegen::function::Function;
+use dalembert_codegen::generate::keep::keep;
 use dalembert_codegen::generate::{Generated, Request, generate};
+use dalembert_codegen::plan::Plan;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::sincos::SinCos;
@@ -55,17 +57,22 @@ fn the_same_program_by_every_entry() {
             SinCos::Libm,
             SinCos::Polynomial { error: None },
         ];
-        // Every program is searched for anew: a lighter dose without optimisation.
-        let light = cfg!(debug_assertions) && name == "stanford";
-        for sincos in all.into_iter().take(if light { 1 } else { 3 }) {
-            let of = |entries| {
-                let mut request = request(entries, sincos, start);
-                if let Some(functions) = functions {
-                    request.functions = functions.to_vec();
-                }
-                generate(&robot, &request).unwrap()
-            };
+        let of = |entries, sincos, plan: Option<Plan>| {
+            let mut request = request(entries, sincos, start);
+            if let Some(functions) = functions {
+                request.functions = functions.to_vec();
+            }
+            request.plan = plan;
+            let generated = generate(&robot, &request).unwrap();
+            (request, generated)
+        };
+        // Programs are searched for once, and proved and printed for each.
+        let (request, found) = of(Entries::Single, SinCos::Libm, None);
+        let plan = keep(&robot, &request, &found, None).plan;
+        for sincos in all {
+            let of = |entries| of(entries, sincos, Some(plan.clone())).1;
             let single = of(Entries::Single);
+            assert!(single.functions.iter().all(|function| function.planned));
             assert!(!single.text.contains("with_sincos") && !single.text.contains("angles"));
             for entries in [Entries::WithSincos, Entries::Lanes, Entries::Batch] {
                 let more = of(entries);

@@ -1,7 +1,7 @@
 //! Faults planted into finished programs and texts: the exact proof and the
 //! text check catch every one.
 
-use dalembert_codegen::backend::{MathPath, function};
+use dalembert_codegen::backend::{Printed, function};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::program::{Library, Lowered, Operand, Operation, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
@@ -134,7 +134,8 @@ fn passes(program: &Program, scalar: ScalarType, text: &str) -> bool {
 fn every_slip_of_the_printer() {
     for (robot, program) in programs() {
         for scalar in ScalarType::ALL {
-            let text = function::write(&program, scalar, &MathPath::default(), &[]);
+            let code = program.lower(scalar, |_| None);
+            let text = function::write(&Printed::of(&program, &code), "libm", &[]);
             assert!(passes(&program, scalar, &text));
             let lines: Vec<&str> = text.lines().collect();
             for (index, line) in lines.iter().enumerate().skip(2).step_by(7) {

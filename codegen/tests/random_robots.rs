@@ -11,10 +11,11 @@ use dalembert_codegen::graph::Points;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::program::run::State;
-use dalembert_codegen::scene;
+use dalembert_codegen::scene::{self, Setting};
 use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;
 
 /// A function whose code stays small enough for a test.
@@ -29,7 +30,8 @@ fn function(n: usize, draw: &mut Draw) -> Function {
 
 #[test]
 fn proved_and_accurate() {
-    for (seed, robot, mut draw) in robots(24, 0x5eed) {
+    let many = if cfg!(debug_assertions) { 12 } else { 24 };
+    for (seed, robot, mut draw) in robots(many, 0x5eed) {
         let n = robot.joints.len();
         let function = function(n, &mut draw);
         let what = format!("seed {seed}, {n} joints, {function}");
@@ -64,10 +66,11 @@ fn every_start_leads_to_the_same_function() {
             continue;
         }
         let function = function(n, &mut draw);
-        for name in Start::NAMES {
+        for start in Start::all() {
+            let name = start.name();
             let request = Request {
                 functions: vec![function],
-                start: Start::from_name(name).unwrap(),
+                start,
                 ..Request::default()
             };
             if let Err(error) = generate(&robot, &request) {
@@ -96,6 +99,37 @@ fn formulations_agree() {
                 assert!(
                     found == expected,
                     "seed {seed}, {n} joints: {function} by {formulation:?} is not by {first:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A recording that is run is the formula that is executed: every function, in the
+/// prime field, where equal is equal.
+#[test]
+fn recordings_are_the_formulas() {
+    let points = Points::SEARCH;
+    let of_input = |input| points.input(input).0[0];
+    let of_constant = |constant: &Exact| points.constant(constant).unwrap().0[0];
+    for (seed, robot, _) in robots(24, 0x7ec0) {
+        let n = robot.joints.len();
+        if n > 4 {
+            continue;
+        }
+        let setting = Setting::whole(&robot);
+        for function in Function::ALL {
+            for formulation in [Formulation::LagrangeEuler, Formulation::NewtonEulerLink] {
+                let arm = Arm::from_robot(&robot, &mut { of_constant });
+                let posed = setting.posed(function, arm, of_input, of_constant);
+                let expected = posed.results(&setting, function, formulation);
+                let recording = setting.record(function, |posed, _| {
+                    posed.results(&setting, function, formulation)
+                });
+                let found = recording.run(|x| of_input(*x), |x| Some(of_constant(x)));
+                assert!(
+                    found == Some(expected),
+                    "seed {seed}, {n} joints: {function} by {formulation:?}"
                 );
             }
         }

@@ -273,7 +273,7 @@ fn long_functions_are_in_blocks() {
 
 #[test]
 fn a_robot_is_generated_alike_every_time() {
-    for name in ["puma560", "panda"] {
+    for name in support::dose(&["puma560", "panda"], 1) {
         let robot = support::robot(name);
         let text = || generate(&robot, &Request::default()).unwrap().text;
         assert!(text() == text(), "{name}");

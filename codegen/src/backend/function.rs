@@ -9,11 +9,10 @@ use std::fmt::Write;
 
 use crate::backend::result::{self, array_type};
 use crate::backend::statement::{last_uses, operand, statement};
-use crate::backend::{MathPath, parts, speed, trig};
-use crate::function::{Argument, Function};
+use crate::backend::{Printed, parts, speed, trig};
+use crate::function::{Argument, Function, Sizes};
 use crate::program::fused::pieces;
-use crate::program::{Operand, Output, Program, ScalarType};
-use crate::sincos::AngleKernel;
+use crate::program::{Literal, Lowered, Operand, Output, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
 pub const FLAT: usize = 1000;
@@ -31,41 +30,26 @@ pub const LOAD: &str = "Load";
 /// The name of a payload's type.
 pub const PAYLOAD: &str = "Payload";
 
-/// Prints the function with the library's sines; `doc` stands above it, one line an
-/// item.
-pub fn write(program: &Program, scalar: ScalarType, math: &MathPath, doc: &[String]) -> String {
-    with_sines(program, scalar, math, &[], doc)
-}
-
-/// Prints the function; angles that are not among `sines` are `math`'s.
-pub fn with_sines(
-    program: &Program,
-    scalar: ScalarType,
-    math: &MathPath,
-    sines: &[AngleKernel],
-    doc: &[String],
-) -> String {
+/// Prints the function; `path` is where the sines and roots are that it calls, and `doc`
+/// stands above it, one line an item.
+pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
     let mut text = String::new();
     write_doc(&mut text, doc);
     push(&mut text, format_args!("#[must_use]"));
-    push(&mut text, format_args!("{} {{", signature(program, scalar)));
-    trig::write(&mut text, program, scalar, math, sines);
-    write_body(&mut text, program, scalar, math);
+    push(&mut text, format_args!("{} {{", signature(printed)));
+    trig::write(&mut text, printed.code, path);
+    write_body(&mut text, printed, path);
     text.push_str("}\n");
     text
 }
 
 /// What follows the sines: what is read of speeds, the arithmetic and the result.
-pub(super) fn write_body(
-    text: &mut String,
-    program: &Program,
-    scalar: ScalarType,
-    math: &MathPath,
-) {
-    speed::write(text, program, scalar, math);
-    write_steps(text, program, scalar);
-    let (function, sizes) = (program.function, program.sizes());
-    let items = program.outputs.iter().map(|o| result_item(o, scalar));
+pub(super) fn write_body(text: &mut String, printed: &Printed<'_>, path: &str) {
+    let code = printed.code;
+    speed::write(text, code, path);
+    write_steps(text, printed);
+    let (function, sizes) = (printed.function, printed.sizes);
+    let items = code.outputs.iter().map(|o| result_item(o, code.scalar));
     result::write(text, function, function.structure(), sizes, items);
 }
 
@@ -77,21 +61,22 @@ pub(super) fn write_doc(text: &mut String, doc: &[String]) {
     }
 }
 
-fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
-    if program.steps.len() <= FLAT {
-        for index in 0..program.steps.len() {
-            if let Some(line) = statement(&program.steps, index, scalar) {
+fn write_steps(text: &mut String, printed: &Printed<'_>) {
+    let code = printed.code;
+    if code.steps.len() <= FLAT {
+        for index in 0..code.steps.len() {
+            if let Some(line) = statement(code, index) {
                 push(text, format_args!("    {line}"));
             }
         }
         return;
     }
-    if program.steps.len() > parts::LONG {
-        parts::write(text, program, scalar);
+    if code.steps.len() > parts::LONG {
+        parts::write(text, printed);
         return;
     }
-    let last_use = last_uses(program);
-    for block in pieces(&program.steps, BLOCK) {
+    let last_use = last_uses(code);
+    for block in pieces(&code.steps, BLOCK) {
         let end = block.end;
         // A block hands on what is read after it: that much is live.
         let mut live = String::new();
@@ -99,7 +84,7 @@ fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
             let _ = write!(live, "t{}, ", step + 1);
         }
         push(text, format_args!("    let ({}) = {{", live.trim_end()));
-        for line in block.filter_map(|index| statement(&program.steps, index, scalar)) {
+        for line in block.filter_map(|index| statement(code, index)) {
             push(text, format_args!("        {line}"));
         }
         push(text, format_args!("        ({})", live.trim_end()));
@@ -108,19 +93,23 @@ fn write_steps(text: &mut String, program: &Program, scalar: ScalarType) {
 }
 
 /// The signature, without a brace.
-fn signature(program: &Program, scalar: ScalarType) -> String {
-    let function = program.function;
-    let arguments: Vec<String> = program
+fn signature(printed: &Printed<'_>) -> String {
+    let (function, sizes, scalar) = (printed.function, printed.sizes, printed.code.scalar);
+    let arguments: Vec<String> = printed
         .arguments
         .iter()
         .map(|&argument| {
             // An argument that this robot's function does not depend on.
-            let mark = if reads(program, argument) { "" } else { "_" };
-            let kind = argument_type(program, argument, scalar);
+            let mark = if reads(printed.code, argument) {
+                ""
+            } else {
+                "_"
+            };
+            let kind = argument_type(argument, sizes, scalar);
             format!("{mark}{}: &{kind}", argument.name())
         })
         .collect();
-    let result = result_type(program, scalar);
+    let result = result_type(function, sizes, scalar);
     format!(
         "pub fn {}({}) -> {result}",
         function.name(),
@@ -130,35 +119,34 @@ fn signature(program: &Program, scalar: ScalarType) -> String {
 
 /// The type of an argument: an array, which has a name where it is no joint vector
 /// of as many numbers as users would count.
-pub(super) fn argument_type(program: &Program, argument: Argument, scalar: ScalarType) -> String {
+pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
     match argument {
         Argument::Load => LOAD.to_owned(),
         Argument::Payload => PAYLOAD.to_owned(),
-        other => format!("[{scalar}; {}]", other.length(program.sizes())),
+        other => format!("[{scalar}; {}]", other.length(sizes)),
     }
 }
 
 /// What it returns.
-pub fn result_type(program: &Program, scalar: ScalarType) -> String {
-    let function = program.function;
+pub fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) -> String {
     match function.structure() {
         Some(name) => name.to_owned(),
         None if function == Function::Load => LOAD.to_owned(),
-        None => array_type(function.quantities()[0], program.sizes(), scalar),
+        None => array_type(function.quantities()[0], sizes, scalar),
     }
 }
 
-fn reads(program: &Program, argument: Argument) -> bool {
-    let is = |operand: &Operand| match operand {
+fn reads(code: &Lowered, argument: Argument) -> bool {
+    let is = |operand: &Operand<Literal>| match operand {
         Operand::Input(input) => input.argument() == argument,
         _ => false,
     };
-    (argument == Argument::Position && !program.trig.is_empty())
-        || program.steps.iter().any(|s| is(&s.left) || is(&s.right))
-        || program.outputs.iter().any(|output| is(&output.value))
+    (argument == Argument::Position && !code.trig.is_empty())
+        || code.steps.iter().any(|s| is(&s.left) || is(&s.right))
+        || code.outputs.iter().any(|output| is(&output.value))
 }
 
-fn result_item(output: &Output, scalar: ScalarType) -> String {
+fn result_item(output: &Output<Literal>, scalar: ScalarType) -> String {
     let sign = if output.negative { "-" } else { "" };
     format!("{sign}{}", operand(&output.value, scalar))
 }

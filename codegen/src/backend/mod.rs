@@ -22,8 +22,35 @@ mod speed;
 mod statement;
 mod trig;
 
-use crate::program::Library;
+use crate::function::{Argument, Function, Sizes};
+use crate::program::{Library, Lowered, Program};
 pub use entries::Entries;
+
+/// A function as it is printed: its code over literals, and what it is called with and
+/// returns.
+#[derive(Clone, Copy, Debug)]
+pub struct Printed<'a> {
+    /// Which function.
+    pub function: Function,
+    /// The arguments there are, in order.
+    pub arguments: &'a [Argument],
+    /// What the lengths of arguments and results follow from.
+    pub sizes: Sizes,
+    /// What it does.
+    pub code: &'a Lowered,
+}
+
+impl<'a> Printed<'a> {
+    /// A program that was lowered to this code.
+    pub fn of(program: &'a Program, code: &'a Lowered) -> Printed<'a> {
+        Printed {
+            function: program.function,
+            arguments: &program.arguments,
+            sizes: program.sizes(),
+            code,
+        }
+    }
+}
 
 /// Whose sines emitted code calls, and the path where it finds them: `sincos`,
 /// `sin` and `cos` of libm's kind, `sincos` of all angles together; each with

@@ -20,11 +20,12 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use crate::backend::Printed;
 use crate::backend::statement::{last_uses, statement};
-use crate::function::Argument;
+use crate::function::{Argument, Sizes};
 use crate::program::fused::pieces;
 use crate::program::text::input_name;
-use crate::program::{Input, Operand, Program, ScalarType};
+use crate::program::{Input, Literal, Operand, ScalarType};
 
 /// A function of more operations than this is printed in parts.
 pub const LONG: usize = 5000;
@@ -33,11 +34,12 @@ pub const LONG: usize = 5000;
 pub const PART: usize = 1000;
 
 /// Prints the arithmetic in parts.
-pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
-    let last_use = last_uses(program);
-    for part in pieces(&program.steps, PART) {
+pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
+    let (code, scalar) = (printed.code, printed.code.scalar);
+    let last_use = last_uses(code);
+    for part in pieces(&code.steps, PART) {
         let (start, end) = (part.start, part.end);
-        let steps = &program.steps[part.clone()];
+        let steps = &code.steps[part.clone()];
         let live = part.clone().filter(|&step| last_use[step] >= end);
         let live: Vec<String> = live.map(|step| format!("t{}", step + 1)).collect();
         let operands = steps.iter().flat_map(|step| [&step.left, &step.right]);
@@ -49,12 +51,12 @@ pub fn write(text: &mut String, program: &Program, scalar: ScalarType) {
         };
         line(4, &format!("let [{results}] = {{"));
         line(8, "#[inline(never)]");
-        let parameters = reads.parameters(program, scalar);
+        let parameters = reads.parameters(printed.sizes, scalar);
         line(
             8,
             &format!("fn part({parameters}) -> [{scalar}; {count}] {{"),
         );
-        for statement in part.filter_map(|index| statement(&program.steps, index, scalar)) {
+        for statement in part.filter_map(|index| statement(code, index)) {
             line(12, &statement);
         }
         line(12, &format!("[{results}]"));
@@ -74,7 +76,7 @@ struct Reads {
 }
 
 impl Reads {
-    fn of<'a>(operands: impl Iterator<Item = &'a Operand>, start: usize) -> Reads {
+    fn of<'a>(operands: impl Iterator<Item = &'a Operand<Literal>>, start: usize) -> Reads {
         let (mut arrays, mut trig, mut steps) =
             ([false; Argument::COUNT], BTreeSet::new(), BTreeSet::new());
         for operand in operands {
@@ -102,8 +104,7 @@ impl Reads {
         arguments.filter_map(|(argument, read)| read.then_some(argument))
     }
 
-    fn parameters(&self, program: &Program, scalar: ScalarType) -> String {
-        let sizes = program.sizes();
+    fn parameters(&self, sizes: Sizes, scalar: ScalarType) -> String {
         let parameter = |argument: Argument| {
             let (name, length) = (argument.name(), argument.length(sizes));
             format!("{name}: &[{scalar}; {length}]")

@@ -1,7 +1,7 @@
 //! Where sines and cosines are computed: in a function of one state, or in a
 //! loop over the lanes of one of several.
 
-use crate::program::{AngleSum, Trig};
+use crate::program::{AngleSum, LoweredTrig};
 
 /// How lines of a place begin and what they call a value.
 #[derive(Clone, Copy)]
@@ -54,7 +54,7 @@ impl Place {
     }
 
     /// What a line gives values to: the sine, the cosine or both.
-    pub(super) fn pair(self, trig: &Trig) -> String {
+    pub(super) fn pair(self, trig: &LoweredTrig) -> String {
         let (angle, lane) = (trig.angle, self.lane);
         match (trig.sin, trig.cos) {
             (true, false) => format!("s{angle}{lane}"),

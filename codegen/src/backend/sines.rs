@@ -26,7 +26,7 @@ pub(super) fn write(
 ) {
     let term = |term: Term| match term {
         Term::Input(_) => argument.to_owned(),
-        Term::Constant(value) => literal(value.0, scalar),
+        Term::Constant(value) => value.text(scalar),
         Term::Step(step) => format!("x{}", step + 1),
     };
     let value = |value: Value| {
@@ -49,12 +49,4 @@ pub(super) fn write(
         (None, None) => "()".to_owned(),
     };
     let _ = writeln!(text, "{indent}    {result}\n{indent}}};");
-}
-
-/// The shortest literal that reads back as the value in the scalar.
-fn literal(value: f64, scalar: ScalarType) -> String {
-    match scalar {
-        ScalarType::F64 => format!("{value:?}"),
-        ScalarType::F32 => format!("{:?}", value as f32),
-    }
 }

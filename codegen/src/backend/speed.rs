@@ -7,16 +7,15 @@
 
 use std::fmt::Write;
 
-use crate::backend::MathPath;
 use crate::program::text::input_name;
-use crate::program::{Input, Program, ScalarType};
+use crate::program::{Input, Lowered};
 
 /// Prints those that are read. Roots are correctly rounded, whoever computes them.
-pub(super) fn write(text: &mut String, program: &Program, scalar: ScalarType, math: &MathPath) {
-    let (path, suffix) = (&math.path, scalar.math_suffix());
-    for own in &program.speeds {
+pub(super) fn write(text: &mut String, code: &Lowered, path: &str) {
+    let (scalar, suffix) = (code.scalar, code.scalar.math_suffix());
+    for own in &code.speeds {
         let (name, joint) = (input_name(Input::PerSpeed(own.joint)), own.joint);
-        let square = scalar.literal(&own.square);
+        let square = own.square.text(scalar);
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,

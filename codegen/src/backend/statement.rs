@@ -2,11 +2,12 @@
 
 use crate::program::fused::{Fusion, fusion};
 use crate::program::text::input_name;
-use crate::program::{Operand, Operation, Program, ScalarType, Step};
+use crate::program::{Literal, Lowered, Operand, Operation, ScalarType};
 
 /// `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2, t1);` for a sum and the product
 /// that it takes, which has no line of its own.
-pub(super) fn statement(steps: &[Step], index: usize, scalar: ScalarType) -> Option<String> {
+pub(super) fn statement(code: &Lowered, index: usize) -> Option<String> {
+    let (steps, scalar) = (&code.steps, code.scalar);
     let step = steps.get(index)?;
     if step.operation == Operation::Fused {
         return None;
@@ -36,16 +37,16 @@ pub(super) fn statement(steps: &[Step], index: usize, scalar: ScalarType) -> Opt
 }
 
 /// The last step that reads each step; past the end for results.
-pub(super) fn last_uses(program: &Program) -> Vec<usize> {
-    let mut last = vec![0; program.steps.len()];
-    for (index, step) in program.steps.iter().enumerate() {
+pub(super) fn last_uses(code: &Lowered) -> Vec<usize> {
+    let mut last = vec![0; code.steps.len()];
+    for (index, step) in code.steps.iter().enumerate() {
         for operand in [&step.left, &step.right] {
             if let Operand::Step(read) = operand {
                 last[*read] = index;
             }
         }
     }
-    for output in &program.outputs {
+    for output in &code.outputs {
         if let Operand::Step(read) = output.value {
             last[read] = usize::MAX;
         }
@@ -54,10 +55,10 @@ pub(super) fn last_uses(program: &Program) -> Vec<usize> {
 }
 
 /// How a line names what it reads.
-pub(super) fn operand(operand: &Operand, scalar: ScalarType) -> String {
+pub(super) fn operand(operand: &Operand<Literal>, scalar: ScalarType) -> String {
     match operand {
         Operand::Input(input) => input_name(*input),
-        Operand::Constant(value) => scalar.literal(value),
+        Operand::Constant(value) => value.text(scalar),
         Operand::Step(index) => format!("t{}", index + 1),
     }
 }

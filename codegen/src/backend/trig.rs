@@ -11,62 +11,49 @@
 use std::fmt::Write;
 
 use crate::backend::place::Place;
-use crate::backend::{MathPath, sines};
-use crate::program::{Library, Program, ScalarType, Trig};
-use crate::sincos::AngleKernel;
+use crate::backend::sines;
+use crate::program::{Library, Lowered, LoweredTrig};
 
-/// Prints them; angles that are not among `sines` are `math`'s.
-pub(super) fn write(
-    text: &mut String,
-    program: &Program,
-    scalar: ScalarType,
-    math: &MathPath,
-    sines: &[AngleKernel],
-) {
-    for trig in &program.trig {
+/// Prints them; `path` is where those are that are called.
+pub(super) fn write(text: &mut String, code: &Lowered, path: &str) {
+    for trig in &code.trig {
         let place = Place::STATE;
         if trig.angle.additions() > 0 {
             let sum = place.sum(trig.angle);
             // Writing to a string cannot fail.
             let _ = writeln!(text, "    let a{} = {sum};", trig.angle);
         }
-        if !is_together(trig, math, sines) {
-            alone(text, trig, place, scalar, math, sines);
+        if !is_together(trig, code) {
+            alone(text, trig, place, code, path);
         }
     }
-    let angle = |trig: &Trig| Place::STATE.angle(trig.angle);
-    together(text, program, scalar, math, sines, "", angle);
+    let angle = |trig: &LoweredTrig| Place::STATE.angle(trig.angle);
+    together(text, code, path, "", angle);
 }
 
 /// Whether an angle's sines are of those that one call gives.
-pub(super) fn is_together(trig: &Trig, math: &MathPath, sines: &[AngleKernel]) -> bool {
-    math.library == Library::Together && own(trig, sines).is_none()
-}
-
-fn own<'k>(trig: &Trig, sines: &'k [AngleKernel]) -> Option<&'k AngleKernel> {
-    sines.iter().find(|sine| sine.angle == trig.angle)
+pub(super) fn is_together(trig: &LoweredTrig, code: &Lowered) -> bool {
+    code.library == Library::Together && trig.kernel.is_none()
 }
 
 /// One angle's by polynomials or a call of its own.
 pub(super) fn alone(
     text: &mut String,
-    trig: &Trig,
+    trig: &LoweredTrig,
     place: Place,
-    scalar: ScalarType,
-    math: &MathPath,
-    sines: &[AngleKernel],
+    code: &Lowered,
+    path: &str,
 ) {
-    if let Some(own) = own(trig, sines) {
-        let (pair, angle) = (place.pair(trig), place.angle(trig.angle));
-        return sines::write(text, place, &pair, &angle, &own.kernel, scalar);
+    let (pair, angle) = (place.pair(trig), place.angle(trig.angle));
+    if let Some(kernel) = &trig.kernel {
+        return sines::write(text, place, &pair, &angle, kernel, code.scalar);
     }
     let call = match (trig.sin, trig.cos) {
         (true, false) => "sin",
         (false, true) => "cos",
         _ => "sincos",
     };
-    let (path, suffix) = (&math.path, scalar.math_suffix());
-    let (pair, angle) = (place.pair(trig), place.angle(trig.angle));
+    let suffix = code.scalar.math_suffix();
     let Place {
         indent, binding, ..
     } = place;
@@ -80,28 +67,23 @@ pub(super) fn alone(
 /// and angles are arrays, and the function has another name.
 pub(super) fn together(
     text: &mut String,
-    program: &Program,
-    scalar: ScalarType,
-    math: &MathPath,
-    sines: &[AngleKernel],
+    code: &Lowered,
+    path: &str,
     lanes: &str,
-    angle: impl Fn(&Trig) -> String,
+    angle: impl Fn(&LoweredTrig) -> String,
 ) {
-    let called = || {
-        let trigs = program.trig.iter();
-        trigs.filter(|trig| is_together(trig, math, sines))
-    };
+    let called = || code.trig.iter().filter(|trig| is_together(trig, code));
     if called().next().is_none() {
         return;
     }
-    let name = |needed: bool, letter: char, trig: &Trig| match needed {
+    let name = |needed: bool, letter: char, trig: &LoweredTrig| match needed {
         true => format!("{letter}{}", trig.angle),
         false => "_".to_owned(),
     };
     let sin: Vec<String> = called().map(|trig| name(trig.sin, 's', trig)).collect();
     let cos: Vec<String> = called().map(|trig| name(trig.cos, 'c', trig)).collect();
     let angles: Vec<String> = called().map(angle).collect();
-    let (path, suffix) = (&math.path, scalar.math_suffix());
+    let suffix = code.scalar.math_suffix();
     let (sin, cos, angles) = (sin.join(", "), cos.join(", "), angles.join(", "));
     let _ = writeln!(
         text,

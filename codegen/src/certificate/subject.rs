@@ -3,7 +3,7 @@
 use dalembert_model::scene::Scale;
 
 use super::Certificate;
-use crate::backend::{MathPath, function};
+use crate::backend::{MathPath, Printed, function};
 use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, relative};
@@ -138,5 +138,7 @@ pub(super) fn printed(
     library: Library,
     sines: &[AngleKernel],
 ) -> String {
-    function::with_sines(program, scalar, &MathPath::of(library), sines, &[])
+    let code = sincos::lowered(program, scalar, library, sines);
+    let path = MathPath::of(library).path;
+    function::write(&Printed::of(program, &code), &path, &[])
 }

@@ -92,8 +92,7 @@ impl Word for Start {
     const WHAT: &'static str = "formulation";
 
     fn all() -> Vec<(&'static str, Self)> {
-        let named = |name: &'static str| Start::from_name(name).map(|start| (name, start));
-        Start::NAMES.into_iter().filter_map(named).collect()
+        Start::all().map(|start| (start.name(), start)).collect()
     }
 }
 
@@ -219,7 +218,9 @@ mod tests {
         check::<Start>();
         check::<SinCos>();
         assert_eq!(SinCos::all().len(), SinCos::NAMES.len());
-        assert_eq!(Start::all().len(), Start::NAMES.len());
+        for start in Start::all() {
+            assert_eq!(Start::from_name(start.name()), Some(start));
+        }
     }
 
     #[test]

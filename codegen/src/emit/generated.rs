@@ -3,7 +3,7 @@
 use crate::approximate::choose::Admitted;
 use crate::function::Function;
 use crate::portfolio::Source;
-use crate::program::{Counts, Program, ScalarType};
+use crate::program::{Counts, Library, Lowered, Program, ScalarType};
 use crate::simplify::Stage;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::verify::accuracy::Refused;
@@ -45,6 +45,12 @@ impl GeneratedFunction {
     /// The polynomials of its sines in a scalar; none if they are libm's.
     pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
         sincos::of(&self.sines, scalar)
+    }
+
+    /// The program in a scalar, each constant rounded once: what is printed. Sines
+    /// without polynomials are the library's.
+    pub fn code(&self, scalar: ScalarType, library: Library) -> Lowered {
+        sincos::lowered(&self.program, scalar, library, self.sines(scalar))
     }
 
     /// Its counts with the polynomials of its sines in a scalar.

@@ -71,7 +71,7 @@ pub(super) fn write(functions: &[GeneratedFunction], scalar: ScalarType, path: &
              {function}({})\n    }}\n}}",
             function.camel(),
             parameters.join(", "),
-            result_type(program, scalar),
+            result_type(function, program.sizes(), scalar),
             names.join(", ")
         );
     }

@@ -12,9 +12,9 @@ use super::state_box::StateBox;
 use super::{Interface, arguments, fused, interface, parameters, sines, variant};
 use crate::backend::entries::angles::Angles;
 use crate::backend::entries::{self, Around};
-use crate::backend::{Entries, MathPath, function, result};
+use crate::backend::{Entries, Printed, function, result};
 use crate::emit::GeneratedFunction;
-use crate::program::ScalarType;
+use crate::program::{Lowered, ScalarType};
 use crate::scene::Setting;
 
 /// How a robot's modules are printed.
@@ -22,8 +22,8 @@ use crate::scene::Setting;
 pub struct ModuleOptions<'a> {
     /// One module each.
     pub scalars: &'a [ScalarType],
-    /// Where sine and cosine are.
-    pub math: &'a MathPath,
+    /// Where the sines and roots are that functions call.
+    pub path: &'a str,
     /// In how many ways each function can be called.
     pub entries: Entries,
     /// Where `dalembert-batch` is.
@@ -73,11 +73,12 @@ pub fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
     Some(&rest[..end])
 }
 
-/// The whole file.
+/// The whole file; `codes` are the functions' programs in each scalar.
 pub fn write(
     robot: &Robot,
     setting: &Setting,
     functions: &[GeneratedFunction],
+    codes: &[Vec<Lowered>],
     options: &ModuleOptions<'_>,
 ) -> String {
     let mut text = format!(
@@ -86,9 +87,9 @@ pub fn write(
         robot.name,
         robot.short_hash(),
     );
-    for &scalar in options.scalars {
+    for (&scalar, codes) in options.scalars.iter().zip(codes) {
         text.push('\n');
-        text.push_str(&module(robot, setting, functions, scalar, options));
+        text.push_str(&module(robot, setting, functions, codes, scalar, options));
     }
     text
 }
@@ -97,6 +98,7 @@ fn module(
     robot: &Robot,
     setting: &Setting,
     functions: &[GeneratedFunction],
+    codes: &[Lowered],
     scalar: ScalarType,
     options: &ModuleOptions<'_>,
 ) -> String {
@@ -141,7 +143,7 @@ fn module(
     if options.entries > Entries::Single {
         angles.write(&mut text, scalar);
     }
-    for (index, generated) in functions.iter().enumerate() {
+    for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
         text.push('\n');
         let sizes = generated.program.sizes();
         if let Some(structure) = result::structure(generated.function, sizes, scalar) {
@@ -155,17 +157,16 @@ fn module(
             text.push_str(&parameters::constant(generated.function, setting, scalar));
         }
         let doc = function_doc(generated, setting, scalar);
-        let (program, sines) = (&generated.program, generated.sines(scalar));
+        let printed = Printed::of(&generated.program, code);
         text.push_str(&match options.entries {
-            Entries::Single => function::with_sines(program, scalar, options.math, sines, &doc),
+            Entries::Single => function::write(&printed, options.path, &doc),
             more => {
                 let around = Around {
-                    scalar,
-                    math: options.math,
+                    path: options.path,
                     batch: options.batch,
                     angles: &angles,
                 };
-                entries::write(program, &around, sines, more, &doc)
+                entries::write(&printed, &around, more, &doc)
             }
         });
     }

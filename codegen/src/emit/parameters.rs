@@ -9,7 +9,7 @@ use num_traits::{One, Signed};
 
 use super::figures::decimal;
 use crate::function::{Columns, Function};
-use crate::program::ScalarType;
+use crate::program::{Literal, ScalarType};
 use crate::scene::Setting;
 use crate::scene::base::{BaseParameters, Parameter};
 
@@ -76,7 +76,7 @@ pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType
         values.len()
     );
     for value in &values {
-        let _ = writeln!(text, "    {},", scalar.literal(value));
+        let _ = writeln!(text, "    {},", Literal(scalar.round(value)).text(scalar));
     }
     text.push_str("];\n\n");
     text

@@ -129,14 +129,22 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             warn_of_overflow(setting.robot(), &generated.program, scalar, &mut warnings);
         }
     }
+    // What is printed, and what the text is compared with once it is read back.
+    let in_scalar = |&scalar: &ScalarType| -> Vec<Lowered> {
+        let all = functions.iter();
+        all.map(|generated| generated.code(scalar, request.math.library))
+            .collect()
+    };
+    let codes: Vec<Vec<Lowered>> = scalars.iter().map(in_scalar).collect();
     let name = request.module_name(robot);
     let text = module::write(
         robot,
         &setting,
         &functions,
+        &codes,
         &ModuleOptions {
             scalars: &scalars,
-            math: &request.math,
+            path: &request.math.path,
             entries: request.entries,
             batch: &request.batch,
             interface: request.interface,
@@ -147,13 +155,13 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     );
     let angles = module::angles(robot.joints.len(), &functions);
     let mut emitted = Vec::new();
-    for &scalar in &scalars {
-        for generated in &functions {
+    for (&scalar, codes) in scalars.iter().zip(&codes) {
+        for (generated, code) in functions.iter().zip(codes) {
             let section = match request.layout {
                 Layout::Contents => Some(text.as_str()),
                 Layout::Modules => module::section(&text, &module::name(&name, scalar, &scalars)),
             };
-            emitted.push(read_back(section, generated, scalar, request, &angles)?);
+            emitted.push(read_back(section, generated, code, request, &angles)?);
         }
     }
     contradiction::check(&setting, &functions, &emitted)?;
@@ -296,10 +304,11 @@ fn sines(
 fn read_back(
     section: Option<&str>,
     generated: &GeneratedFunction,
-    scalar: ScalarType,
+    code: &Lowered,
     request: &Request,
     angles: &Angles,
 ) -> Result<Emitted, GenerateError> {
+    let scalar = code.scalar;
     let fail = |why| GenerateError::Text(generated.function, scalar, why);
     let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
     let (function, entries) = (generated.function, request.entries);
@@ -312,9 +321,9 @@ fn read_back(
         generated.program.sizes(),
     )
     .map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
-    let library = request.math.library;
-    read.matches(&generated.program, library, generated.sines(scalar))
-        .map_err(|difference| fail(TextDefect::Differs(difference)))?;
+    if let Some(difference) = read.difference(code) {
+        return Err(fail(TextDefect::Differs(difference)));
+    }
     if read.counts() != generated.counts_in(scalar) {
         return Err(fail(TextDefect::Counts));
     }

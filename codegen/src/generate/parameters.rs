@@ -95,7 +95,7 @@ pub(super) fn check(request: &Request, setting: &Setting) -> Result<(), Paramete
     if !setting.has(RuntimeParameter::Payload) {
         return Ok(());
     }
-    if let Start::Only(_) = request.start {
+    if !request.start.has_chain() {
         return Err(ParameterError::Formulation(request.start));
     }
     let mut functions = request.functions.iter();

@@ -7,8 +7,9 @@ use super::{GenerateError, Prefer, Request};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::plan::Entry;
+use crate::portfolio::start::Problem;
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{self, Limit, Source, Start, Sums, Variant};
+use crate::portfolio::{self, Limit, Source, Variant};
 use crate::program::{Counts, Program};
 use crate::scene::{SceneKey, Setting};
 use crate::simplify::{self, Effort, Simplified, Stage};
@@ -171,13 +172,16 @@ impl Search<'_> {
         let (setting, function, start) = (self.setting, self.function, self.request.start);
         let excess = |graph: &Graph| self.judge.excess(graph);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
-        let (tuned, variants) = start.variants(setting, function, effort, limit, from, watch);
+        let (tuned, variants) = start.variants(&Problem {
+            setting,
+            function,
+            effort,
+            limit,
+            from,
+            watch,
+        });
         let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
-        let mut helpers = match start {
-            Start::Auto => vec![portfolio::angle_sums(setting, Sums::Products)],
-            Start::AngleSums => vec![portfolio::angle_sums(setting, Sums::Inputs)],
-            Start::Only(_) => Vec::new(),
-        };
+        let mut helpers = start.helpers(setting);
         if let Some(tuned) = &tuned
             && effort == Effort::Thorough
         {

@@ -14,7 +14,6 @@ use crate::certificate::Certificate;
 use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request};
 use crate::plan::Edited;
-use crate::portfolio::Start;
 use crate::program::{Program, ScalarType};
 use crate::scene::SceneKey;
 use crate::scene::Setting;
@@ -248,9 +247,9 @@ fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, Generat
 
 /// Another regrouping may be looked for only where the start may be any.
 fn thorough(request: &Request) -> Settings {
-    let sweeps = match request.start {
-        Start::Auto => Settings::THOROUGH.sweeps,
-        Start::AngleSums | Start::Only(_) => 0,
+    let sweeps = match request.start.may_regroup() {
+        true => Settings::THOROUGH.sweeps,
+        false => 0,
     };
     Settings {
         sweeps,

@@ -1,5 +1,4 @@
-//! The load's numbers: in which regrouping of the chain they are, and how formulas
-//! read them.
+//! The load's numbers: in which regrouping of the chain they are.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -7,74 +6,16 @@ use std::rc::Rc;
 use dalembert_model::equations::chain::Chain;
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::scalar::Scalar;
 
-use super::{skeleton_for, trace_chain, tuned};
+use super::chain::{skeleton_for, trace_chain};
+use super::descent::tuned;
+use super::numbers::Numbers;
 use crate::function::{Argument, Function};
-use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Folding, Node};
 use crate::program::Input;
 use crate::scene::Setting;
-use crate::scene::load::{LoadParameters, Unknowns, place};
+use crate::scene::load::LoadParameters;
 use crate::simplify::Effort;
-
-/// The numbers of a chain as symbols: those that depend on a payload are entries of
-/// the load.
-pub(super) struct Numbers<'a> {
-    builder: &'a Rc<RefCell<Builder>>,
-    unknowns: Option<Unknowns>,
-    chosen: Option<&'a LoadParameters>,
-    /// Where none are chosen yet: all, in the order in which they are met.
-    met: Vec<Exact>,
-}
-
-impl<'a> Numbers<'a> {
-    pub(super) fn of(
-        setting: &'a Setting,
-        function: Function,
-        builder: &'a Rc<RefCell<Builder>>,
-    ) -> Numbers<'a> {
-        let is_loaded = setting.takes(function, RuntimeParameter::Payload);
-        Numbers {
-            builder,
-            unknowns: is_loaded.then(|| setting.unknowns()),
-            chosen: setting.load(),
-            met: Vec::new(),
-        }
-    }
-
-    pub(super) fn symbol(&mut self, number: &Exact) -> Symbol {
-        let is_unknown = |unknowns: &Unknowns| unknowns.occur_in(number);
-        if !self.unknowns.as_ref().is_some_and(is_unknown) {
-            return Symbol::from(number.clone());
-        }
-        let found = match self.chosen {
-            // What no torque depends on may be anything.
-            Some(chosen) => chosen.place(number),
-            None => Some(self.meet(number)),
-        };
-        let Some((index, is_negative)) = found else {
-            return Symbol::zero();
-        };
-        let entry = Symbol::input(self.builder, Input::Entry(Argument::Load, index));
-        match is_negative {
-            true => entry.neg(),
-            false => entry,
-        }
-    }
-
-    fn meet(&mut self, number: &Exact) -> (usize, bool) {
-        if let Some(known) = place(&self.met, number) {
-            return known;
-        }
-        let is_negative = number.leads_negative();
-        self.met.push(match is_negative {
-            true => number.neg(),
-            false => number.clone(),
-        });
-        (self.met.len() - 1, is_negative)
-    }
-}
 
 /// The setting with the load's numbers, if a payload is an argument: those of the
 /// regrouping in which torques cost least, as far as torques depend on them. No
@@ -93,7 +34,7 @@ pub fn chosen(setting: Setting) -> Setting {
     // As the trace meets them.
     let mut numbers = Numbers::of(&full, function, &builder);
     chain.map(|number| numbers.symbol(number));
-    let met = std::mem::take(&mut numbers.met);
+    let met = numbers.met();
     let live = graph.live();
     let is_read = |index: usize| {
         let mut nodes = graph.nodes.iter().zip(&live);

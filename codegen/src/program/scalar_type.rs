@@ -1,4 +1,4 @@
-//! Scalar types and their literals.
+//! Scalar types, and numbers rounded to them.
 
 use std::fmt;
 
@@ -78,14 +78,6 @@ impl ScalarType {
             ScalarType::F64 => value,
             ScalarType::F32 if f64::from(value as f32) < value => (value as f32).next_up().into(),
             ScalarType::F32 => (value as f32).into(),
-        }
-    }
-
-    /// The shortest literal that reads back as the rounded constant.
-    pub fn literal(self, value: &Exact) -> String {
-        match self {
-            ScalarType::F64 => format!("{:?}", f64::nearest(value)),
-            ScalarType::F32 => format!("{:?}", f32::nearest(value)),
         }
     }
 

@@ -43,7 +43,7 @@ use base::{BaseParameters, NoBase};
 pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
 pub use motion::motion;
-pub use posed::Posed;
+pub use posed::{Posed, Value};
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;

@@ -23,7 +23,7 @@ use std::fmt;
 
 use crate::interval::Interval;
 use crate::program::kernel::Kernel;
-use crate::program::{AngleSum, Library, Program, ScalarType, Trig};
+use crate::program::{AngleSum, Library, Lowered, Program, ScalarType, Trig};
 use choose::Candidates;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::{JointKind, Position, Robot};
@@ -266,6 +266,20 @@ fn one(
 pub fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
     let found = all.iter().find(|(known, _)| *known == scalar);
     found.map_or(&[], |(_, sines)| sines)
+}
+
+/// A program in a scalar with these polynomials; other angles are the library's.
+pub fn lowered(
+    program: &Program,
+    scalar: ScalarType,
+    library: Library,
+    sines: &[AngleKernel],
+) -> Lowered {
+    let kernel = |angle| {
+        let found = sines.iter().find(|sine| sine.angle == angle);
+        found.map(|sine| &sine.kernel)
+    };
+    program.lower(scalar, kernel).calling(library)
 }
 
 /// Multiplications and additions of the angles' polynomials.

@@ -4,7 +4,9 @@
 //! 63 bits, each with a random point of its own. Above [`WRITTEN_LIMIT`] joints
 //! the yardstick is the link-frame recursion modulo the same primes, itself
 //! proved against Lagrange–Euler for every joint kind and convention at up to
-//! that many joints by tests.
+//! that many joints by tests. The formula is executed once, by a scalar that
+//! [records](dalembert_model::scalar::record) the operations it asks for; the
+//! recording, which says why it is the formula, is run at every point.
 //!
 //! **Against whom.** Somebody may choose robot, scene and program freely and
 //! knows this code, but primes and points follow from the SHA-256 of what was
@@ -23,10 +25,11 @@
 use std::cell::{Cell, RefCell};
 use std::fmt;
 
-use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::equations::Formulation;
 use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::record::Recording;
 use dalembert_model::scalar::residue::Residue;
-use dalembert_model::scalar::{Divide, Scalar};
 
 use super::challenge::{Point, Transcript};
 use super::degree::Degree;
@@ -35,7 +38,7 @@ use super::ratio::Ratio;
 use super::size::Denominators;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
-use crate::scene::{Posed, Setting};
+use crate::scene::Setting;
 
 /// The most joints for which Lagrange–Euler itself is the yardstick: its cost
 /// grows with n⁴ to n⁵.
@@ -170,21 +173,12 @@ pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
     let mut transcript = Transcript::new("program");
     transcript.setting(setting);
     transcript.program(program);
-    let expected = |point: &Point| {
-        let input = |input| point.input(input);
-        let constant = |constant: &Exact| point.constant(constant);
-        let formula = Formula::new(setting, program.function, yardstick, input, constant);
-        formula.map_or(Ok(None), |formula| formula.checked(point))
-    };
     let inputs = Inputs { setting, program };
-    compare(transcript, program, |point| inputs.run(point), expected)?;
+    let formula = Formula::new(setting, program.function, yardstick);
+    let own = |point: &Point| inputs.run(point);
+    compare(transcript, program, own, |point| formula.at(point))?;
     let denominators = RefCell::default();
-    let constant = |constant: &Exact| {
-        let degree = Ratio::constant(constant, &mut denominators.borrow_mut());
-        Some(degree)
-    };
-    let formula = Formula::new(setting, program.function, yardstick, Ratio::input, constant);
-    let formula = formula.map_or_else(Vec::new, |formula| formula.results());
+    let formula = formula.degrees(&denominators);
     let own = inputs.degrees(&denominators);
     let denominators = denominators.borrow().clone();
     let (degree, height) = bounded(&own, &formula, &denominators)?;
@@ -219,75 +213,72 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     bounded(&b, &a, &denominators).map(drop)
 }
 
-/// A formula over the whole arm at a motion: a locked joint is one whose pair
-/// or position is constant and whose rates are zero.
-pub(super) struct Formula<'a, S> {
-    setting: &'a Setting,
-    function: Function,
-    yardstick: Formulation,
-    posed: Posed<S>,
+/// A formula over the whole arm at a motion, recorded once and run at every point: a
+/// locked joint is one whose pair or position is constant and whose rates are zero.
+struct Formula {
+    /// The results over the setting's rows.
+    results: Recording<Input, Exact>,
+    /// These, and what vanishes if the results over all joints solve the equations
+    /// that they are to solve: D q̈ + h + c + b∘q̇ = τ, D D⁻¹ = 1, or their slopes,
+    /// with D and the loads as written. None if they solve none.
+    solving: Option<Recording<Input, Exact>>,
+    /// How many results there are.
+    length: usize,
 }
 
-impl<'a, S: Divide> Formula<'a, S> {
-    /// From the values of inputs and constants; `None` if a constant has none.
-    pub(super) fn new(
-        setting: &'a Setting,
-        function: Function,
-        yardstick: Formulation,
-        input: impl FnMut(Input) -> S,
-        constant: impl Fn(&Exact) -> Option<S>,
-    ) -> Option<Self> {
-        let failed = Cell::new(false);
-        let constant = |value: &Exact| {
-            constant(value).unwrap_or_else(|| {
-                failed.set(true);
-                S::zero()
+impl Formula {
+    fn new(setting: &Setting, function: Function, yardstick: Formulation) -> Self {
+        let (length, residuals) = (Cell::new(0), Cell::new(0));
+        let record = |with_residual: bool| {
+            setting.record(function, |posed, _| {
+                let all = posed.all(function, yardstick);
+                let residual = match with_residual {
+                    true => function.residual(yardstick, &posed.arm, &posed.motion, &all),
+                    false => Vec::new(),
+                };
+                let mut values = posed.select(setting, function, all);
+                length.set(values.len());
+                residuals.set(residual.len());
+                values.extend(residual);
+                values
             })
         };
-        let arm = Arm::from_robot(setting.robot(), &mut { constant });
-        let posed = setting.posed(function, arm, input, constant);
-        (!failed.get()).then_some(Formula {
-            setting,
-            function,
-            yardstick,
-            posed,
-        })
+        let solving = record(true);
+        let (results, solving) = match residuals.get() {
+            0 => (solving, None),
+            _ => (record(false), Some(solving)),
+        };
+        Formula {
+            results,
+            solving,
+            length: length.get(),
+        }
     }
 
-    fn evaluate(&self) -> Vec<S> {
-        self.posed.all(self.function, self.yardstick)
-    }
-
-    fn select(&self, outputs: Vec<S>) -> Vec<S> {
-        self.posed.select(self.setting, self.function, outputs)
-    }
-
-    /// The results over the setting's rows.
-    pub(super) fn results(&self) -> Vec<S> {
-        self.select(self.evaluate())
-    }
-}
-
-impl Formula<'_, Residue> {
-    /// The results over the setting's rows, which solve the equations that
-    /// they are to solve: D q̈ + h + c + b∘q̇ = τ, D D⁻¹ = 1, or their slopes,
-    /// with D and the loads as written. None where they have no values.
-    fn checked(&self, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
-        let outputs = self.evaluate();
-        let residual = self.function.residual(
-            self.yardstick,
-            &self.posed.arm,
-            &self.posed.motion,
-            &outputs,
-        );
-        for value in residual {
-            match value.value(point.prime()) {
+    /// The results at a point, which solve their equations there. None where they
+    /// have no values.
+    fn at(&self, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
+        let recording = self.solving.as_ref().unwrap_or(&self.results);
+        let constant = |constant: &Exact| point.constant(constant);
+        let Some(mut values) = recording.run(|input| point.input(*input), constant) else {
+            return Ok(None);
+        };
+        for residual in values.split_off(self.length) {
+            match residual.value(point.prime()) {
                 None => return Ok(None),
                 Some(0) => {}
                 Some(_) => return Err(Disproof::Equation),
             }
         }
-        Ok(Some(self.select(outputs)))
+        Ok(Some(values))
+    }
+
+    /// The degrees of the results in the variables.
+    fn degrees(&self, denominators: &RefCell<Denominators>) -> Vec<Ratio> {
+        let input = |input: &Input| Ratio::input(*input);
+        let constant =
+            |constant: &Exact| Some(Ratio::constant(constant, &mut denominators.borrow_mut()));
+        self.results.run(input, constant).unwrap_or_default()
     }
 }
 

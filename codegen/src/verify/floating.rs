@@ -6,11 +6,16 @@
 //! so that only the rounding of its own arithmetic and constants counts. What
 //! inverts D may err as many times more as D's condition at the state is.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
 use dalembert_model::equations::factor::among;
 use dalembert_model::equations::forward::free;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
+use dalembert_model::scalar::record::{Recorder, Recording};
 
 use super::condition::Condition;
 use crate::function::{Argument, Function, Quantity, Sizes};
@@ -18,7 +23,7 @@ use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
 use crate::program::{AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, ScalarType};
-use crate::scene::{Posed, Setting};
+use crate::scene::{Posed, Setting, Value};
 use crate::states::JointState;
 
 /// The bound on the normwise error against the runtime, in units of u.
@@ -80,14 +85,21 @@ impl Granted {
 }
 
 /// The generic runtime: the link-frame recursion in f64, constants rounded
-/// once.
-#[derive(Clone, Debug)]
+/// once. A formula is recorded where it is first asked for.
+#[derive(Debug)]
 pub struct Runtime {
-    arm: Arm<f64>,
-    /// With the lengths that no torque depends on.
-    whole: Arm<f64>,
+    /// Lengths that no torque depends on are folded away while exact.
+    arm: Arm<Exact>,
+    /// With them.
+    whole: Arm<Exact>,
     setting: Setting,
+    results: Formulas,
+    /// D over the joints that move, as functions take the arm.
+    inertias: Formulas,
 }
+
+/// A formula a function, over rounded constants.
+type Formulas = RefCell<BTreeMap<Function, Rc<Recording<Input, f64>>>>;
 
 impl Runtime {
     /// Of a robot; lengths without effect are folded away while exact.
@@ -98,11 +110,13 @@ impl Runtime {
     /// Of a robot in a setting: the same recursion over all its joints, with
     /// the setting's constants in place of the state's.
     pub fn in_setting(setting: Setting) -> Runtime {
-        let exact: Arm<Exact> = Arm::from_robot(setting.robot(), &mut Exact::clone);
+        let whole = Arm::from_robot(setting.robot(), &mut Exact::clone);
         Runtime {
-            whole: exact.map(f64::nearest),
-            arm: exact.fold_base().map(f64::nearest),
+            arm: whole.clone().fold_base(),
+            whole,
             setting,
+            results: Formulas::default(),
+            inertias: Formulas::default(),
         }
     }
 
@@ -111,19 +125,40 @@ impl Runtime {
         if !function.inverts_inertia() {
             return Granted(1.0);
         }
-        let Posed { arm, motion, .. } = self.posed(function, &self.arm, state);
-        let d = Formulation::NewtonEulerLink.inertia(&arm, &arm.at(&motion.q));
-        let d = among(&d, &free(&motion.moves)).concat();
+        let inertia = |posed: &Posed<Value>| {
+            let (arm, motion) = (&posed.arm, &posed.motion);
+            let d = Formulation::NewtonEulerLink.inertia(arm, &arm.at(&motion.q));
+            among(&d, &free(&motion.moves)).concat()
+        };
+        let recording = self.recorded(&self.inertias, function, &self.arm, inertia);
+        let d = self.run_at(&recording, state);
         Granted(Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0))
     }
 
-    fn posed(&self, function: Function, arm: &Arm<f64>, state: &JointState) -> Posed<f64> {
-        let input = |input| {
+    /// A formula of a function, recorded unless it is there.
+    fn recorded(
+        &self,
+        known: &Formulas,
+        function: Function,
+        arm: &Arm<Exact>,
+        formula: impl FnOnce(&Posed<Value>) -> Vec<Value>,
+    ) -> Rc<Recording<Input, f64>> {
+        let mut known = known.borrow_mut();
+        let recording = known.entry(function).or_insert_with(|| {
+            let arm = |recorder: &Recorder<Input, Exact>| arm.map(|x| recorder.constant(x));
+            let formula = |posed: &Posed<Value>, _: &Recorder<Input, Exact>| formula(posed);
+            let recording = self.setting.record_of(function, arm, formula);
+            Rc::new(recording.with_constants(f64::nearest))
+        });
+        recording.clone()
+    }
+
+    /// A formula at a state.
+    fn run_at(&self, recording: &Recording<Input, f64>, state: &JointState) -> Vec<f64> {
+        let input = |input: &Input| {
             // A motion reads the angles of single joints only.
-            let angle = |sum: crate::program::AngleSum| {
-                sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>()
-            };
-            match input {
+            let angle = |sum: AngleSum| sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>();
+            match *input {
                 Input::PerSpeed(joint) => {
                     let qd = state.entry(Argument::Velocity, joint);
                     let sqrt = |x: &f64| libm::sqrt(*x);
@@ -134,8 +169,9 @@ impl Runtime {
                 Input::Entry(argument, joint) => state.entry(argument, joint),
             }
         };
-        self.setting
-            .posed(function, arm.clone(), input, f64::nearest)
+        // Every constant has a value.
+        let results = recording.run(input, |x| Some(*x));
+        results.unwrap_or_default()
     }
 
     /// The results of a function at a state, flat.
@@ -145,8 +181,10 @@ impl Runtime {
             true => &self.whole,
             false => &self.arm,
         };
-        let posed = self.posed(function, arm, state);
-        posed.results(&self.setting, function, Formulation::NewtonEulerLink)
+        let formulation = Formulation::NewtonEulerLink;
+        let results = |posed: &Posed<Value>| posed.results(&self.setting, function, formulation);
+        let recording = self.recorded(&self.results, function, arm, results);
+        self.run_at(&recording, state)
     }
 }
 

@@ -11,13 +11,13 @@
 //!
 //! [`BaseParameters`]: crate::scene::base::BaseParameters
 
-use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
+use dalembert_model::equations::Formulation;
 use dalembert_model::equations::regressor::{Column, of_drives, of_links};
-use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
-use dalembert_model::scalar::Divide;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::record::Recording;
 
 use super::challenge::{Point, Transcript};
 use super::exact::{Disproof, MAX_DRAWS, PRIMES, WRITTEN_LIMIT};
@@ -26,8 +26,8 @@ use super::ratio::Ratio;
 use super::size::Denominators;
 use crate::function::Function;
 use crate::program::Input;
-use crate::scene::Setting;
 use crate::scene::base::{BaseParameters, Parameter};
+use crate::scene::{Setting, Value};
 
 /// Proves the base parameters of a setting that a function is over.
 ///
@@ -48,21 +48,24 @@ pub fn prove_base(
         base,
         formulation,
     };
+    let Some(differences) = statement.differences() else {
+        return Err(Disproof::Unfit);
+    };
     let challenge = statement.transcript().seal();
     let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
     let mut good = 0;
     for point in points {
-        let Some(differences) = statement.at(&point) else {
+        let Some(values) = at(&differences, &point) else {
             continue;
         };
-        if let Some(wrong) = differences.iter().position(|x| *x != 0) {
+        if let Some(wrong) = values.iter().position(|x| *x != 0) {
             let parameters = statement.parameters();
             let parameter = parameters[wrong % parameters.len()].to_string();
             return Err(Disproof::Dependence { parameter });
         }
         good += 1;
         if good == PRIMES {
-            return statement.is_sure();
+            return is_sure(&differences);
         }
     }
     Err(Disproof::Unfit)
@@ -115,84 +118,78 @@ impl Statement<'_> {
         links.chain(drives).collect()
     }
 
-    /// Y_full − Y B over the rows, row by row; `None` if a constant has no value.
-    fn differences<S: Divide>(
-        &self,
-        input: impl FnMut(Input) -> S,
-        constant: impl Fn(&Exact) -> Option<S>,
-    ) -> Option<Vec<S>> {
-        let failed = Cell::new(false);
-        let constant = |value: &Exact| {
-            constant(value).unwrap_or_else(|| {
-                failed.set(true);
-                S::zero()
-            })
-        };
-        let setting = self.setting;
-        let arm = Arm::from_robot(setting.robot(), &mut { constant });
-        let posed = setting.posed(self.function, arm, input, constant);
-        let (arm, motion) = (&posed.arm, &posed.motion);
-        let by = |columns: &[Column<S>]| {
-            let entries = self
-                .function
-                .evaluate(self.formulation, arm, motion, columns);
-            let rows = entries.chunks(columns.len().max(1));
-            rows.map(<[S]>::to_vec).collect::<Vec<_>>()
-        };
-        let mut all = of_links(setting.joints().len());
-        all.extend(of_drives(setting.robot()));
-        let whole = by(&all);
-        let own: Vec<Column<S>> = self.base.columns.iter().map(|c| c.map(constant)).collect();
-        let own = by(&own);
-        // Each base parameter's terms: the place of a parameter, and its factor.
+    /// Each base parameter's terms: the place of a parameter, and its factor. None if
+    /// there is no such parameter.
+    fn combinations(&self) -> Option<Vec<Vec<(usize, &Exact)>>> {
         let places: BTreeMap<Parameter, usize> = (self.parameters().into_iter())
             .enumerate()
             .map(|(place, parameter)| (parameter, place))
             .collect();
-        let mut combinations: Vec<Vec<(usize, S)>> = Vec::new();
-        for terms in &self.base.combinations {
-            let term = |(parameter, factor): &(Parameter, Exact)| {
-                Some((*places.get(parameter)?, constant(factor)))
+        let combinations = self.base.combinations.iter().map(|terms| {
+            let terms = terms.iter();
+            let terms = terms.map(|(own, factor)| Some((*places.get(own)?, factor)));
+            terms.collect()
+        });
+        combinations.collect()
+    }
+
+    /// Y_full − Y B over the rows, row by row, as a formula.
+    fn differences(&self) -> Option<Recording<Input, Exact>> {
+        let combinations = self.combinations()?;
+        let setting = self.setting;
+        let recording = setting.record(self.function, |posed, recorder| {
+            let (arm, motion) = (&posed.arm, &posed.motion);
+            let by = |columns: &[Column<Value>]| {
+                let entries = self
+                    .function
+                    .evaluate(self.formulation, arm, motion, columns);
+                let rows = entries.chunks(columns.len().max(1));
+                rows.map(<[Value]>::to_vec).collect::<Vec<_>>()
             };
-            combinations.push(terms.iter().map(term).collect::<Option<_>>()?);
-        }
-        let mut found = Vec::new();
-        for &row in setting.rows() {
-            let mut differences = whole[row].clone();
-            for (entry, terms) in own[row].iter().zip(&combinations) {
-                for (place, factor) in terms {
-                    differences[*place] = differences[*place].sub(&entry.mul(factor));
+            let mut all = of_links(setting.joints().len());
+            all.extend(of_drives(setting.robot()));
+            let whole = by(&all);
+            let constant = |x: &Exact| recorder.constant(x);
+            let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
+            let own = by(&own);
+            let mut found = Vec::new();
+            for &row in setting.rows() {
+                let mut differences = whole[row].clone();
+                for (entry, terms) in own[row].iter().zip(&combinations) {
+                    for (place, factor) in terms {
+                        let part = entry.mul(&constant(factor));
+                        differences[*place] = differences[*place].sub(&part);
+                    }
                 }
+                found.extend(differences);
             }
-            found.extend(differences);
-        }
-        (!failed.get()).then_some(found)
+            found
+        });
+        Some(recording)
     }
+}
 
-    fn at(&self, point: &Point) -> Option<Vec<u64>> {
-        let input = |input| point.input(input);
-        let differences = self.differences(input, |constant| point.constant(constant))?;
-        let values = differences.iter().map(|x| x.value(point.prime()));
-        values.collect()
-    }
+/// Values at a point; `None` if a constant or a value has none.
+fn at(differences: &Recording<Input, Exact>, point: &Point) -> Option<Vec<u64>> {
+    let input = |input: &Input| point.input(*input);
+    let values = differences.run(input, |constant| point.constant(constant))?;
+    values.iter().map(|x| x.value(point.prime())).collect()
+}
 
-    /// Whether a miss is unlikely.
-    fn is_sure(&self) -> Result<(), Disproof> {
-        let denominators: RefCell<Denominators> = RefCell::default();
-        let constant =
-            |constant: &Exact| Some(Ratio::constant(constant, &mut denominators.borrow_mut()));
-        let differences = self.differences(Ratio::input, constant);
-        let differences = differences.unwrap_or_default();
-        let denominators = denominators.borrow().clone();
-        let tops = || differences.iter().map(Ratio::top);
-        let degree = tops()
-            .map(|top| top.map_or(u64::MAX, |top| top.bound()))
-            .max();
-        let height = tops().map(|top| top.map_or(u64::MAX, |top| top.height(&denominators)));
-        let (degree, height) = (degree.unwrap_or(0), height.max().unwrap_or(0));
-        match miss::is_small(degree, height, PRIMES) {
-            true => Ok(()),
-            false => Err(Disproof::Large { degree, height }),
-        }
+/// Whether a miss is unlikely.
+fn is_sure(differences: &Recording<Input, Exact>) -> Result<(), Disproof> {
+    let mut denominators = Denominators::default();
+    let constant = |constant: &Exact| Some(Ratio::constant(constant, &mut denominators));
+    let differences = differences.run(|input| Ratio::input(*input), constant);
+    let differences = differences.unwrap_or_default();
+    let tops = || differences.iter().map(Ratio::top);
+    let degree = tops()
+        .map(|top| top.map_or(u64::MAX, |top| top.bound()))
+        .max();
+    let height = tops().map(|top| top.map_or(u64::MAX, |top| top.height(&denominators)));
+    let (degree, height) = (degree.unwrap_or(0), height.max().unwrap_or(0));
+    match miss::is_small(degree, height, PRIMES) {
+        true => Ok(()),
+        false => Err(Disproof::Large { degree, height }),
     }
 }

@@ -2,7 +2,8 @@
 //! over the robot's own parameters, in 256 bits.
 //!
 //! It shares nothing with what is emitted but the robot and the state: no
-//! graph, no search, no proof, no printer. Its own error is bounded along with
+//! graph, no search, no proof, no printer, and unlike the proof no recording of the
+//! formula, which is executed anew at each state. Its own error is bounded along with
 //! it: `Known` carries the size of all that a value was made of, every sum
 //! and difference replaced by the sum of magnitudes.
 

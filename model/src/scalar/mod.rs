@@ -11,14 +11,18 @@
 //! - [`sincos_pair`]: sine and cosine of an angle
 //! - [`structural`]: sums and products without structural zeros and ones
 //! - [`count`]: counts the operations of a formula as written
+//! - [`record`]: a formula as it is executed, to run it again in other scalars
+//! - [`dyadic`]: numbers made of zero and one, which need no context
 //! - `big`: a big float, the reference of tests and reports (feature `bigfloat`)
 
 #[cfg(feature = "bigfloat")]
 pub mod big;
 pub mod count;
 pub mod dual;
+pub mod dyadic;
 pub mod field;
 pub mod prime;
+pub mod record;
 pub mod residue;
 pub mod sincos_pair;
 pub mod structural;

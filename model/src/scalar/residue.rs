@@ -8,6 +8,7 @@ use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::Zero;
 
+use super::dyadic::Dyadic;
 use super::prime::Prime;
 use super::{Divide, Scalar, SinCosPair};
 
@@ -17,8 +18,8 @@ pub struct Residue(Form);
 
 #[derive(Clone, Copy, Debug)]
 enum Form {
-    /// units / 2^halvings
-    Free { units: i64, halvings: u32 },
+    /// Of no prime yet.
+    Free(Dyadic),
     /// x·2⁶⁴ mod p
     Of(Prime, u64),
     /// Of two primes, a free number beyond its range, or a quotient by zero:
@@ -52,7 +53,7 @@ impl Residue {
     pub fn value(&self, prime: Prime) -> Option<u64> {
         match self.0 {
             Form::Of(own, value) if own == prime => Some(prime.leave(value)),
-            Form::Free { units, halvings } => Some(prime.leave(attached(prime, units, halvings))),
+            Form::Free(x) => Some(prime.leave(attached(prime, x))),
             _ => None,
         }
     }
@@ -71,51 +72,34 @@ impl Residue {
         }
     }
 
-    fn free(units: Option<i64>, halvings: u32) -> Residue {
-        Residue(units.map_or(Form::Lost, |units| Form::Free { units, halvings }))
+    fn free(x: Option<Dyadic>) -> Residue {
+        Residue(x.map_or(Form::Lost, Form::Free))
     }
 
     fn zip(
         &self,
         other: &Residue,
-        free: impl Fn([i64; 2], u32) -> Residue,
+        free: impl Fn(Dyadic, Dyadic) -> Option<Dyadic>,
         of: impl Fn(Prime, u64, u64) -> u64,
     ) -> Residue {
         match (self.0, other.0) {
             (Form::Of(p, a), Form::Of(q, b)) if p == q => Residue(Form::Of(p, of(p, a, b))),
-            (Form::Of(p, a), Form::Free { units, halvings }) => {
-                Residue(Form::Of(p, of(p, a, attached(p, units, halvings))))
-            }
-            (Form::Free { units, halvings }, Form::Of(p, b)) => {
-                Residue(Form::Of(p, of(p, attached(p, units, halvings), b)))
-            }
-            (
-                Form::Free { units, halvings },
-                Form::Free {
-                    units: other,
-                    halvings: more,
-                },
-            ) => {
-                let most = halvings.max(more);
-                let scaled = |units: i64, by: u32| units.checked_mul(1i64.checked_shl(most - by)?);
-                match (scaled(units, halvings), scaled(other, more)) {
-                    (Some(a), Some(b)) => free([a, b], most),
-                    _ => Residue(Form::Lost),
-                }
-            }
+            (Form::Of(p, a), Form::Free(b)) => Residue(Form::Of(p, of(p, a, attached(p, b)))),
+            (Form::Free(a), Form::Of(p, b)) => Residue(Form::Of(p, of(p, attached(p, a), b))),
+            (Form::Free(a), Form::Free(b)) => Residue::free(free(a, b)),
             _ => Residue(Form::Lost),
         }
     }
 }
 
-/// units / 2^halvings as it is kept modulo p.
-fn attached(prime: Prime, units: i64, halvings: u32) -> u64 {
-    let size = match units {
+/// The number as it is kept modulo p.
+fn attached(prime: Prime, x: Dyadic) -> u64 {
+    let size = match x.units() {
         0 => return 0,
-        _ => prime.enter(units.unsigned_abs()),
+        units => prime.enter(units.unsigned_abs()),
     };
-    let value = if units < 0 { prime.neg(size) } else { size };
-    (0..halvings).fold(value, |value, _| prime.half(value))
+    let value = if x.units() < 0 { prime.neg(size) } else { size };
+    (0..x.halvings()).fold(value, |value, _| prime.half(value))
 }
 
 /// An integer modulo a prime.
@@ -134,64 +118,39 @@ fn modulo(prime: Prime, x: &BigInt) -> u64 {
 
 impl Scalar for Residue {
     fn zero() -> Self {
-        Residue::free(Some(0), 0)
+        Residue::free(Some(Dyadic::ZERO))
     }
     fn one() -> Self {
-        Residue::free(Some(1), 0)
+        Residue::free(Some(Dyadic::ONE))
     }
     fn add(&self, other: &Self) -> Self {
-        self.zip(
-            other,
-            |[a, b], halvings| Residue::free(a.checked_add(b), halvings),
-            Prime::add,
-        )
+        self.zip(other, Dyadic::checked_add, Prime::add)
     }
     fn sub(&self, other: &Self) -> Self {
         self.add(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
-        self.zip(
-            other,
-            // Both over 2^halvings.
-            |[a, b], halvings| {
-                let most = halvings.checked_mul(2).filter(|&most| most < 63);
-                let product = most.and_then(|_| a.checked_mul(b));
-                Residue::free(product, most.unwrap_or(0))
-            },
-            Prime::mul,
-        )
+        self.zip(other, Dyadic::checked_mul, Prime::mul)
     }
     fn neg(&self) -> Self {
         Residue(match self.0 {
-            Form::Free { units, halvings } => {
-                return Residue::free(units.checked_neg(), halvings);
-            }
+            Form::Free(x) => return Residue::free(x.checked_neg()),
             Form::Of(prime, value) => Form::Of(prime, prime.neg(value)),
             Form::Lost => Form::Lost,
         })
     }
     fn half(&self) -> Self {
         Residue(match self.0 {
-            Form::Free { units: 0, .. } => return Self::zero(),
-            Form::Free { units, halvings } if halvings < 62 => Form::Free {
-                units,
-                halvings: halvings + 1,
-            },
+            Form::Free(x) => return Residue::free(x.half()),
             Form::Of(prime, value) => Form::Of(prime, prime.half(value)),
-            _ => Form::Lost,
+            Form::Lost => Form::Lost,
         })
     }
     fn is_zero(&self) -> bool {
-        matches!(self.0, Form::Free { units: 0, .. })
+        matches!(self.0, Form::Free(x) if x.is_zero())
     }
     fn is_one(&self) -> bool {
-        matches!(
-            self.0,
-            Form::Free {
-                units: 1,
-                halvings: 0
-            }
-        )
+        matches!(self.0, Form::Free(x) if x.is_one())
     }
 }
 
@@ -203,7 +162,7 @@ impl Divide for Residue {
             Form::Of(prime, value) if value != 0 => {
                 Form::Of(prime, prime.pow(value, prime.modulus() - 2))
             }
-            Form::Free { .. } => match self.0 {
+            Form::Free(_) => match self.0 {
                 Form::Of(prime, _) => match other.value(prime) {
                     Some(value) if value != 0 => {
                         let value = prime.enter(value);

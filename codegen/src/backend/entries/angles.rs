@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::backend::place::Place;
-use crate::program::{AngleSum, Program, ScalarType, Trig};
+use crate::program::{AngleSum, LoweredTrig, Program, ScalarType};
 use crate::sincos::angle_name;
 
 /// An entry a joint, then the sums of angles that any function of the module
@@ -86,7 +86,11 @@ impl Angles {
     }
 
     /// An array with an entry for every angle; zero where none is taken.
-    pub(super) fn array(&self, trigs: &[Trig], entry: impl Fn(&Trig) -> Option<String>) -> String {
+    pub(super) fn array(
+        &self,
+        trigs: &[LoweredTrig],
+        entry: impl Fn(&LoweredTrig) -> Option<String>,
+    ) -> String {
         let mut array = vec!["0.0".to_owned(); self.count()];
         for trig in trigs {
             let place = self

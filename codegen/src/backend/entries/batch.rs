@@ -6,19 +6,18 @@
 use std::fmt::Write;
 
 use super::{Around, arguments, lanes, places};
-use crate::backend::{function, result};
-use crate::program::Program;
+use crate::backend::{Printed, function, result};
 
 /// Prints them.
-pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
-    let kind = kind(program);
-    let name = program.function.name();
-    marker(text, program, around, &kind);
-    let (n, scalar, batch) = (program.joints, around.scalar, around.batch);
-    let arguments = arguments(program);
+pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
+    let kind = kind(printed);
+    let name = printed.function.name();
+    marker(text, printed, around, &kind);
+    let (n, scalar, batch) = (printed.sizes.joints, printed.code.scalar, around.batch);
+    let arguments = arguments(printed);
     let passed = arguments.join(", ");
-    let result = function::result_type(program, scalar);
-    let (count, entries) = (arguments.len(), program.outputs.len());
+    let result = function::result_type(printed.function, printed.sizes, scalar);
+    let (count, entries) = (arguments.len(), printed.code.outputs.len());
     let sizes = format!("{count}, {n}, {entries}");
     let parameters = |kind: &str| -> String {
         let each = arguments.iter();
@@ -46,21 +45,21 @@ pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
 }
 
 /// The type of a function: `InverseDynamicsBatch`.
-fn kind(program: &Program) -> String {
-    format!("{}Batch", program.function.camel())
+fn kind(printed: &Printed<'_>) -> String {
+    format!("{}Batch", printed.function.camel())
 }
 
-fn marker(text: &mut String, program: &Program, around: &Around<'_>, kind: &str) {
+fn marker(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, kind: &str) {
     let (name, n, scalar, batch) = (
-        program.function.name(),
-        program.joints,
-        around.scalar,
+        printed.function.name(),
+        printed.sizes.joints,
+        printed.code.scalar,
         around.batch,
     );
-    let arguments = arguments(program);
-    let (count, entries) = (arguments.len(), program.outputs.len());
-    let in_lanes = lanes::result_type(program, around);
-    let result = function::result_type(program, scalar);
+    let arguments = arguments(printed);
+    let (count, entries) = (arguments.len(), printed.code.outputs.len());
+    let in_lanes = lanes::result_type(printed);
+    let result = function::result_type(printed.function, printed.sizes, scalar);
     let passed = arguments.join(", ");
     let _ = writeln!(
         text,
@@ -75,8 +74,8 @@ fn marker(text: &mut String, program: &Program, around: &Around<'_>, kind: &str)
          #[inline(always)]\n    \
          fn state<const L: usize>(results: &{in_lanes}, l: usize) -> {result} {{",
     );
-    let (function, sizes) = (program.function, program.sizes());
-    let places = places(program);
+    let (function, sizes) = (printed.function, printed.sizes);
+    let places = places(printed);
     let items = places.iter().map(|place| format!("results{place}[l]"));
     let mut state = String::new();
     result::write(&mut state, function, function.structure(), sizes, items);

@@ -12,23 +12,23 @@ use std::fmt::Write;
 
 use super::Around;
 use super::angles::list;
-use crate::backend::function;
 use crate::backend::place::Place;
+use crate::backend::{Printed, function};
 use crate::function::Argument;
-use crate::program::{Input, Operand, Program, Trig};
+use crate::program::{Input, Literal, Lowered, LoweredTrig, Operand};
 
 /// Prints it.
-pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
-    let name = program.function.name();
-    doc(text, program);
+pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
+    let name = printed.function.name();
+    doc(text, printed);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "#[inline(always)]\n#[must_use]\npub fn {name}_with_sincos({}) -> {} {{",
-        parameters(program, around).join(", "),
-        function::result_type(program, around.scalar)
+        parameters(printed, around).join(", "),
+        function::result_type(printed.function, printed.sizes, printed.code.scalar)
     );
-    for trig in &program.trig {
+    for trig in &printed.code.trig {
         let Some(at) = around.angles.place(trig.angle) else {
             continue;
         };
@@ -39,14 +39,14 @@ pub(super) fn write(text: &mut String, program: &Program, around: &Around<'_>) {
         };
         let _ = writeln!(text, "    let {} = {value};", Place::STATE.pair(trig));
     }
-    function::write_body(text, program, around.scalar, around.math);
+    function::write_body(text, printed, around.path);
     text.push_str("}\n");
 }
 
-fn doc(text: &mut String, program: &Program) {
-    let name = program.function.name();
-    let read = |what: &str, taken: fn(&Trig) -> bool| {
-        let trigs = program.trig.iter().filter(|trig| taken(trig));
+fn doc(text: &mut String, printed: &Printed<'_>) {
+    let name = printed.function.name();
+    let read = |what: &str, taken: fn(&LoweredTrig) -> bool| {
+        let trigs = printed.code.trig.iter().filter(|trig| taken(trig));
         let angles = list(trigs.map(|trig| trig.angle));
         match angles.is_empty() {
             true => format!("no {what}"),
@@ -63,17 +63,17 @@ fn doc(text: &mut String, program: &Program) {
 }
 
 /// The arguments and the two arrays; what is not read has a `_` before its name.
-fn parameters(program: &Program, around: &Around<'_>) -> Vec<String> {
-    let (scalar, count) = (around.scalar, around.angles.count());
+fn parameters(printed: &Printed<'_>, around: &Around<'_>) -> Vec<String> {
+    let (scalar, count) = (printed.code.scalar, around.angles.count());
     let mark = |read: bool| if read { "" } else { "_" };
-    let arguments = program.arguments.iter().map(|&argument| {
-        let mark = mark(reads(program, argument));
-        let kind = function::argument_type(program, argument, scalar);
+    let arguments = printed.arguments.iter().map(|&argument| {
+        let mark = mark(reads(printed.code, argument));
+        let kind = function::argument_type(argument, printed.sizes, scalar);
         format!("{mark}{}: &{kind}", argument.name())
     });
     let (sin, cos) = (
-        program.trig.iter().any(|trig| trig.sin),
-        program.trig.iter().any(|trig| trig.cos),
+        printed.code.trig.iter().any(|trig| trig.sin),
+        printed.code.trig.iter().any(|trig| trig.cos),
     );
     let pair = [("sin", sin), ("cos", cos)]
         .map(|(name, read)| format!("{}{name}: &[{scalar}; {count}]", mark(read)));
@@ -81,12 +81,12 @@ fn parameters(program: &Program, around: &Around<'_>) -> Vec<String> {
 }
 
 /// Whether an entry of the argument is read; a sine is none.
-fn reads(program: &Program, argument: Argument) -> bool {
-    let is = |operand: &Operand| match operand {
+fn reads(code: &Lowered, argument: Argument) -> bool {
+    let is = |operand: &Operand<Literal>| match operand {
         Operand::Input(Input::Entry(read, _)) => *read == argument,
         Operand::Input(Input::PerSpeed(_)) => argument == Argument::Velocity,
         _ => false,
     };
-    program.steps.iter().any(|s| is(&s.left) || is(&s.right))
-        || program.outputs.iter().any(|output| is(&output.value))
+    code.steps.iter().any(|s| is(&s.left) || is(&s.right))
+        || code.outputs.iter().any(|output| is(&output.value))
 }

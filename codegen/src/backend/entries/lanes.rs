@@ -22,20 +22,15 @@ use std::fmt::Write;
 
 use super::{Around, places};
 use crate::backend::place::Place;
-use crate::backend::{result, trig};
-use crate::program::{Program, Trig};
-use crate::sincos::AngleKernel;
+use crate::backend::{Printed, result, trig};
+use crate::program::LoweredTrig;
 
 /// Prints it, after the struct that it returns, if it does.
-pub(super) fn write(
-    text: &mut String,
-    program: &Program,
-    around: &Around<'_>,
-    sines: &[AngleKernel],
-) {
-    let (name, scalar, sizes) = (program.function.name(), around.scalar, program.sizes());
-    structure(text, program, around);
-    let parameters = program.arguments.iter().map(|argument| {
+pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
+    let (code, sizes) = (printed.code, printed.sizes);
+    let (name, scalar) = (printed.function.name(), code.scalar);
+    structure(text, printed);
+    let parameters = printed.arguments.iter().map(|argument| {
         let (name, length) = (argument.name(), argument.length(sizes));
         format!("{name}: &[[{scalar}; L]; {length}]")
     });
@@ -49,45 +44,45 @@ pub(super) fn write(
          #[inline(always)]\n#[must_use]\n\
          pub fn {name}_lanes<const L: usize>({}) -> {} {{",
         parameters.join(", "),
-        result_type(program, around)
+        result_type(printed)
     );
-    write_sines(text, program, around, sines);
-    let entry = |letter: char, taken: bool, trig: &Trig| {
+    write_sines(text, printed, around);
+    let entry = |letter: char, taken: bool, trig: &LoweredTrig| {
         taken.then(|| format!("{letter}{}[l]", trig.angle))
     };
-    let columns = program.arguments.iter().map(|argument| {
+    let columns = printed.arguments.iter().map(|argument| {
         let (name, length) = (argument.name(), argument.length(sizes));
         let entries: Vec<String> = (0..length).map(|i| format!("{name}[{i}][l]")).collect();
         format!("&[{}], ", entries.join(", "))
     });
     let columns: String = columns.collect();
     let angles = around.angles;
-    let sin = angles.array(&program.trig, |trig| entry('s', trig.sin, trig));
-    let cos = angles.array(&program.trig, |trig| entry('c', trig.cos, trig));
-    zeros(text, program);
+    let sin = angles.array(&code.trig, |trig| entry('s', trig.sin, trig));
+    let cos = angles.array(&code.trig, |trig| entry('c', trig.cos, trig));
+    zeros(text, printed);
     let _ = writeln!(
         text,
         "    for l in 0..L {{\n        \
          let result = {name}_with_sincos({columns}&{sin}, &{cos});"
     );
-    for place in places(program) {
+    for place in places(printed) {
         let _ = writeln!(text, "        results{place}[l] = result{place};");
     }
     text.push_str("    }\n    results\n}\n");
 }
 
 /// What it returns: arrays with an array of lanes for every number.
-pub(super) fn result_type(program: &Program, around: &Around<'_>) -> String {
-    let function = program.function;
-    let lanes = format!("[{}; L]", around.scalar);
+pub(super) fn result_type(printed: &Printed<'_>) -> String {
+    let function = printed.function;
+    let lanes = format!("[{}; L]", printed.code.scalar);
     match function.structure() {
         Some(name) => format!("{name}Lanes<L>"),
-        None => result::array_of(&lanes, function.quantities()[0], program.sizes()),
+        None => result::array_of(&lanes, function.quantities()[0], printed.sizes),
     }
 }
 
-fn structure(text: &mut String, program: &Program, around: &Around<'_>) {
-    let (function, sizes) = (program.function, program.sizes());
+fn structure(text: &mut String, printed: &Printed<'_>) {
+    let (function, sizes) = (printed.function, printed.sizes);
     let Some(name) = function.structure() else {
         return;
     };
@@ -96,20 +91,26 @@ fn structure(text: &mut String, program: &Program, around: &Around<'_>) {
         "/// What [`{function}_lanes`] returns: [`{name}`] with the lanes of every number.\n\
          #[derive(Clone, Copy, Debug, PartialEq)]\npub struct {name}Lanes<const L: usize> {{"
     );
-    result::fields(text, function, &format!("[{}; L]", around.scalar), sizes);
+    result::fields(
+        text,
+        function,
+        &format!("[{}; L]", printed.code.scalar),
+        sizes,
+    );
     text.push_str("}\n\n");
 }
 
 /// Sines of all lanes: a loop for what is computed angle by angle, and one call
 /// for what is called together.
-fn write_sines(text: &mut String, program: &Program, around: &Around<'_>, sines: &[AngleKernel]) {
-    let together = |trig: &Trig| trig::is_together(trig, around.math, sines);
+fn write_sines(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
+    let code = printed.code;
+    let together = |trig: &LoweredTrig| trig::is_together(trig, code);
     let (mut arrays, mut lines) = (String::new(), String::new());
     let mut array = |name: String| {
         let _ = writeln!(arrays, "    let mut {name} = [0.0; L];");
     };
     let place = Place::LANE;
-    for trig in &program.trig {
+    for trig in &code.trig {
         let angle = trig.angle;
         let is_sum = angle.additions() > 0;
         if together(trig) {
@@ -127,20 +128,19 @@ fn write_sines(text: &mut String, program: &Program, around: &Around<'_>, sines:
                 array(format!("{letter}{angle}"));
             }
         }
-        trig::alone(&mut lines, trig, place, around.scalar, around.math, sines);
+        trig::alone(&mut lines, trig, place, code, around.path);
     }
     if !lines.is_empty() {
         let _ = writeln!(text, "{arrays}    for l in 0..L {{\n{lines}    }}");
     }
     // The joints' positions are arrays of lanes already.
-    let angle = |trig: &Trig| Place::STATE.angle(trig.angle);
-    let (scalar, math) = (around.scalar, around.math);
-    trig::together(text, program, scalar, math, sines, "_lanes", angle);
+    let angle = |trig: &LoweredTrig| Place::STATE.angle(trig.angle);
+    trig::together(text, code, around.path, "_lanes", angle);
 }
 
 /// Where the results go.
-fn zeros(text: &mut String, program: &Program) {
-    let (function, sizes) = (program.function, program.sizes());
+fn zeros(text: &mut String, printed: &Printed<'_>) {
+    let (function, sizes) = (printed.function, printed.sizes);
     let zeros = |quantity| result::array_of("[0.0; L]", quantity, sizes);
     let value = match function.structure() {
         None => zeros(function.quantities()[0]),

@@ -16,9 +16,7 @@ mod given;
 mod lanes;
 mod single;
 
-use crate::backend::MathPath;
-use crate::program::{Program, ScalarType};
-use crate::sincos::AngleKernel;
+use crate::backend::Printed;
 use angles::Angles;
 
 /// How a function can be called; each has those before it, too.
@@ -59,50 +57,46 @@ impl Entries {
 /// What the functions of a module have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Around<'a> {
-    /// The scalar.
-    pub scalar: ScalarType,
-    /// Whose sines are called.
-    pub math: &'a MathPath,
+    /// Where sines and roots are that are called.
+    pub path: &'a str,
     /// Where `dalembert-batch` is.
     pub batch: &'a str,
     /// Where each angle's sine is.
     pub angles: &'a Angles,
 }
 
-/// Prints the function by all its entries; angles that are not among `sines` are
-/// the library's.
+/// Prints the function by all its entries.
 pub fn write(
-    program: &Program,
+    printed: &Printed<'_>,
     around: &Around<'_>,
-    sines: &[AngleKernel],
     entries: Entries,
     doc: &[String],
 ) -> String {
     let mut text = String::new();
-    single::write(&mut text, program, around, sines, doc);
+    single::write(&mut text, printed, around, doc);
     text.push('\n');
-    given::write(&mut text, program, around);
+    given::write(&mut text, printed, around);
     if entries >= Entries::Lanes {
         text.push('\n');
-        lanes::write(&mut text, program, around, sines);
+        lanes::write(&mut text, printed, around);
     }
     if entries >= Entries::Batch {
         text.push('\n');
-        batch::write(&mut text, program, around);
+        batch::write(&mut text, printed, around);
     }
     text
 }
 
 /// The names of the arguments that there are.
-fn arguments(program: &Program) -> Vec<&'static str> {
-    let arguments = program.arguments.iter();
+fn arguments(printed: &Printed<'_>) -> Vec<&'static str> {
+    let arguments = printed.arguments.iter();
     arguments.map(|argument| argument.name()).collect()
 }
 
 /// The entries of a result in their order, as they are written after its name:
 /// `.d[0][1]`.
-fn places(program: &Program) -> Vec<String> {
-    let (function, sizes) = (program.function, program.sizes());
+fn places(printed: &Printed<'_>) -> Vec<String> {
+    let (function, sizes) = (printed.function, printed.sizes);
     let mut places = Vec::new();
     for quantity in function.quantities() {
         let field = match function.structure() {

@@ -10,26 +10,18 @@
 use std::fmt::Write;
 
 use super::{Around, arguments};
-use crate::backend::{function, trig};
-use crate::program::Program;
-use crate::sincos::AngleKernel;
+use crate::backend::{Printed, function, trig};
 
 /// Prints it.
-pub(super) fn write(
-    text: &mut String,
-    program: &Program,
-    around: &Around<'_>,
-    sines: &[AngleKernel],
-    doc: &[String],
-) {
-    let (name, scalar) = (program.function.name(), around.scalar);
-    let arguments = arguments(program);
-    let parameters = program.arguments.iter().map(|&argument| {
-        let kind = function::argument_type(program, argument, scalar);
+pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, doc: &[String]) {
+    let (name, scalar) = (printed.function.name(), printed.code.scalar);
+    let arguments = arguments(printed);
+    let parameters = printed.arguments.iter().map(|&argument| {
+        let kind = function::argument_type(argument, printed.sizes, scalar);
         format!("{}: &{kind}", argument.name())
     });
     let parameters: Vec<String> = parameters.collect();
-    let result = function::result_type(program, scalar);
+    let result = function::result_type(printed.function, printed.sizes, scalar);
     function::write_doc(text, doc);
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -37,11 +29,11 @@ pub(super) fn write(
         "#[must_use]\npub fn {name}({}) -> {result} {{",
         parameters.join(", ")
     );
-    trig::write(text, program, scalar, around.math, sines);
-    let sin = around.angles.array(&program.trig, |trig| {
+    trig::write(text, printed.code, around.path);
+    let sin = around.angles.array(&printed.code.trig, |trig| {
         trig.sin.then(|| format!("s{}", trig.angle))
     });
-    let cos = around.angles.array(&program.trig, |trig| {
+    let cos = around.angles.array(&printed.code.trig, |trig| {
         trig.cos.then(|| format!("c{}", trig.angle))
     });
     let arguments = arguments.join(", ");

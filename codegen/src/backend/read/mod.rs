@@ -25,7 +25,7 @@ mod together;
 
 use crate::function::Function;
 use crate::program::{Difference, Library, Lowered, Program, ScalarType};
-use crate::sincos::AngleKernel;
+use crate::sincos::{AngleKernel, lowered};
 use error::{Mark, WordFault};
 pub use error::{TextError, TextFault};
 use reader::Reader;
@@ -58,11 +58,7 @@ impl Lowered {
         library: Library,
         sines: &[AngleKernel],
     ) -> Result<(), Difference> {
-        let kernel = |angle| {
-            let found = sines.iter().find(|sine| sine.angle == angle);
-            found.map(|sine| &sine.kernel)
-        };
-        match self.difference(&program.lower(self.scalar, kernel).calling(library)) {
+        match self.difference(&lowered(program, self.scalar, library, sines)) {
             None => Ok(()),
             Some(difference) => Err(difference),
         }

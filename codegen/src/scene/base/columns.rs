@@ -1,14 +1,15 @@
 //! Columns of a regressor modulo 2⁶¹ − 1, at random states.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::outputs::{RuntimeParameter, Written};
 use dalembert_model::scalar::field::{Field, Points};
+use dalembert_model::scalar::record::{Recorder, Recording};
 
-use crate::function::Quantity;
+use crate::function::{Argument, Quantity};
 use crate::program::Input;
 use crate::scene::Setting;
 
@@ -29,7 +30,6 @@ pub(super) fn values(
     };
     // Constant angles are the same in every state.
     let angles: RefCell<Vec<(Angle, SinCosPair<Field>)>> = RefCell::default();
-    let fits = Cell::new(true);
     let constant = |value: &Exact| {
         let pair = &mut |angle: &Angle| {
             let mut angles = angles.borrow_mut();
@@ -40,36 +40,19 @@ pub(super) fn values(
             angles.push((angle.clone(), pair.clone()));
             pair
         };
-        let found = value.map(&mut |x: &Rational| Field::from_rational(x), pair);
-        found.unwrap_or_else(|| {
-            fits.set(false);
-            Field::ZERO
-        })
+        value.map(&mut |x: &Rational| Field::from_rational(x), pair)
     };
-    let arm = Arm::from_robot(setting.robot(), &mut { constant });
-    let columns: Vec<Column<Field>> = columns.iter().map(|c| c.map(constant)).collect();
+    let entries = entries(setting, quantity, columns);
     let mut found: Vec<Vec<Field>> = vec![Vec::new(); columns.len()];
     let states = columns.len() / setting.rows().len().max(1) + 4;
     for _ in 0..states {
         let pairs: Vec<SinCosPair<Field>> = setting.joints().iter().map(|_| circle()).collect();
-        let input = |input| match input {
+        let input = |input: &Input| match *input {
             Input::Sin(angle) => angle.pair(|joint| pairs[joint].clone()).sin,
             Input::Cos(angle) => angle.pair(|joint| pairs[joint].clone()).cos,
             Input::PerSpeed(_) | Input::Entry(..) => points.borrow_mut().field(),
         };
-        let motion = setting.motion(input, constant);
-        let arm = match setting.has(RuntimeParameter::Gravity) {
-            true => (arm.clone()).with_gravity(&[(); 3].map(|()| points.borrow_mut().field())),
-            false => arm.clone(),
-        };
-        let arm = arm.at_speeds(&motion.per_speed);
-        let entries = quantity.written(&Written {
-            formulation: Formulation::NewtonEulerLink,
-            arm: &arm,
-            at: &arm.at(&motion.q),
-            motion: &motion,
-            columns: &columns,
-        });
+        let entries = entries.run(input, constant)?;
         let rows: Vec<&[Field]> = entries.chunks(columns.len().max(1)).collect();
         for &row in setting.rows() {
             for (column, entry) in found.iter_mut().zip(rows[row]) {
@@ -77,5 +60,31 @@ pub(super) fn values(
             }
         }
     }
-    fits.get().then_some(found)
+    Some(found)
+}
+
+/// Every entry of the regressor, row by row, as a formula.
+fn entries(
+    setting: &Setting,
+    quantity: Quantity,
+    columns: &[Column<Exact>],
+) -> Recording<Input, Exact> {
+    let recorder = Recorder::new();
+    let (input, constant) = (|x| recorder.input(x), |x: &Exact| recorder.constant(x));
+    let mut arm = Arm::from_robot(setting.robot(), &mut { constant });
+    let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
+    let motion = setting.motion(input, constant);
+    if setting.has(RuntimeParameter::Gravity) {
+        let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
+        arm = arm.with_gravity(&[0, 1, 2].map(entry));
+    }
+    let arm = arm.at_speeds(&motion.per_speed);
+    let entries = quantity.written(&Written {
+        formulation: Formulation::NewtonEulerLink,
+        arm: &arm,
+        at: &arm.at(&motion.q),
+        motion: &motion,
+        columns: &columns,
+    });
+    recorder.finish(&entries)
 }

@@ -1,0 +1,117 @@
+//! Arguments of the commands that generate functions, count and explain their operations.
+
+use std::path::PathBuf;
+
+use clap::ArgGroup;
+use dalembert_codegen::backend::Entries;
+use dalembert_codegen::emit::Interface;
+use dalembert_codegen::function::Function;
+use dalembert_codegen::simplify::Effort;
+use dalembert_report::processor::target::Target;
+
+use super::Choice;
+use super::values::{
+    effort_parser, entries_parser, function_parser, interface_parser, states_parser, target_parser,
+};
+
+/// Arguments of `generate`.
+#[derive(Debug, clap::Args)]
+#[command(group(ArgGroup::new("standard output free").multiple(true)))]
+pub struct GenerateArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Write the code to this file [default: standard output]; a link is
+    /// followed, a device or pipe written into
+    #[arg(short, long, value_name = "FILE", group = "standard output free")]
+    pub output: Option<PathBuf>,
+    /// Write nothing: compare with FILE and exit with 1 if it differs
+    #[arg(long, requires = "output")]
+    pub check: bool,
+    /// With a scene that has a tolerance: write its certificates (JSON) to this
+    /// file [default: beside the output, as NAME.certificate.json, unless that
+    /// is a device or pipe]
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
+    /// Search anew and keep the programs in a plan beside the robot file:
+    /// every later run, macro and build script replays them. After a search
+    /// that was ended early, a kept program stays unless that found a cheaper
+    /// one
+    #[arg(long, conflicts_with_all = ["check", "no_plan"])]
+    pub save_plan: bool,
+    /// Write what is inside the module and not the module itself: for a FILE
+    /// that is a module of your crate (`mod puma560;`). It has one scalar
+    #[arg(long)]
+    pub contents: bool,
+    /// Which variants of each function to print, each choice with those before it:
+    /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`,
+    /// for several states at once; `batch`, for slices of states (needs the crate
+    /// dalembert-batch)
+    #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser())]
+    pub entries: Entries,
+    /// What the module has besides functions: `traits` adds a type `Robot` that implements
+    /// the traits of `dalembert::interface`, for code that is generic over robots
+    #[arg(long, value_name = "HOW", default_value = "functions", value_parser = interface_parser())]
+    pub interface: Interface,
+    /// Measure errors at this many states inside the robot's limits [default:
+    /// 100, fewer above 10 joints; 10000 with --effort thorough]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
+    pub states: Option<usize>,
+    /// Print what each function takes of a processor, by the model of the guide's
+    /// page on real time: instructions, stack, calls, values alive; the code goes
+    /// to -o, without it nowhere
+    #[arg(long, group = "standard output free")]
+    pub report: bool,
+    /// The processors of the report, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "report", value_parser = target_parser())]
+    pub target: Vec<&'static Target>,
+    /// Print the reports as JSON; the code goes to -o
+    #[arg(long, requires = "standard output free")]
+    pub json: bool,
+    #[command(flatten)]
+    pub choice: Choice,
+}
+
+/// Arguments of `count`.
+#[derive(Debug, clap::Args)]
+pub struct CountArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub choice: Choice,
+}
+
+/// Arguments of `explain`.
+#[derive(Debug, clap::Args)]
+pub struct ExplainArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// The functions, separated by commas [default: the scene's, or
+    /// inverse_dynamics]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = function_parser())]
+    pub outputs: Vec<Function>,
+    /// Only what this scene of the robot file needs
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
+    /// States that errors are measured in
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 1000, value_parser = states_parser())]
+    pub states: usize,
+    /// How long to search for fewer operations
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    pub effort: Effort,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `table3`.
+#[derive(Debug, clap::Args)]
+pub struct Table3Args {
+    /// A robot file: show the counts after every stage for it
+    pub robot: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,150 @@
+//! Arguments of the commands that measure and bound errors.
+
+use std::path::PathBuf;
+
+use dalembert_codegen::function::Function;
+use dalembert_codegen::simplify::Effort;
+use dalembert_model::number::Rational;
+
+use super::Choice;
+use super::values::{
+    count_parser, effort_parser, exact_tolerance_parser, function_parser, states_parser,
+    tolerance_parser,
+};
+
+/// Arguments of `verify`.
+#[derive(Debug, clap::Args)]
+pub struct VerifyArgs {
+    /// The robot file
+    pub robot: PathBuf,
+    /// Compare with these states too: JSON with a list `states` of objects
+    /// with q, qd, qdd and any of tau, D, h, c
+    #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
+    pub states: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub choice: Choice,
+}
+
+/// Arguments of `stress`.
+#[derive(Debug, clap::Args)]
+pub struct StressArgs {
+    /// The robot file
+    #[arg(required_unless_present = "growth")]
+    pub robot: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Write charts (SVG) to this folder
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// States of each category
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = states_parser(),
+        default_value_t = 50
+    )]
+    pub states: usize,
+    /// Measure chains of 1 to 60 joints instead of a robot
+    #[arg(long, conflicts_with = "robot")]
+    pub growth: bool,
+}
+
+/// Arguments of `certify`.
+#[derive(Debug, clap::Args)]
+pub struct CertifyArgs {
+    /// The certificate (JSON)
+    pub certificate: PathBuf,
+    /// The robot file that it is for
+    #[arg(long, value_name = "FILE")]
+    pub robot: PathBuf,
+    /// The scene of the robot file that it is for [default: the one it names]
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
+    /// The largest certified error E to accept, instead of the scene's tolerance;
+    /// for certificates that `tradeoff` wrote for other tolerances
+    #[arg(long, value_name = "E", value_parser = exact_tolerance_parser())]
+    pub tolerance: Option<Rational>,
+    /// Also write scripts by which Gappa bounds the rounding of each output,
+    /// into this folder
+    #[arg(long, value_name = "DIR")]
+    pub gappa: Option<PathBuf>,
+    /// Also run the code at this many states and look for an error above E
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 0
+    )]
+    pub samples: usize,
+    /// Local searches for each output, from the worst of these states, for a larger error
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 8
+    )]
+    pub climbs: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `tradeoff`.
+#[derive(Debug, clap::Args)]
+pub struct TradeoffArgs {
+    /// The robot file; the box is its limits of motion, unless a scene has one
+    pub robot: PathBuf,
+    /// Only what this scene of the robot file needs; its tolerance gives way
+    /// to the list of tolerances
+    #[arg(long, value_name = "NAME")]
+    pub scene: Option<String>,
+    /// The function [default: the scene's first, or inverse_dynamics]
+    #[arg(long, value_name = "NAME", value_parser = function_parser())]
+    pub function: Option<Function>,
+    /// What errors are relative to: `actuator`, the joints' torque limits, or `range`,
+    /// the largest torque that was found for the model in the box
+    /// [default: the scene's, or actuator]
+    #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
+    pub relative_to: Option<String>,
+    /// Tolerances, separated by commas [default: 1e-12 to 1e-1]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance_parser(), allow_hyphen_values = true)]
+    pub tolerances: Vec<f64>,
+    /// Write table, chart and certificates to this folder
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// States at which each variant is run; with 0 nothing is observed
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 10_000
+    )]
+    pub samples: usize,
+    /// Climbs from there to the largest error of each output
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 4
+    )]
+    pub climbs: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Compile the variants and measure how long a call takes, as a ratio to
+    /// the exact f64 variant in the same run; needs cargo
+    #[arg(long)]
+    pub measure: bool,
+    /// How long to search for fewer operations
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    pub effort: Effort,
+}

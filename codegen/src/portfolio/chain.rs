@@ -1,0 +1,232 @@
+//! Functions by the chain formulas, traced in a regrouping and a form.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use dalembert_model::equations::chain::composite::Composite;
+use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
+use dalembert_model::equations::matrix::{Vector, scaled};
+use dalembert_model::equations::regressor::{Column, LinkParameter};
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
+
+use super::numbers::Numbers;
+use super::tune::{self, Tuned};
+use super::{Form, MAX_QUICK_LINKS, Source, Variant};
+use crate::function::{Argument, Function, Quantity};
+use crate::graph::symbol::Symbol;
+use crate::graph::{Builder, Folding, Graph};
+use crate::program::{Counts, Input};
+use crate::scene::Setting;
+use crate::trace::symbols;
+
+/// Traces a function by the chain formulas; also the operations as executed.
+pub fn trace_chain(
+    setting: &Setting,
+    function: Function,
+    chain: &Chain<Exact>,
+    form: Form,
+    folding: Folding,
+) -> (Graph, Counts) {
+    let builder = Rc::new(RefCell::new(Builder::new(folding)));
+    let mut numbers = Numbers::of(setting, function, &builder);
+    let mut chain = chain.map(|constant| numbers.symbol(constant));
+    let mut gravity = None;
+    if setting.takes(function, RuntimeParameter::Gravity) {
+        let taken: Vector<Symbol> = core::array::from_fn(|axis| {
+            Symbol::input(&builder, Input::Entry(Argument::Gravity, axis))
+        });
+        chain.gravity = scaled(&chain.per_unit, &in_frame_0(setting, &taken));
+        gravity = Some(taken);
+    }
+    drop(numbers);
+    let whole = symbols(setting, &function.arguments(), &builder);
+    let motion = &whole.of_joints(setting.chained());
+    let chain = chain.at_speeds(&motion.per_speed);
+    let (chain, at) = &chain.posed(&motion.q);
+    let composite = Composite::new(chain, at);
+    let regrouped = Regrouped {
+        chain,
+        at,
+        composite,
+        motion,
+        form,
+    };
+    let mut outputs = Vec::new();
+    for &quantity in function.quantities() {
+        let selected = match quantity.regrouped(&regrouped) {
+            Some(values) => setting.select_of(quantity, setting.chained(), values),
+            None => setting.select_of(
+                quantity,
+                setting.joints(),
+                written(setting, quantity, &whole, gravity.as_ref()),
+            ),
+        };
+        let mut builder = builder.borrow_mut();
+        outputs.extend(selected.iter().map(|output| output.value(&mut builder)));
+    }
+    let traced = builder.borrow().asked();
+    let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(folding));
+    (graph.finish(&outputs), traced)
+}
+
+/// A quantity that the chain formulas do not give, by the recursion in link
+/// axes.
+fn written(
+    setting: &Setting,
+    quantity: Quantity,
+    motion: &Motion<Symbol>,
+    gravity: Option<&Vector<Symbol>>,
+) -> Vec<Symbol> {
+    let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    let arm = match gravity {
+        Some(gravity) => arm.with_gravity(gravity),
+        None => arm,
+    };
+    let arm = arm.at_speeds(&motion.per_speed);
+    quantity.written(&Written {
+        formulation: Formulation::NewtonEulerLink,
+        arm: &arm,
+        at: &arm.at(&motion.q),
+        motion,
+        // Regressors the chain formulas give.
+        columns: &[],
+    })
+}
+
+/// What moves, with exact parameters, the base folded.
+pub fn skeleton(setting: &Setting) -> Skeleton<Exact> {
+    with_columns(setting, &[])
+}
+
+/// A vector of base axes in those of frame 0.
+fn in_frame_0(setting: &Setting, vector: &Vector<Symbol>) -> Vector<Symbol> {
+    let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    arm.with_gravity(vector).gravity
+}
+
+/// The same for a function: if it is a regressor, with its columns; if it takes a
+/// load, with a payload whose parameters are unknown.
+pub fn skeleton_for(setting: &Setting, function: Function) -> Skeleton<Exact> {
+    if !setting.takes(function, RuntimeParameter::Payload) {
+        return with_columns(setting, &setting.columns(function, Exact::clone));
+    }
+    let last = setting.joints().len().saturating_sub(1);
+    let columns = LinkParameter::ALL.map(|parameter| Column::Body {
+        joint: last,
+        body: parameter.unit(),
+    });
+    with_columns(setting, &columns).with_values(&setting.unknowns().values())
+}
+
+fn with_columns(setting: &Setting, columns: &[Column<Exact>]) -> Skeleton<Exact> {
+    let arm = Arm::from_robot(setting.robot(), &mut Exact::clone).fold_base();
+    Skeleton::with_columns(&arm, &setting.merged(), columns)
+}
+
+/// The most choices of axes that the search is offered at once.
+const MAX_AXES: usize = 16;
+
+/// A function in every chain form, in one regrouping, in the regrouping's axes and in
+/// others: what is dear in one choice of axes may be cheap in another, and
+/// the search mixes them.
+pub fn regrouped(
+    setting: &Setting,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+) -> Vec<Variant> {
+    let mut chain = Chain::new(&skeleton_for(setting, function), regrouping);
+    let mut variants = Vec::new();
+    for axes in axes(&chain) {
+        for (link, axes) in chain.links.iter_mut().zip(axes) {
+            link.axes = axes;
+        }
+        for form in function.forms() {
+            let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
+            variants.push(Variant {
+                source: Source::Regrouped,
+                graph,
+                traced,
+            });
+        }
+    }
+    variants
+}
+
+/// A function in the regroupings that differ from a tuned one in one link, in its
+/// form.
+pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
+    let regroupings = regroupings(setting, function, &tuned.regrouping);
+    let graph = |regrouping| in_regrouping(setting, function, regrouping, tuned.form);
+    regroupings.iter().map(graph).collect()
+}
+
+/// The regroupings that differ from one in one link; none of chains too long to
+/// look at each.
+pub fn regroupings(
+    setting: &Setting,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+) -> Vec<Regrouping<Exact>> {
+    let arm = skeleton_for(setting, function);
+    match arm.links.len() <= MAX_QUICK_LINKS {
+        true => tune::neighbours(&arm, regrouping),
+        false => Vec::new(),
+    }
+}
+
+/// A function in a regrouping and a form, merged by fingerprint.
+pub fn in_regrouping(
+    setting: &Setting,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+    form: Form,
+) -> Graph {
+    merged(
+        setting,
+        function,
+        &Chain::new(&skeleton_for(setting, function), regrouping),
+        form,
+    )
+}
+
+pub(super) fn merged(
+    setting: &Setting,
+    function: Function,
+    chain: &Chain<Exact>,
+    form: Form,
+) -> Graph {
+    trace_chain(setting, function, chain, form, Folding::Semantic).0
+}
+
+/// The chain's own axes, each link's, those before each group of parallel
+/// axes, those after it, then what differs from the first two in one link.
+fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
+    let freedom = chain.freedoms();
+    let own: Vec<i32> = chain
+        .links
+        .iter()
+        .zip(&freedom)
+        .map(|(link, &[less, more])| link.axes.clamp(less, more))
+        .collect();
+    let natural = vec![0; own.len()];
+    let mut all = vec![own.clone(), natural.clone()];
+    all.extend([0, 1].map(|side| freedom.iter().map(|bounds| bounds[side]).collect()));
+    for from in [natural, own] {
+        for (i, &[less, more]) in freedom.iter().enumerate() {
+            for axes in less..=more {
+                let mut choice = from.clone();
+                choice[i] = axes;
+                all.push(choice);
+            }
+        }
+    }
+    let mut different: Vec<Vec<i32>> = Vec::new();
+    for choice in all {
+        if different.len() < MAX_AXES && !different.contains(&choice) {
+            different.push(choice);
+        }
+    }
+    different
+}

@@ -1,0 +1,29 @@
+//! As the cheapest, where the sines of sums of angles of parallel joints may be
+//! evaluated instead of formed.
+
+use super::{Beginning, Problem, auto};
+use crate::graph::Graph;
+use crate::portfolio::tune::Tuned;
+use crate::portfolio::{Sums, Variant, angle_sums};
+use crate::scene::Setting;
+
+/// It.
+pub(super) struct AngleSums;
+
+impl Beginning for AngleSums {
+    fn name(&self) -> &'static str {
+        "angle_sums"
+    }
+
+    fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
+        auto::variants(problem)
+    }
+
+    fn helpers(&self, setting: &Setting) -> Vec<Graph> {
+        vec![angle_sums(setting, Sums::Inputs)]
+    }
+
+    fn has_chain(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,18 @@
+//! Functions by the textbook formulations, traced as they stand.
+
+use dalembert_model::equations::Formulation;
+
+use super::{Source, Variant};
+use crate::function::Function;
+use crate::scene::Setting;
+use crate::trace::trace;
+
+/// A textbook formulation.
+pub fn textbook(setting: &Setting, function: Function, formulation: Formulation) -> Variant {
+    let trace = trace(setting, function, formulation);
+    Variant {
+        source: Source::Textbook(formulation),
+        graph: trace.graph,
+        traced: trace.traced,
+    }
+}
