@@ -12,6 +12,7 @@
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
+//! - `spin`: forward dynamics where the last link is symmetric about its axis
 //! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
@@ -31,6 +32,7 @@ pub mod recursion;
 mod regressor;
 pub mod regrouping;
 pub mod skeleton;
+mod spin;
 mod twist;
 
 use alloc::vec::Vec;
@@ -41,6 +43,7 @@ pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
+pub use spin::Unspun;
 
 use super::SinCosPair;
 use super::friction::Friction;
