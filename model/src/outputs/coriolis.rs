@@ -36,6 +36,7 @@ impl Formula for Coriolis {
         choices: Some(Choices {
             recursion: true,
             travel: false,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN

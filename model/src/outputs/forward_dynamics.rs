@@ -52,6 +52,7 @@ impl Formula for Acceleration {
         choices: Some(Choices {
             recursion: true,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         gravity: true,

@@ -33,6 +33,7 @@ const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::T
 const CHOICES: Option<Choices> = Some(Choices {
     recursion: false,
     travel: true,
+    flows: false,
 });
 
 /// ∂q̈_i/∂q_k

@@ -49,6 +49,7 @@ impl Formula for InertiaInverse {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN

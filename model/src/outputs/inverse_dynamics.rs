@@ -59,6 +59,7 @@ impl Formula for Torque {
         choices: Some(Choices {
             recursion: true,
             travel: false,
+            flows: false,
         }),
         starts_from_recursion: true,
         burden: Burden::Load,
