@@ -1,37 +1,47 @@
-//! Forward dynamics of a chain whose last link is symmetric about its axis.
+//! Forward dynamics of a chain whose last joint turns about a principal axis.
 //!
-//! Such a link looks the same however far it has turned, so its joint has a
-//! coordinate that nothing depends on. With J its inertia about the axis, A the
-//! rotor's, ω_z its rate and s the part of the joint's angular acceleration that
-//! the joints before bring along, its equation and the moment M on the link along
-//! the axis are
+//! If the centre of mass of the last link is on its axis and the axis is a principal
+//! one, a unit acceleration of the joint is a couple along the axis and nothing else.
+//! With J the inertia about the axis, A the rotor's, s the part of the angular
+//! acceleration along the axis that the joints before bring along, and e what
+//! velocities alone ask for there, the joint's equation and the moment M on the link
+//! along the axis are
 //!
 //! ```text
-//! (J + A) q̈_n + J s = τ_n        M = J (q̈_n + s) = J/(J + A) τ_n + J A/(J + A) s
+//! (J + A) q̈_n + J s + e = τ_n        M = J (q̈_n + s) + e
+//!                                      = J/(J + A) (τ_n − e) + A J/(J + A) s + e
 //! ```
 //!
-//! So the joints before feel a body that has A J/(J + A) about the axis and is fixed
-//! to link n−1, and a couple that does not depend on q̈: what is left of τ_n along the
-//! axis, and the gyroscopic moment across it. This is the first step of eliminating
-//! joints from the hand inward, taken in the parameters: no entry of D is formed
-//! with J and cleared of it again.
+//! So the joints before feel a body that is fixed to link n−1, the last link as it is
+//! turned but with A J/(J + A) about the axis, and a couple that does not depend on q̈.
+//! This is the first step of eliminating joints from the hand inward, taken in the
+//! parameters: no entry of D is formed with J and cleared of it again. A link that is
+//! symmetric about its axis becomes constants of the one before.
+//!
+//! The couple is that of the link's own turn. What of the tensor is symmetric about the
+//! axis gives J ω_z (ω × z); the rest, I_δ, has no trace and no component along the
+//! axis, and with ω′ of the frame before gives e = z·(ω′ × I_δ ω′) and 2 q̇_n z × I_δ ω′.
 
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
-use super::{Chain, Displacement, Form};
+use super::{Body, Chain, ChainLink, Displacement, Form};
+use crate::equations::SinCosPair;
 use crate::equations::forward::{inverted, solved};
 use crate::equations::matrix::{
-    dot, halved, minus, negative, over, plus, symmetric, times, total, zeros,
+    Vector, dot, halved, minus, negative, over, plus, symmetric, times, total, twice, zeros,
 };
-use crate::scalar::Divide;
+use crate::robot::JointKind;
+use crate::scalar::{Divide, Scalar};
 
-/// A chain without its last joint, whose link is symmetric about the axis.
+/// A chain without its last joint, which turns about a principal axis of its link.
 #[derive(Clone, Debug)]
 pub struct Unspun<'a, S> {
     whole: &'a Composite<'a, S>,
-    /// The joints before, and what of the last link no turn of its own changes.
+    /// The joints before; the last link is fixed to theirs.
     chain: Chain<S>,
+    /// The last link with what is left about the axis, in the axes that it turns from.
+    link: Body<S>,
     /// J
     inertia: S,
     /// 1/(J + A)
@@ -43,12 +53,15 @@ pub struct Unspun<'a, S> {
 }
 
 impl<'a, S: Divide> Unspun<'a, S> {
-    /// Of a chain at its position, if its last joint moves, is not the only one
-    /// and carries a link that is symmetric about it. J + A is the last joint's
-    /// entry of D, a constant that is above zero where D has an inverse.
+    /// Of a chain at its position, if its last joint moves, is not the only one and
+    /// turns about a principal axis. J + A is the last joint's entry of D, a constant
+    /// that is above zero where D has an inverse.
     pub fn new(whole: &'a Composite<'a, S>, moves: &[bool]) -> Option<Self> {
         let (link, inner) = whole.chain.links.split_last()?;
-        if inner.is_empty() || !link.spins_freely || moves.last() != Some(&true) {
+        let Displacement::Turn(theta) = whole.at.last()? else {
+            return None;
+        };
+        if inner.is_empty() || moves.last() != Some(&true) || !link.turns_about_principal_axis() {
             return None;
         }
         let second = &link.body.second;
@@ -63,20 +76,23 @@ impl<'a, S: Divide> Unspun<'a, S> {
                 [share, rest]
             }
         };
+        // I_xx and I_yy as they are, I_zz what is left.
         let mut body = link.body.clone();
-        let across = plus(&second.yy, &second.zz);
-        let half = halved(&rest);
-        body.second.zz = minus(&across, &half);
-        (body.second.xx, body.second.yy) = (half.clone(), half);
+        let taken = halved(&minus(&inertia, &rest));
+        body.second.xx = minus(&second.xx, &taken);
+        body.second.yy = minus(&second.yy, &taken);
+        body.second.zz = plus(&second.zz, &taken);
+        let body = body.turned_z(theta);
         let mut chain = whole.chain.clone();
         chain.links.pop();
         if let Some(last) = chain.links.last_mut() {
-            let lever = link.lever(whole.at.last()?);
-            last.body = last.body.with(&body.carried(&link.rotation, &lever));
+            let fixed = body.carried(&link.rotation, &link.offset);
+            last.body = last.body.with(&fixed);
         }
         Some(Unspun {
             whole,
             chain,
+            link: body,
             inertia,
             inverse,
             share,
@@ -96,26 +112,45 @@ impl<'a, S: Divide> Unspun<'a, S> {
         (0..last).map(along).collect()
     }
 
+    /// What the joint before exerts besides on the last link, in the axes that this turns
+    /// from, and e: of the frame before ω′, of the joint its rate and what of its torque
+    /// friction leaves.
+    fn couple(&self, [x, y, z]: &Vector<S>, rate: &S, left: &S) -> (Vector<S>, S) {
+        let second = &self.link.second;
+        // I_δ ω′: of Σ half the difference, and Σ_xy.
+        let half = halved(&minus(&second.xx, &second.yy));
+        let spread = [
+            negative(&plus(&times(&half, x), &times(&second.xy, y))),
+            minus(&times(&half, y), &times(&second.xy, x)),
+        ];
+        let own = minus(&times(x, &spread[1]), &times(y, &spread[0]));
+        // J ω_z of the link, less what is left of it without a turn of its own.
+        let momentum = minus(&times(&self.inertia, &plus(z, rate)), &times(&self.rest, z));
+        let double = twice(rate);
+        let couple = [
+            minus(&times(&momentum, y), &times(&double, &spread[1])),
+            minus(&times(&double, &spread[0]), &times(&momentum, x)),
+            times(&self.share, &minus(left, &own)),
+        ];
+        (couple, own)
+    }
+
     /// q̈ under τ, zero of joints that do not move.
     pub fn forward_dynamics(&self, [qd, tau]: [&[S]; 2], moves: &[bool], form: Form) -> Vec<S> {
         let (chain, at, last) = (&self.chain, self.at(), self.chain.links.len());
-        let (link, turn) = (&self.whole.chain.links[last], &self.whole.at[last]);
-        let left = minus(&tau[last], &link.friction.torque(&qd[last]));
+        let link = &self.whole.chain.links[last];
         let before = &qd[..last];
         let motions = chain.motions(at, before, &zeros(last), form.spin);
         let motion = &motions[last - 1];
-        let [x, y, z] = link.inward(turn, &motion.omega);
-        // J ω_z of the link, less what is left of it without a turn of its own.
-        let momentum = minus(
-            &times(&self.inertia, &plus(&z, &qd[last])),
-            &times(&self.rest, &z),
-        );
-        let couple = [
-            times(&momentum, &y),
-            negative(&times(&momentum, &x)),
-            times(&self.share, &left),
-        ];
-        let couple = link.outward(turn, &couple);
+        let unturned = Displacement::Turn(SinCosPair {
+            sin: S::zero(),
+            cos: S::one(),
+        });
+        let omega = link.inward(&unturned, &motion.omega);
+        let left = minus(&tau[last], &link.friction.torque(&qd[last]));
+        let (couple, own) = self.couple(&omega, &qd[last], &left);
+        let couple = link.outward(&unturned, &couple);
+        let left = minus(&left, &own);
         let composite = Composite::new(chain, at);
         let drive = |i: usize| chain.links[i].friction.torque(&qd[i]);
         let bias = match form.composite_h {
@@ -159,5 +194,15 @@ impl<'a, S: Divide> Unspun<'a, S> {
             (false, true) => given[i].clone(),
             (false, false) => inner[i][k].clone(),
         })
+    }
+}
+
+impl<S: Scalar> ChainLink<S> {
+    /// Whether, by structure, it turns about an axis through its centre of mass that is
+    /// a principal one.
+    fn turns_about_principal_axis(&self) -> bool {
+        let (body, second) = (&self.body, &self.body.second);
+        let across = [&body.first[0], &body.first[1], &second.xz, &second.yz];
+        self.kind == JointKind::Revolute && across.into_iter().all(S::is_zero)
     }
 }
