@@ -214,7 +214,7 @@ pub mod matrices;
 /// with the payload's ten numbers as variables. Kinematics take none; what depends
 /// on more of a payload than joints feel (`potential_energy`, `reaction_wrenches`,
 /// `dalembert_terms`) is refused, as are scenes with a tolerance and `entries: batch;`.
-/// A plan keeps programs of the robot's own parameters alone.
+/// A plan keeps their programs beside those of the robot's own parameters.
 ///
 /// # Many states
 ///

@@ -14,7 +14,7 @@ use generated::{puma560, puma560_f32};
 /// stands where the arithmetic does; a struct, a number and a quotient.
 /// Sums of angles beside the joints' own.
 macro_rules! arm {
-    ($name:ident, $($clause:tt)*) => {
+    ($name:ident, [$($output:tt)*], $($clause:tt)*) => {
         dalembert::dynamics! {
             mod $name {
                 convention: standard;
@@ -23,11 +23,18 @@ macro_rules! arm {
                 joint { kind: revolute, a: 1, alpha: pi/2, mass: 2, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0], coulomb: 2.5, coulomb_width: 0.01 }
                 joint { kind: prismatic, mass: 1, com: [0, 0, 0.1], inertia: [0.1, 0.1, 0.1, 0, 0, 0], viscous: 3, coulomb: 14, coulomb_width: 1/300 }
             }
-            outputs: inverse_dynamics, gravity, manipulator_equation, kinetic_energy, forward_dynamics;
+            outputs: $($output)*;
             entries: batch;
             scalar: f64, f32;
             $($clause)*
         }
+    };
+    ($name:ident, $($clause:tt)*) => {
+        arm!(
+            $name,
+            [inverse_dynamics, gravity, manipulator_equation, kinetic_energy, forward_dynamics],
+            $($clause)*
+        );
     };
 }
 arm!(together, sincos: together;);
@@ -35,6 +42,15 @@ arm!(alone, sincos: libm;);
 arm!(polynomial, sincos: polynomial; sincos_error: 1e-5;);
 arm!(sums, formulation: angle_sums;);
 arm!(fused, fma: on;);
+// Bundles: structs of the user's, with matrices of other shapes, a number and quotients.
+arm!(
+    bundled,
+    [
+        servo = inverse_dynamics + jacobian + forward_kinematics,
+        task = forward_dynamics + kinetic_energy + inertia
+    ],
+    sincos: together;
+);
 
 /// Equal bits, or no number in both: which NaN it is, is the processor's choice.
 trait Same {
@@ -79,6 +95,25 @@ same_equation!(
     fused,
     fused_f32
 );
+
+macro_rules! same_bundles {
+    ($($module:ident),*) => {$(
+        impl Same for $module::Servo {
+            fn same(&self, other: &Self) -> bool {
+                self.tau.same(&other.tau)
+                    && self.jacobian.same(&other.jacobian)
+                    && self.pose.same(&other.pose)
+            }
+        }
+
+        impl Same for $module::Task {
+            fn same(&self, other: &Self) -> bool {
+                self.qdd.same(&other.qdd) && self.kinetic.same(&other.kinetic) && self.d.same(&other.d)
+            }
+        }
+    )*};
+}
+same_bundles!(bundled, bundled_f32);
 
 /// So many seeded numbers; every ninth is one of those that are not usual:
 /// angles beyond what polynomials are for, zeros, infinities, NaN.
@@ -241,6 +276,46 @@ macro_rules! check_arm {
             }
         );
     }};
+}
+
+macro_rules! check_bundles {
+    ($module:ident, $scalar:ty) => {{
+        check!(
+            $module,
+            $scalar,
+            servo,
+            servo_lanes,
+            servo_batch,
+            servo_columns,
+            ServoBatch,
+            [q, qd, qdd],
+            |x: &$module::Servo| -> [$scalar; 33] {
+                let all = [&x.tau[..], x.jacobian.as_flattened(), x.pose.as_flattened()].concat();
+                from_fn(|i| all[i])
+            }
+        );
+        check!(
+            $module,
+            $scalar,
+            task,
+            task_lanes,
+            task_batch,
+            task_columns,
+            TaskBatch,
+            [q, qd, tau],
+            |x: &$module::Task| -> [$scalar; 13] {
+                let all = [&x.qdd[..], &[x.kinetic], x.d.as_flattened()].concat();
+                from_fn(|i| all[i])
+            }
+        );
+    }};
+}
+
+/// What a bundle has of many states is what its function has of each.
+#[test]
+fn bundles_of_many_states() {
+    check_bundles!(bundled, f64);
+    check_bundles!(bundled_f32, f32);
 }
 
 #[test]

@@ -2,20 +2,24 @@
 //! number of joints, in either scalar, for generated robots and for one by hand.
 
 use dalembert::interface as ask;
-use dalembert::interface::{ForwardDynamics, Gravity, Inertia, InverseDynamics};
+use dalembert::interface::{
+    ForwardDynamics, Gravity, Inertia, InverseDynamics, ManipulatorEquation, Regressor, answers,
+};
 
 dalembert::dynamics! {
     mod planar2r = "generated/robots/planar2r.toml";
     outputs: inverse_dynamics, gravity, inertia, forward_dynamics, kinetic_energy, potential_energy,
         coriolis, coriolis_matrix, forward_kinematics, link_poses, jacobian, jacobian_rate,
-        reaction_wrenches, passivity, inertia_inverse, momentum, regressor, hold = gravity + jacobian;
+        reaction_wrenches, passivity, inertia_inverse, momentum, regressor, hold = gravity + jacobian,
+        manipulator_equation, dynamic_coefficients, dalembert_terms, inverse_dynamics_derivatives,
+        forward_dynamics_derivatives, full_regressor, passivity_regressor;
     interface: traits;
     scalar: f64, f32;
 }
 
 dalembert::dynamics! {
     mod planar3r = "generated/robots/planar3r.toml";
-    outputs: inverse_dynamics, forward_dynamics, gravity, inertia;
+    outputs: inverse_dynamics, forward_dynamics, gravity, inertia, manipulator_equation, regressor;
     interface: traits;
 }
 
@@ -76,6 +80,102 @@ fn one_controller_for_two_robots() {
     assert!(reach(Slack, [0.4, -0.7]) > 0.1);
 }
 
+/// Computed torque by a struct: D times the acceleration that brings the arm there, with
+/// what it takes to keep its motion.
+fn control_by_terms<const N: usize>(
+    robot: &impl ManipulatorEquation<f64, N>,
+    wanted: &[f64; N],
+    q: &[f64; N],
+    qd: &[f64; N],
+) -> [f64; N] {
+    let answers::ManipulatorEquation { d, h, c } = robot.manipulator_equation(q, qd);
+    let qdd: [f64; N] = std::array::from_fn(|i| 100.0 * (wanted[i] - q[i]) - 20.0 * qd[i]);
+    let inertial = |row: &[f64; N]| row.iter().zip(&qdd).map(|(d, qdd)| d * qdd).sum::<f64>();
+    std::array::from_fn(|i| inertial(&d[i]) + h[i] + c[i])
+}
+
+/// Both controllers say the same, and a regressor gives what they say from parameters.
+fn agree<R, const N: usize, const K: usize>(robot: &R, parameters: &[f64; K])
+where
+    R: InverseDynamics<f64, N> + ManipulatorEquation<f64, N> + Regressor<f64, N, K>,
+{
+    let (q, qd) = ([0.3; N], [0.7; N]);
+    let tau = control(robot, &[0.5; N], &q, &qd);
+    let by_terms = control_by_terms(robot, &[0.5; N], &q, &qd);
+    let qdd = [100.0 * 0.2 - 20.0 * 0.7; N];
+    let y = robot.regressor(&q, &qd, &qdd);
+    for i in 0..N {
+        let by_parameters: f64 = y[i].iter().zip(parameters).map(|(y, p)| y * p).sum();
+        assert!((tau[i] - by_terms[i]).abs() < 1e-12 * tau[0].abs());
+        assert!((tau[i] - by_parameters).abs() < 1e-12 * tau[0].abs());
+    }
+}
+
+#[test]
+fn structs_and_regressors_are_answers_too() {
+    agree(&planar2r::Robot, &planar2r::BASE_PARAMETERS);
+    agree(&planar3r::Robot, &planar3r::BASE_PARAMETERS);
+    // A double of the user's own answers as well, and its answer can be held.
+    struct Block;
+    impl ManipulatorEquation<f64, 1> for Block {
+        fn manipulator_equation(
+            &self,
+            _: &[f64; 1],
+            _: &[f64; 1],
+        ) -> answers::ManipulatorEquation<f64, 1> {
+            answers::ManipulatorEquation {
+                d: [[2.0]],
+                h: [0.5],
+                c: [3.0],
+            }
+        }
+    }
+    assert_eq!(control_by_terms(&Block, &[1.0], &[1.0], &[0.0]), [3.5]);
+}
+
+/// Every field is the function's, bit for bit: none trades its place with another of
+/// its type.
+#[test]
+fn answers_have_the_fields_of_the_functions() {
+    let (q, qd, third) = ([0.3, -0.5], [0.7, 0.2], [-0.4, 1.1]);
+    let robot = planar2r::Robot;
+    macro_rules! same {
+        ($question:ident, $ask:ident($($argument:expr),*), $($field:ident),*) => {
+            let own = planar2r::$ask($($argument),*);
+            let answers::$question { $($field),* } = ask::$question::$ask(&robot, $($argument),*);
+            $(assert_eq!($field, own.$field, stringify!($field));)*
+        };
+    }
+    same!(ManipulatorEquation, manipulator_equation(&q, &qd), d, h, c);
+    same!(DynamicCoefficients, dynamic_coefficients(&q), d, h, c);
+    same!(Momentum, momentum(&q, &qd), p, ct_qd);
+    same!(
+        DalembertTerms,
+        dalembert_terms(&q, &qd),
+        d_rot,
+        d_tran,
+        h_rot,
+        h_tran,
+        c
+    );
+    same!(
+        InverseDynamicsDerivatives,
+        inverse_dynamics_derivatives(&q, &qd, &third),
+        dtau_dq,
+        dtau_dqd,
+        d
+    );
+    same!(
+        ForwardDynamicsDerivatives,
+        forward_dynamics_derivatives(&q, &qd, &third),
+        dqdd_dq,
+        dqdd_dqd,
+        dqdd_dtau
+    );
+    let full: [[f64; 20]; 2] = ask::FullRegressor::full_regressor(&robot, &q, &qd, &third);
+    assert_eq!(full, planar2r::full_regressor(&q, &qd, &third));
+}
+
 /// Answers are those of the functions, bit for bit, in either scalar; by reference
 /// and behind a `dyn`, too.
 #[test]
@@ -100,10 +200,10 @@ fn answers_are_the_functions() {
     );
 }
 
-/// Every question that one array answers is a trait, and the type has it.
+/// Every question is a trait, and the type has it.
 #[test]
 fn every_question_has_a_trait() {
-    fn all<T, const N: usize>(
+    fn all<T, const N: usize, const K: usize, const L: usize>(
         _: impl ask::InverseDynamics<T, N>
         + ask::Gravity<T, N>
         + ask::Inertia<T, N>
@@ -118,17 +218,27 @@ fn every_question_has_a_trait() {
         + ask::ReactionWrenches<T, N>
         + ask::Passivity<T, N>
         + ask::ForwardDynamics<T, N>
-        + ask::InertiaInverse<T, N>,
+        + ask::InertiaInverse<T, N>
+        + ask::ManipulatorEquation<T, N>
+        + ask::DynamicCoefficients<T, N>
+        + ask::Momentum<T, N>
+        + ask::DalembertTerms<T, N>
+        + ask::InverseDynamicsDerivatives<T, N>
+        + ask::ForwardDynamicsDerivatives<T, N>
+        + ask::Regressor<T, N, K>
+        + ask::PassivityRegressor<T, N, K>
+        + ask::FullRegressor<T, N, L>,
     ) {
     }
-    all(planar2r::Robot);
-    all(planar2r_f32::Robot);
+    all::<f64, 2, _, 20>(planar2r::Robot);
+    all::<f32, 2, _, 20>(planar2r_f32::Robot);
     // An output that is added has a trait as well, or its module does not compile.
-    let source = include_str!("../src/interface.rs");
+    let source = include_str!("../src/interface/mod.rs");
     for function in dalembert_codegen::Function::ALL {
         let question = dalembert_codegen::emit::interface::question(function);
-        let known = source.contains(&format!("    {}::{function}(", function.camel()));
-        assert_eq!(question.is_some(), known, "{function}");
+        let names = ["", "<K>"].map(|k| format!("    {}{k}::{function}(", function.camel()));
+        let known = names.iter().any(|name| source.contains(name.as_str()));
+        assert!(question.is_some() && known, "{function}");
     }
 }
 

@@ -14,6 +14,22 @@ fn a_robot_passes_with_table_and_charts() {
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(ran.out.contains("angles 1e8") && ran.out.contains("D singular"));
     assert!(ran.out.contains("warning: where D is singular"));
+    assert!(
+        ran.out
+            .contains("functions that divide, where D is nearest to singular")
+    );
+    for function in [
+        "forward_dynamics",
+        "inertia_inverse",
+        "forward_dynamics_derivatives",
+    ] {
+        let lines = ran
+            .out
+            .lines()
+            .filter(|line| line.trim_start().starts_with(function));
+        let good = lines.filter(|line| line.trim_end().ends_with(" ok"));
+        assert!(good.count() >= 4, "{function}: {}", ran.out);
+    }
     for chart in ["angles.svg", "velocities.svg", "mass_ratio.svg"] {
         let svg = fs::read_to_string(charts.join(chart)).unwrap();
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
@@ -27,6 +43,21 @@ fn json_says_the_same() {
     assert_eq!(ran.code, 0, "{}", ran.err);
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(json["passed"], true);
+    let near = &json["near_singular"];
+    assert!(near["condition_scaled"].as_f64().unwrap() > 16.0);
+    let functions = near["functions"].as_array().unwrap();
+    assert_eq!(
+        functions.len(),
+        12,
+        "three functions, two scalars, two codes"
+    );
+    for row in functions {
+        let [error, normwise, condition] =
+            ["error_in_u_condition", "normwise_in_u", "condition_scaled"]
+                .map(|key| row[key].as_f64().unwrap());
+        assert!((error * condition / normwise - 1.0).abs() < 1e-12, "{row}");
+        assert_eq!(row["verdict"], "ok");
+    }
     let rows = json["rows"].as_array().unwrap();
     // Scalars and codes of each category.
     assert!(rows.len() > 80 && rows.len().is_multiple_of(4));

@@ -142,6 +142,11 @@ impl JointState {
     }
 }
 
+/// Between which ends each joint's position is drawn.
+pub fn positions(robot: &Robot) -> Vec<[f64; 2]> {
+    robot.joints.iter().map(position).collect()
+}
+
 /// Between which ends a joint's entry of an argument is drawn.
 fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     let limits = &joint.limits;

@@ -447,10 +447,10 @@ fn refusals() {
     }
 }
 
-/// A plan has the robot's own parameters: its programs are not taken for others,
-/// and others are not kept in it.
+/// A plan keeps programs of constants and of arguments side by side: neither is taken
+/// for the other, nor for one with other parameters or another load.
 #[test]
-fn plans_keep_programs_of_constants() {
+fn plans_keep_programs_by_what_is_an_argument() {
     let robot = support::robot("planar2r");
     let plain = request(&[Function::Gravity, Function::Jacobian], &[]);
     let plan: Plan = keep(&robot, &plain, &generate(&robot, &plain), None).plan;
@@ -462,8 +462,48 @@ fn plans_keep_programs_of_constants() {
     let generated = generate(&robot, &taking);
     let planned: Vec<bool> = generated.functions.iter().map(|f| f.planned).collect();
     assert_eq!(planned, [false, false, true], "load, gravity, jacobian");
-    let kept = keep(&robot, &taking, &generated, Some(plan.clone()));
-    assert_eq!(kept.plan, plan);
+    let kept = keep(&robot, &taking, &generated, Some(plan.clone())).plan;
+    assert_eq!(
+        kept.entries.len(),
+        plan.entries.len() + 2,
+        "gravity, a scalar each"
+    );
+    let text = kept.write();
+    assert!(text.contains("\nparameters payload,gravity "), "{text}");
+    assert_eq!(Plan::parse(&text).unwrap(), kept);
+    let planned = |plan: &Plan, parameters: &[RuntimeParameter]| {
+        let request = Request {
+            plan: Some(plan.clone()),
+            ..request(&[Function::Gravity], parameters)
+        };
+        let generated = generate(&robot, &request);
+        let gravity = generated.functions.last().unwrap();
+        (gravity.planned, generated.text)
+    };
+    let fresh = generate(&robot, &request(&[Function::Gravity], BOTH)).text;
+    assert_eq!(planned(&kept, BOTH), (true, fresh));
+    assert!(planned(&kept, &[]).0);
+    assert!(!planned(&kept, PAYLOAD).0 && !planned(&kept, GRAVITY).0);
+    // Numbers of another load: searched for anew, not refused.
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("parameters "))
+        .unwrap();
+    let (rest, _) = line.rsplit_once(' ').unwrap();
+    let other = text.replace(line, &format!("{rest} 0123456789abcdef"));
+    assert!(!planned(&Plan::parse(&other).unwrap(), BOTH).0);
+    for (words, said) in [
+        ("payload,gravity", "expected `payload`"),
+        ("payload,wind 4 0", "expected `payload`"),
+        ("payload,payload 4 0", "expected `payload`"),
+        ("payload -1 0", "expected `payload`"),
+        ("payload 99999999999 0", "expected `payload`"),
+        ("payload 4 0\nparameters gravity 0 0", "once"),
+    ] {
+        let error = Plan::parse(&text.replace(line, &format!("parameters {words}")));
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains(said), "{words}: {error}");
+    }
 }
 
 /// Other ways to call, in both scalars, are read back like others.

@@ -132,6 +132,7 @@ fn a_plan_keeps_the_least_eigenvalue() {
             source: found.source,
             stages: found.stages,
             scene: request.scene.as_ref().map(SceneKey::of),
+            parameters: None,
             program: admitted.stages[0].program.clone(),
             edited: Some(Edited {
                 stages: admitted.stages.clone(),

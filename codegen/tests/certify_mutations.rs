@@ -533,6 +533,7 @@ fn plan(robot: &Reading, generated: &Generated) -> String {
             source: function.source,
             stages: Vec::new(),
             scene: claim.scene.clone(),
+            parameters: None,
             program: exact.clone(),
             edited: Some(Edited {
                 stages: claim.stages.clone(),

@@ -305,6 +305,7 @@ fn plans_tell_scenes_apart() {
         source: first.functions[0].source,
         stages: first.functions[0].stages.clone(),
         scene: Some(SceneKey::of(&scene)),
+        parameters: None,
         program: first.functions[0].program.clone(),
         edited: None,
     });

@@ -98,6 +98,7 @@ fn check(name: &str, functions: &[Function]) {
             source: function.source,
             stages: function.stages.clone(),
             scene: None,
+            parameters: None,
             program: function.program.clone(),
             edited: None,
         });

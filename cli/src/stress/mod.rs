@@ -1,14 +1,17 @@
 //! `dalembert stress`: the matrix of extremes on the user's robot.
 //!
 //! - this file: the table and the charts
+//! - `singular`: functions that divide, where D is nearest to singular
 //! - [`growth`]: chains of 1 to 60 joints
 
 mod growth;
+mod singular;
 
 use dalembert_codegen::generate::Request;
 use dalembert_model::robot::Robot;
 use dalembert_report::stress::category::{Criterion, NORMWISE, PER_JOINT};
 use dalembert_report::stress::report::{self, Options, Row, Verdict};
+use dalembert_report::stress::singular::{self as divided, Divided};
 use dalembert_report::stress::sweep::{self, Axis, Curve};
 use serde_json::{Value, json};
 
@@ -34,10 +37,12 @@ pub fn run(args: &StressArgs) -> Outcome {
         ..Options::default()
     };
     let rows = report::run(&robot, &options, |name| output::note(&format!("… {name}")))?;
+    output::note("… functions that divide");
+    let divided = divided::run(&robot, &options)?;
     if args.json {
-        output::print_json(&json(&robot, &rows))?;
+        output::print_json(&json(&robot, &rows, &divided))?;
     } else {
-        output::print(&text(&robot, &rows))?;
+        output::print(&(text(&robot, &rows) + &singular::text(&divided)))?;
     }
     if let Some(folder) = output {
         output::note("… charts");
@@ -46,15 +51,15 @@ pub fn run(args: &StressArgs) -> Outcome {
         let files: Vec<_> = files.map(|(name, c)| (name.to_owned(), c.svg())).collect();
         folder.write(&files)?;
     }
-    match rows
-        .iter()
-        .filter(|row| row.verdict == Verdict::Fail)
-        .count()
-    {
+    let verdicts = rows.iter().map(|row| row.verdict);
+    let verdicts = verdicts.chain(divided.rows.iter().map(|row| row.verdict));
+    let verdicts: Vec<Verdict> = verdicts.collect();
+    let failed = verdicts.iter().filter(|verdict| **verdict == Verdict::Fail);
+    match failed.count() {
         0 => Ok(()),
         failed => Err(Failure::Check(format!(
             "error: {failed} of {} checks failed",
-            rows.len()
+            verdicts.len()
         ))),
     }
 }
@@ -133,7 +138,7 @@ fn text(robot: &Robot, rows: &[Row]) -> String {
     text
 }
 
-fn json(robot: &Robot, rows: &[Row]) -> Value {
+fn json(robot: &Robot, rows: &[Row], divided: &Divided) -> Value {
     let rows_json = rows.iter().map(|row| {
         json!({
             "category": row.category,
@@ -162,7 +167,9 @@ fn json(robot: &Robot, rows: &[Row]) -> Value {
         "input": robot.short_hash(),
         "bounds_in_u": { "normwise": NORMWISE, "per_joint": PER_JOINT },
         "rows": rows_json.collect::<Vec<_>>(),
-        "passed": rows.iter().all(|row| row.verdict != Verdict::Fail),
+        "near_singular": singular::json(divided),
+        "passed": rows.iter().all(|row| row.verdict != Verdict::Fail)
+            && divided.rows.iter().all(|row| row.verdict != Verdict::Fail),
     })
 }
 

@@ -4,6 +4,7 @@ use crate::approximate::choose::Admitted;
 use crate::function::Function;
 use crate::portfolio::Source;
 use crate::program::{Counts, Library, Lowered, Program, ScalarType};
+use crate::scene::ParametersKey;
 use crate::simplify::Stage;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::verify::accuracy::Refused;
@@ -16,6 +17,8 @@ pub struct GeneratedFunction {
     pub function: Function,
     /// The formulation that the search started from.
     pub source: Source,
+    /// The robot's parameters that it takes as arguments, if it does.
+    pub parameters: Option<ParametersKey>,
     /// Whether it is the plan's, and nothing was searched for.
     pub planned: bool,
     /// The final program with exact constants: what is emitted.

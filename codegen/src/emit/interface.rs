@@ -34,11 +34,18 @@ impl Interface {
     }
 }
 
-/// The trait that asks what a function answers, for one array of the robot's size.
-/// Structs and the columns of regressors are each module's own.
+/// The trait that asks what a function answers. What bundles return, and what a load
+/// is, are each module's own.
 pub fn question(function: Function) -> Option<String> {
-    let is_array = function.structure().is_none() && function.columns() == Columns::None;
-    (is_array && function != Function::Load).then(|| function.camel())
+    let is_own = matches!(function, Function::Load | Function::Bundle(_));
+    (!is_own).then(|| function.camel())
+}
+
+/// What the trait answers, of these lengths: an array, or the struct of this name that
+/// fits every robot.
+pub fn answer(function: Function, path: &str, scalar: ScalarType, joints: &str) -> Option<String> {
+    let name = function.structure()?;
+    Some(format!("{path}::answers::{name}<{scalar}, {joints}>"))
 }
 
 /// The type and what it answers; `path` is where the traits are.
@@ -58,24 +65,49 @@ pub(super) fn write(functions: &[GeneratedFunction], scalar: ScalarType, path: &
         "#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]\npub struct {ROBOT};"
     );
     for generated in with {
-        let (function, program) = (generated.function, &generated.program);
-        let n = program.joints;
-        let names: Vec<&str> = program.arguments.iter().map(|a| a.name()).collect();
-        let parameters = names.iter().map(|name| format!("{name}: &[{scalar}; {n}]"));
-        let parameters: Vec<String> = parameters.collect();
-        let _ = writeln!(
-            text,
-            "\nimpl {path}::{}<{scalar}, {n}> for {ROBOT} {{\n    \
-             #[inline]\n    \
-             fn {function}(&self, {}) -> {} {{\n        \
-             {function}({})\n    }}\n}}",
-            function.camel(),
-            parameters.join(", "),
-            result_type(function, program.sizes(), scalar),
-            names.join(", ")
-        );
+        text.push_str(&implementation(generated, scalar, path));
     }
     text
+}
+
+/// What the type answers by one function.
+fn implementation(generated: &GeneratedFunction, scalar: ScalarType, path: &str) -> String {
+    let (function, program) = (generated.function, &generated.program);
+    let n = program.joints;
+    let names: Vec<&str> = program.arguments.iter().map(|a| a.name()).collect();
+    let parameters = names.iter().map(|name| format!("{name}: &[{scalar}; {n}]"));
+    let parameters: Vec<String> = parameters.collect();
+    let call = format!("{function}({})", names.join(", "));
+    let (result, body) = match answer(function, path, scalar, &n.to_string()) {
+        None => (result_type(function, program.sizes(), scalar), call),
+        Some(result) => {
+            let fields: Vec<&str> = function.quantities().iter().map(|q| q.field()).collect();
+            let fields = fields.join(", ");
+            let name = function.camel();
+            let body = format!(
+                "let {name} {{ {fields} }} = {call};\n        \
+                 {path}::answers::{name} {{ {fields} }}"
+            );
+            (result, body)
+        }
+    };
+    let columns = match function.columns() {
+        Columns::None => String::new(),
+        Columns::Links | Columns::Base(_) => {
+            let lengths = function.quantities()[0].shape().lengths(program.sizes());
+            lengths
+                .last()
+                .map_or_else(String::new, |k| format!(", {k}"))
+        }
+    };
+    format!(
+        "\nimpl {path}::{}<{scalar}, {n}{columns}> for {ROBOT} {{\n    \
+         #[inline]\n    \
+         fn {function}(&self, {}) -> {result} {{\n        \
+         {body}\n    }}\n}}\n",
+        function.camel(),
+        parameters.join(", "),
+    )
 }
 
 /// Whether a trait has this signature: a scene may have left arguments or rows out,

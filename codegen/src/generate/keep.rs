@@ -31,18 +31,17 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
     });
     let mut own = Vec::new();
     let functions = generated.functions.iter();
-    // Programs that take parameters have no place in it: searched for each time.
-    let of_constants = functions.filter(|function| {
-        let mut arguments = function.program.arguments.iter();
-        arguments.all(|argument| argument.is_of_joints())
-    });
-    for function in of_constants {
+    // A load is its definition: nobody searches for that.
+    for function in functions.filter(|generated| generated.function != Function::Load) {
         for scalar in scalars(request, function) {
             let entry = entry(request, function, scalar);
             let (name, scene) = (function.function, request.scene.as_ref());
-            let other = plan.find(name, request.start, scalar, scene);
+            let parameters = function.parameters.as_ref();
+            let other = plan.find(name, request.start, scalar, scene, parameters);
             let as_good = |other: &Entry| {
-                other.scene == entry.scene && price(emitted(other)) <= price(emitted(&entry))
+                other.scene == entry.scene
+                    && other.parameters == entry.parameters
+                    && price(emitted(other)) <= price(emitted(&entry))
             };
             if generated.ended && other.is_some_and(as_good) {
                 own.push((name, scalar));
@@ -61,6 +60,7 @@ fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) ->
         source: function.source,
         stages: function.stages.clone(),
         scene: request.scene.as_ref().map(SceneKey::of),
+        parameters: function.parameters.clone(),
         program: exact(function).clone(),
         edited: function.admitted.as_ref().and_then(|admitted| {
             let claim = admitted.libm.iter().find(|claim| claim.scalar == scalar)?;

@@ -34,7 +34,7 @@ use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::{Columns, Function};
 use crate::program::{Lowered, ScalarType};
-use crate::scene::{Setting, input_hash};
+use crate::scene::{ParametersKey, Setting, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
 use crate::trace::feels_coulomb;
@@ -257,6 +257,7 @@ fn one(
     Ok(GeneratedFunction {
         function,
         source,
+        parameters: ParametersKey::of(setting, function),
         planned: entry.is_some(),
         counts: program.counts(),
         sines: Vec::new(),

@@ -10,8 +10,8 @@ use crate::plan::Entry;
 use crate::portfolio::start::Problem;
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Limit, Source, Variant};
-use crate::program::{Counts, Program};
-use crate::scene::{SceneKey, Setting};
+use crate::program::{Counts, Program, ScalarType};
+use crate::scene::{ParametersKey, SceneKey, Setting};
 use crate::simplify::{self, Effort, Simplified, Stage};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
@@ -25,14 +25,20 @@ pub fn replay<'r>(
     let Some(plan) = &request.plan else {
         return Ok(None);
     };
-    // A plan's programs have the robot's own parameters.
-    if setting.takes_any(function) {
+    // Its definition: nothing was searched for.
+    if function == Function::Load {
         return Ok(None);
     }
     let scene = setting.scene();
+    let parameters = ParametersKey::of(setting, function);
     let find = |scene| {
         let mut scalars = request.scalars.iter();
-        scalars.find_map(|&scalar| plan.find(function, request.start, scalar, scene))
+        let found = |&scalar: &ScalarType| {
+            plan.find(function, request.start, scalar, scene, parameters.as_ref())
+        };
+        // Of other numbers of the load it is the program of another function.
+        let same = |entry: &&Entry| entry.parameters == parameters;
+        scalars.find_map(found).filter(same)
     };
     let found = find(scene);
     // A box or a tolerance by itself leaves the equations as they are.

@@ -283,7 +283,7 @@ fn kept(
     };
     let scene_key = Some(SceneKey::of(scene));
     let find = |&scalar: &ScalarType| {
-        let entry = plan.find(function, request.start, scalar, Some(scene))?;
+        let entry = plan.find(function, request.start, scalar, Some(scene), None)?;
         (entry.scene == scene_key && entry.program == *budget.exact)
             .then_some(entry.edited.as_ref())
             .flatten()

@@ -54,6 +54,10 @@ pub enum PlanFault {
     Scene,
     /// A scene comes after steps of its program.
     LateScene,
+    /// Parameters are not what a program has of them.
+    Parameters,
+    /// Parameters come after steps of their program, or again.
+    LateParameters,
     /// A scene's rows are no joints.
     Rows,
     /// A stage lacks its name or its counts.
@@ -94,6 +98,10 @@ impl fmt::Display for PlanFault {
             PlanFault::Bundle(error) => f.write_str(&error.message()),
             PlanFault::Unreturned => f.write_str("the last program has no `return`"),
             PlanFault::Scene => f.write_str("expected a scene's name, hash, rows and arguments"),
+            PlanFault::Parameters => {
+                f.write_str("expected `payload`, `gravity` or both, the load's length and its hash")
+            }
+            PlanFault::LateParameters => f.write_str("the parameters come once, before the steps"),
             PlanFault::LateScene => f.write_str("the scene comes before the steps"),
             PlanFault::Rows => f.write_str("expected joints such as `1,2,3`"),
             PlanFault::Stage => f.write_str("expected a stage and four counts"),

@@ -24,9 +24,10 @@ use crate::edits;
 use crate::function::Function;
 use crate::portfolio::{Source, Start};
 use crate::program::{Program, ScalarType};
-use crate::scene::SceneKey;
+use crate::scene::{ParametersKey, SceneKey};
 use crate::simplify::Stage;
 use crate::split::Split;
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
 
 /// The programs kept for a robot.
@@ -37,7 +38,7 @@ pub struct Plan {
     /// The robot's [`input_hash`](dalembert_model::robot::Robot::input_hash)
     /// in hexadecimal.
     pub input: String,
-    /// One entry a scene, function, formulation and scalar.
+    /// One entry a scene, function, formulation and scalar, and what is an argument.
     pub entries: Vec<Entry>,
 }
 
@@ -54,6 +55,8 @@ pub struct Entry {
     pub stages: Vec<Stage>,
     /// The scene that it is for, unless it is for the whole robot.
     pub scene: Option<SceneKey>,
+    /// The robot's parameters that it takes as arguments, if it does.
+    pub parameters: Option<ParametersKey>,
     /// The program.
     pub program: Program,
     /// The variant to emit instead, where a scene has a tolerance.
@@ -77,27 +80,46 @@ pub struct Edited {
 }
 
 /// What tells the entries of a plan apart.
-type Key<'e> = (Option<&'e str>, Function, &'static str, ScalarType);
+type Key<'e> = (
+    Option<&'e str>,
+    Function,
+    &'static str,
+    ScalarType,
+    &'e [RuntimeParameter],
+);
+
+/// Which parameters of the robot are arguments.
+fn taken(parameters: Option<&ParametersKey>) -> &[RuntimeParameter] {
+    parameters.map_or(&[], |parameters| &parameters.taken)
+}
 
 impl Entry {
     fn key(&self) -> Key<'_> {
         let scene = self.scene.as_ref().map(|scene| scene.name.as_str());
-        (scene, self.program.function, self.start.name(), self.scalar)
+        (
+            scene,
+            self.program.function,
+            self.start.name(),
+            self.scalar,
+            taken(self.parameters.as_ref()),
+        )
     }
 }
 
 impl Plan {
-    /// The entry for a function, formulation and scalar, in a scene of this
-    /// name. Whether the scene is still the same, its hash says.
+    /// The entry for a function, formulation and scalar that takes the same
+    /// parameters, in a scene of this name. Whether the scene and the load's numbers
+    /// are still the same, their hashes say.
     pub fn find(
         &self,
         function: Function,
         start: Start,
         scalar: ScalarType,
         scene: Option<&Scene>,
+        parameters: Option<&ParametersKey>,
     ) -> Option<&Entry> {
         let scene = scene.map(|scene| scene.name.as_str());
-        let key = (scene, function, start.name(), scalar);
+        let key = (scene, function, start.name(), scalar, taken(parameters));
         self.entries.iter().find(|entry| entry.key() == key)
     }
 

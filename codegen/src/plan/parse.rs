@@ -1,6 +1,7 @@
 //! Reads a plan. Whatever the text says, the program is proved before use;
 //! reading only makes sure that it is one.
 
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 use super::error::{PlanError, PlanFault};
@@ -10,7 +11,7 @@ use crate::function::{BundleError, Function};
 use crate::portfolio::{Source, Start};
 use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
-use crate::scene::SceneKey;
+use crate::scene::{ParametersKey, SceneKey};
 use crate::simplify::Stage;
 
 /// The longest plan that is read.
@@ -85,6 +86,7 @@ impl Reader {
             ("input", None) => self.input = words.get(1).map(|&w| w.to_owned()),
             ("program", None) => self.open = Some(program(&words[1..])?),
             ("scene", Some(entry)) => scene(&words[1..], entry)?,
+            ("parameters", Some(entry)) => parameters(&words[1..], entry)?,
             ("stage", Some(entry)) => entry.stages.push(stage(&words[1..])?),
             ("return", Some(entry)) => {
                 read_results(&words[1..], &mut entry.program)?;
@@ -133,6 +135,7 @@ fn program(words: &[&str]) -> Result<Entry, PlanFault> {
     })?;
     Ok(Entry {
         scene: None,
+        parameters: None,
         edited: None,
         start: Start::from_name(start).ok_or_else(|| unknown("formulation", start))?,
         scalar: ScalarType::from_name(scalar).ok_or_else(|| unknown("scalar", scalar))?,
@@ -179,6 +182,42 @@ fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
     });
     Ok(())
 }
+
+/// `parameters NAMES LOAD HASH`: which parameters of the robot are arguments, and how
+/// many numbers the load has.
+fn parameters(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
+    let &[names, load, hash] = words else {
+        return Err(PlanFault::Parameters);
+    };
+    let program = &mut entry.program;
+    if !program.steps.is_empty() || entry.parameters.is_some() {
+        return Err(PlanFault::LateParameters);
+    }
+    let all = RuntimeParameter::ALL.into_iter();
+    let taken: Vec<RuntimeParameter> = all
+        .filter(|parameter| names.split(',').any(|word| word == parameter.name()))
+        .collect();
+    if taken.len() != names.split(',').count() {
+        return Err(PlanFault::Parameters);
+    }
+    program.load = load
+        .parse()
+        .ok()
+        .filter(|&load| load <= MAX_LOAD)
+        .ok_or(PlanFault::Parameters)?;
+    let arguments = taken.iter().map(|parameter| parameter.argument());
+    program.arguments.extend(arguments);
+    program.arguments.sort();
+    entry.parameters = Some(ParametersKey {
+        taken,
+        load: program.load,
+        hash: hash.to_owned(),
+    });
+    Ok(())
+}
+
+/// A load has no more numbers: ten of each link, and differences of two of them.
+const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
 
 fn stage(words: &[&str]) -> Result<Stage, PlanFault> {
     let (name, counts) = words.split_first().ok_or(PlanFault::Stage)?;

@@ -39,6 +39,11 @@ impl Plan {
                     arguments.join(",")
                 );
             }
+            if let Some(parameters) = &entry.parameters {
+                let taken: Vec<&str> = parameters.taken.iter().map(|p| p.name()).collect();
+                let (load, hash) = (parameters.load, &parameters.hash);
+                let _ = writeln!(text, "parameters {} {load} {hash}", taken.join(","));
+            }
             for stage in &entry.stages {
                 let c = stage.counts;
                 let name = stage.name;

@@ -1,7 +1,12 @@
-//! Of which robot and scene something is.
+//! Of which robot and scene something is, and what of the robot is an argument.
 
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
+use hmac_sha256::Hash;
+
+use super::Setting;
+use crate::function::Function;
 
 /// Which scene a plan's entry or a claim is about. The hash of a plan is the
 /// robot's alone, so that a scene can be added; an edited scene shows in its own.
@@ -20,6 +25,45 @@ impl SceneKey {
             name: scene.name.clone(),
             hash: scene.short_hash(),
         }
+    }
+}
+
+/// Which parameters of the robot a plan's entry takes as arguments, and what the
+/// load's numbers are: a program of others means nothing in its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ParametersKey {
+    /// In the order of [`RuntimeParameter::ALL`].
+    pub taken: Vec<RuntimeParameter>,
+    /// How many numbers the load has; none where it is no argument.
+    pub load: usize,
+    /// The hash of these numbers.
+    pub hash: String,
+}
+
+impl ParametersKey {
+    /// Of a function that takes some.
+    pub fn of(setting: &Setting, function: Function) -> Option<ParametersKey> {
+        let all = RuntimeParameter::ALL.into_iter();
+        let taken = all.filter(|&parameter| setting.takes(function, parameter));
+        let taken: Vec<RuntimeParameter> = taken.collect();
+        if taken.is_empty() {
+            return None;
+        }
+        let load = setting
+            .load()
+            .filter(|_| taken.contains(&RuntimeParameter::Payload));
+        let numbers = load.map_or(&[][..], |load| &load.numbers);
+        let mut hash = Hash::new();
+        for number in numbers {
+            hash.update(number.to_string());
+            hash.update("\n");
+        }
+        let hash = hash.finalize();
+        Some(ParametersKey {
+            taken,
+            load: numbers.len(),
+            hash: hash[..8].iter().map(|byte| format!("{byte:02x}")).collect(),
+        })
     }
 }
 

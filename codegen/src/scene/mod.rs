@@ -40,7 +40,7 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
 use base::{BaseParameters, NoBase};
-pub use key::{SceneKey, input_hash};
+pub use key::{ParametersKey, SceneKey, input_hash};
 use load::LoadParameters;
 pub use motion::motion;
 pub use posed::{Posed, Value};

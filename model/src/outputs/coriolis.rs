@@ -36,6 +36,7 @@ impl Formula for Coriolis {
         choices: Some(Choices {
             recursion: true,
             travel: false,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN
@@ -50,9 +51,8 @@ impl Formula for Coriolis {
         let rest = zeros(chain.links.len());
         if form.composite_h {
             let still = zero_vector();
-            let torques = at
-                .composite
-                .torques(&still, &at.motion.qd, &rest, form.spin);
+            let (qd, exerted) = (&at.motion.qd, zero_vector());
+            let torques = at.composite.torques(&still, qd, &rest, form.spin, &exerted);
             return Some(torques);
         }
         let mut still = chain.clone().without_friction();

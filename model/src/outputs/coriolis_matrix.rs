@@ -38,6 +38,7 @@ impl Formula for CoriolisMatrix {
         choices: Some(Choices {
             recursion: false,
             travel: false,
+            flows: true,
         }),
         by_differences: true,
         burden: Burden::Load,
@@ -50,7 +51,11 @@ impl Formula for CoriolisMatrix {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let c = contracted(&at.composite.christoffel(), &at.motion.qd);
+        let qd = &at.motion.qd;
+        let c = match at.form.flows {
+            true => at.composite.coriolis_matrix(qd, at.form.travel),
+            false => contracted(&at.composite.christoffel(), qd),
+        };
         Some(c.into_iter().flatten().collect())
     }
 

@@ -36,6 +36,7 @@ impl Formula for Christoffel {
         choices: Some(Choices {
             recursion: false,
             travel: false,
+            flows: false,
         }),
         by_differences: true,
         burden: Burden::Load,

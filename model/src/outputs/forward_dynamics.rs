@@ -7,6 +7,7 @@ use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::Unspun;
 use crate::equations::forward::solved;
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -24,6 +25,17 @@ pub(super) const FUNCTION: Definition = Definition {
 /// q̈_i
 pub(super) struct Acceleration;
 
+/// q̈ of a chain: a last joint that nothing depends on first, D of the others.
+pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
+    let motion = at.motion;
+    if let Some(unspun) = Unspun::new(&at.composite, &motion.moves) {
+        return unspun.forward_dynamics([&motion.qd, &motion.tau], &motion.moves, at.form);
+    }
+    let d = at.composite.inertia(at.form.travel);
+    let bias = torques(at, &zeros(motion.qd.len()));
+    solved(&d, &bias, &motion.tau, &motion.moves)
+}
+
 impl Formula for Acceleration {
     const FACTS: Facts = Facts {
         field: "qdd",
@@ -40,6 +52,7 @@ impl Formula for Acceleration {
         choices: Some(Choices {
             recursion: true,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         gravity: true,
@@ -66,10 +79,7 @@ impl Formula for Acceleration {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let motion = at.motion;
-        let d = at.composite.inertia(at.form.travel);
-        let bias = torques(at, &zeros(motion.qd.len()));
-        Some(solved(&d, &bias, &motion.tau, &motion.moves))
+        Some(accelerations(at))
     }
 
     fn runtime<T: Float>(

@@ -6,13 +6,12 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
+use super::forward_dynamics::accelerations;
 use super::function::Definition;
-use super::inertia_inverse::InertiaInverse;
-use super::inverse_dynamics::torques;
+use super::inertia_inverse::{InertiaInverse, inverse};
 use super::quantity::{Choices, Facts, Index};
 use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
-use crate::equations::forward::{against, free, inverted, solved};
-use crate::equations::matrix::zeros;
+use crate::equations::forward::{against, free};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -34,6 +33,7 @@ const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::T
 const CHOICES: Option<Choices> = Some(Choices {
     recursion: false,
     travel: true,
+    flows: false,
 });
 
 /// ∂q̈_i/∂q_k
@@ -48,10 +48,8 @@ pub(super) struct AccelerationByTorque;
 /// By position and by velocity, of the joints that move.
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
     let (motion, form) = (at.motion, at.form);
-    let d = at.composite.inertia(form.travel);
-    let bias = torques(at, &zeros(motion.qd.len()));
-    let qdd = solved(&d, &bias, &motion.tau, &motion.moves);
-    let inverse = inverted(&d, &motion.moves);
+    let qdd = accelerations(at);
+    let inverse = inverse(at);
     let slopes = at.composite.slopes(&motion.qd, &qdd, form.travel);
     [&slopes.position, &slopes.velocity].map(|slopes| flat(against(&inverse, slopes)))
 }

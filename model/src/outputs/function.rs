@@ -173,7 +173,11 @@ impl Function {
     pub fn forms(self) -> Vec<Form> {
         let quantities = || self.quantities().iter();
         let choices = || quantities().filter_map(|q| q.facts().choices);
-        Form::all(choices().any(|c| c.recursion), choices().any(|c| c.travel))
+        Form::all(
+            choices().any(|c| c.recursion),
+            choices().any(|c| c.travel),
+            choices().any(|c| c.flows),
+        )
     }
 }
 

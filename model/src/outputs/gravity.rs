@@ -35,6 +35,7 @@ impl Formula for Gravity {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         gravity: true,

@@ -35,6 +35,7 @@ impl Formula for Inertia {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         definite: true,
         burden: Burden::Load,

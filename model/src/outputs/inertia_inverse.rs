@@ -6,6 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::Unspun;
 use crate::equations::forward::{free, inverted};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -21,6 +22,15 @@ pub(super) const FUNCTION: Definition = Definition {
 
 /// (D⁻¹)_ik
 pub(super) struct InertiaInverse;
+
+/// D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
+pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
+    let (moves, travel) = (&at.motion.moves, at.form.travel);
+    match Unspun::new(&at.composite, moves) {
+        Some(unspun) => unspun.inertia_inverse(moves, travel),
+        None => inverted(&at.composite.inertia(travel), moves),
+    }
+}
 
 impl Formula for InertiaInverse {
     const FACTS: Facts = Facts {
@@ -39,6 +49,7 @@ impl Formula for InertiaInverse {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN
@@ -69,9 +80,7 @@ impl Formula for InertiaInverse {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let d = at.composite.inertia(at.form.travel);
-        let inverse = inverted(&d, &at.motion.moves);
-        Some(inverse.into_iter().flatten().collect())
+        Some(inverse(at).into_iter().flatten().collect())
     }
 
     fn runtime<T: Float>(

@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
-use crate::equations::matrix::{plus, times};
+use crate::equations::matrix::{plus, times, zero_vector};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::{Divide, Scalar};
 
@@ -28,7 +28,8 @@ pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
     if !form.composite_h {
         return chain.inverse_dynamics(at.at, qd, qdd, form.spin, form.couple);
     }
-    let torques = at.composite.torques(&chain.gravity, qd, qdd, form.spin);
+    let (gravity, exerted) = (&chain.gravity, zero_vector());
+    let torques = at.composite.torques(gravity, qd, qdd, form.spin, &exerted);
     let links = chain.links.iter().zip(torques).enumerate();
     let torques = links.map(|(i, (link, torque))| {
         let drive = plus(
@@ -58,6 +59,7 @@ impl Formula for Torque {
         choices: Some(Choices {
             recursion: true,
             travel: false,
+            flows: false,
         }),
         starts_from_recursion: true,
         burden: Burden::Load,

@@ -46,6 +46,7 @@ impl Formula for TorqueByPosition {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         gravity: true,
@@ -96,6 +97,7 @@ impl Formula for TorqueByVelocity {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN

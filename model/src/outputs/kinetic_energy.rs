@@ -37,6 +37,7 @@ impl Formula for KineticEnergy {
         choices: Some(Choices {
             recursion: false,
             travel: true,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN

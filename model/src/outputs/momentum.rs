@@ -37,6 +37,7 @@ impl Formula for Momentum {
         choices: Some(Choices {
             recursion: false,
             travel: false,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN
@@ -74,6 +75,7 @@ impl Formula for MomentumSlope {
         choices: Some(Choices {
             recursion: false,
             travel: false,
+            flows: false,
         }),
         burden: Burden::Load,
         ..Facts::PLAIN

@@ -43,6 +43,7 @@ impl Formula for Passivity {
         choices: Some(Choices {
             recursion: false,
             travel: false,
+            flows: false,
         }),
         by_differences: true,
         burden: Burden::Load,

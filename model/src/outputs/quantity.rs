@@ -86,6 +86,8 @@ pub(super) struct Choices {
     pub recursion: bool,
     /// Whether it may travel outward or inward.
     pub travel: bool,
+    /// Whether it may come from composite momenta, which then travel.
+    pub flows: bool,
 }
 
 /// The place of an entry along one axis.

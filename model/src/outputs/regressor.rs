@@ -67,6 +67,7 @@ pub(super) const MOTION: [Argument; 3] = [
 pub(super) const CHOICES: Option<Choices> = Some(Choices {
     recursion: false,
     travel: true,
+    flows: false,
 });
 
 /// The columns by a textbook formulation.

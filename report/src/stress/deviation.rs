@@ -54,14 +54,25 @@ impl Measure {
         }
     }
 
-    /// The error of a result; infinite if it is not finite.
-    pub fn of(&self, found: &[f64], truth: &[Big]) -> Deviation {
-        let u = self.scalar.unit_roundoff();
+    /// The error of each entry; infinite if it is not finite.
+    fn errors(&self, found: &[f64], truth: &[Big]) -> Vec<f64> {
         let error = |(found, truth): (&f64, &Big)| match Big::from_f64(*found) {
             Some(found) => (found.sub(truth).abs().to_f64() - self.underflow).max(0.0),
             None => f64::INFINITY,
         };
-        let errors: Vec<f64> = found.iter().zip(truth).map(error).collect();
+        found.iter().zip(truth).map(error).collect()
+    }
+
+    /// The largest error of a result against a size, in u.
+    pub fn against(&self, found: &[f64], truth: &[Big], size: f64) -> f64 {
+        let errors = self.errors(found, truth).into_iter();
+        ratio(errors.fold(0.0, f64::max), size) / self.scalar.unit_roundoff()
+    }
+
+    /// The error of a result; infinite if it is not finite.
+    pub fn of(&self, found: &[f64], truth: &[Big]) -> Deviation {
+        let u = self.scalar.unit_roundoff();
+        let errors = self.errors(found, truth);
         let most = errors.iter().copied().fold(0.0, f64::max);
         let size = truth.iter().map(|x| x.abs().to_f64()).fold(0.0, f64::max);
         let mut deviation = Deviation {

@@ -9,6 +9,7 @@
 //! - [`robots`], [`states`]: extremes made out of a robot
 //! - [`category`]: the matrix of them, and what each is held to
 //! - [`report`]: the matrix run on one robot
+//! - [`singular`]: functions that divide, where D is nearest to singular
 //! - [`sweep`]: errors against the size of angles, velocities and mass ratios
 //! - [`growth`]: what longer chains cost
 //!
@@ -21,6 +22,7 @@ pub mod report;
 pub mod robots;
 pub mod rounding;
 pub mod scale;
+pub mod singular;
 pub mod states;
 pub mod subject;
 pub mod sweep;

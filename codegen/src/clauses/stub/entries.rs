@@ -7,8 +7,8 @@ use dalembert_model::outputs::Axis;
 use super::arguments;
 use crate::backend::Entries;
 use crate::clauses::module::{BATCH, TRAITS};
-use crate::emit::interface::{ROBOT, question};
-use crate::function::{Argument, Function, Quantity};
+use crate::emit::interface::{ROBOT, answer, question};
+use crate::function::{Argument, Columns, Function, Quantity};
 use crate::program::ScalarType;
 
 /// What a module has of a function beside itself. Lengths that are not known are
@@ -149,15 +149,25 @@ impl Stub<'_> {
             return;
         };
         let (scalar, length) = (self.scalar, self.length());
+        // A regressor has as many columns as who asks expects.
+        let columns = match self.function.columns() {
+            Columns::None => None,
+            Columns::Links | Columns::Base(_) => Some("K"),
+        };
+        let result = match (answer(self.function, TRAITS, scalar, &length), columns) {
+            (Some(answer), _) => answer,
+            (None, Some(columns)) => format!("[[{scalar}; {columns}]; {length}]"),
+            (None, None) => self.result(scalar.name(), "", &[]),
+        };
+        let more = columns.map_or_else(String::new, |columns| format!(", {columns}"));
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "impl{} {TRAITS}::{question}<{scalar}, {length}> for {ROBOT} {{ \
-             fn {}(&self, {}) -> {} {{ ::core::unreachable!() }} }}",
-            self.generic(&[]),
+            "impl{} {TRAITS}::{question}<{scalar}, {length}{more}> for {ROBOT} {{ \
+             fn {}(&self, {}) -> {result} {{ ::core::unreachable!() }} }}",
+            self.generic(columns.as_slice()),
             self.function,
             self.arguments(scalar.name()),
-            self.result(scalar.name(), "", &[])
         );
     }
 

@@ -198,6 +198,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         qd: &[S],
         qdd: &[S],
         spin: AccelerationForm,
+        exerted: &Vector<S>,
     ) -> Vec<S> {
         let chain = self.chain;
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
@@ -231,7 +232,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             before = before.next(link, &self.at[i], &rates[i], &accelerations[i], spin);
         }
         let mut torques = Vec::with_capacity(n);
-        let (mut force, mut moment) = (zero_vector(), zero_vector());
+        let (mut force, mut moment) = (zero_vector(), exerted.clone());
         for i in (0..n).rev() {
             let (f, m) = &wrenches[i];
             (force, moment) = (sum(&force, f), sum(&moment, m));

@@ -32,7 +32,7 @@ pub struct Slopes<S> {
 /// ∫ V dm and ∫ V rᵀ dm, row by row, of bodies in motion, V the velocity of
 /// the point r.
 #[derive(Clone, Debug)]
-struct Flow<S> {
+pub(super) struct Flow<S> {
     momentum: Vector<S>,
     moment: Rotation<S>,
 }
@@ -133,10 +133,7 @@ impl<S: Scalar> Composite<'_, S> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
         let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
-        let mut flow = Flow {
-            momentum: zero_vector(),
-            moment: [zero_vector(), zero_vector(), zero_vector()],
-        };
+        let mut flow = Flow::nothing();
         let mut load = Wrench {
             force: zero_vector(),
             moment: zero_vector(),
@@ -189,6 +186,21 @@ impl<S: Scalar> Composite<'_, S> {
     }
 }
 
+/// V × Δ: how the twist of a joint changes.
+pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Velocity<S>) -> Twist<S> {
+    let across = |v: &Vector<S>| [v[1].clone(), negative(&v[0]), S::zero()];
+    match link.kind {
+        JointKind::Revolute => Twist {
+            turn: across(&velocity.omega),
+            shift: across(&velocity.origin),
+        },
+        JointKind::Prismatic => Twist {
+            turn: zero_vector(),
+            shift: cross(&velocity.omega, &link.axis),
+        },
+    }
+}
+
 /// V × Δ and what it becomes at the rate of V: for a joint that turns the
 /// third column of U, with what the origin's motion adds.
 fn drift<S: Scalar>(
@@ -196,34 +208,28 @@ fn drift<S: Scalar>(
     velocity: &Velocity<S>,
     motion: &Motion<S>,
 ) -> [Twist<S>; 2] {
-    let across = |v: &Vector<S>| [v[1].clone(), negative(&v[0]), S::zero()];
-    match link.kind {
+    let first = rate(link, velocity);
+    let second = match link.kind {
         JointKind::Revolute => {
-            let turn = across(&velocity.omega);
-            let shift = cross(&velocity.origin, &turn);
-            let second = Twist {
+            let a = &motion.acceleration;
+            let across = [a[1].clone(), negative(&a[0]), S::zero()];
+            let shift = cross(&velocity.origin, &first.turn);
+            Twist {
                 turn: motion.u[2].clone(),
-                shift: sum(&across(&motion.acceleration), &shift.each_ref().map(twice)),
-            };
-            let shift = across(&velocity.origin);
-            [Twist { turn, shift }, second]
+                shift: sum(&across, &shift.each_ref().map(twice)),
+            }
         }
-        JointKind::Prismatic => {
-            let slides = |shift: Vector<S>| Twist {
-                turn: zero_vector(),
-                shift,
-            };
-            [
-                slides(cross(&velocity.omega, &link.axis)),
-                slides(motion.u_times(&link.axis)),
-            ]
-        }
-    }
+        JointKind::Prismatic => Twist {
+            turn: zero_vector(),
+            shift: motion.u_times(&link.axis),
+        },
+    };
+    [first, second]
 }
 
 /// The wrench of an acceleration t + α × r of a body: m t + α × s, and
 /// s × t + I α with I = tr(Σ)·1 − Σ.
-fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
+pub(super) fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
     let Twist { turn, shift } = twist;
     Wrench {
         force: sum(&scaled(&body.mass, shift), &cross(turn, &body.first)),
@@ -235,9 +241,16 @@ fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
 }
 
 impl<S: Scalar> Flow<S> {
+    pub(super) fn nothing() -> Self {
+        Flow {
+            momentum: zero_vector(),
+            moment: [zero_vector(), zero_vector(), zero_vector()],
+        }
+    }
+
     /// V = v + ω × r over one body: ∫ V dm = m v + ω × s and
     /// ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
-    fn of(body: &Body<S>, velocity: &Velocity<S>) -> Self {
+    pub(super) fn of(body: &Body<S>, velocity: &Velocity<S>) -> Self {
         let Velocity { omega, origin } = velocity;
         let sigma = &body.second;
         let columns = [
@@ -259,7 +272,7 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    fn with(&self, other: &Flow<S>) -> Self {
+    pub(super) fn with(&self, other: &Flow<S>) -> Self {
         Flow {
             momentum: sum(&self.momentum, &other.momentum),
             moment: core::array::from_fn(|row| sum(&self.moment[row], &other.moment[row])),
@@ -268,7 +281,7 @@ impl<S: Scalar> Flow<S> {
 
     /// In the axes of the frame before, r from its origin:
     /// R (∫ V rᵀ dm) Rᵀ + (R ∫ V dm) pᵀ.
-    fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
+    pub(super) fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         let momentum = link.outward(at, &self.momentum);
         // Rows turn as r, then columns as V.
         let rows = self.moment.each_ref().map(|row| link.outward(at, row));
@@ -286,23 +299,32 @@ impl<S: Scalar> Flow<S> {
     /// Twice ∫ (α × V) dm, and its moment: 2 α × ∫ V dm, and with M = ∫ V rᵀ dm
     /// 2 (tr(M) α − M α).
     fn of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
-        let doubled = turn.each_ref().map(twice);
+        self.half_of_turn(&turn.each_ref().map(twice))
+    }
+
+    /// Half of [`Flow::of_turn`].
+    pub(super) fn half_of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
         let m = &self.moment;
         let component = |i: usize| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let main = times(&plus(&m[j][j], &m[k][k]), &doubled[i]);
-            let other = plus(&times(&m[i][j], &doubled[j]), &times(&m[i][k], &doubled[k]));
+            let main = times(&plus(&m[j][j], &m[k][k]), &turn[i]);
+            let other = plus(&times(&m[i][j], &turn[j]), &times(&m[i][k], &turn[k]));
             minus(&main, &other)
         };
         Wrench {
-            force: cross(&doubled, &self.momentum),
+            force: cross(turn, &self.momentum),
             moment: [component(0), component(1), component(2)],
         }
     }
 
     /// What [`Flow::of_turn`] gives along the joint, as a form in the turn.
     fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
-        let half = match link.kind {
+        self.half_swing(link).each_ref().map(twice)
+    }
+
+    /// Half of [`Flow::swing`].
+    pub(super) fn half_swing(&self, link: &ChainLink<S>) -> Vector<S> {
+        match link.kind {
             JointKind::Revolute => {
                 let m = &self.moment;
                 [
@@ -312,7 +334,6 @@ impl<S: Scalar> Flow<S> {
                 ]
             }
             JointKind::Prismatic => cross(&self.momentum, &link.axis),
-        };
-        half.each_ref().map(twice)
+        }
     }
 }

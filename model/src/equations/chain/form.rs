@@ -16,36 +16,43 @@ pub struct Form {
     pub travel: CompositeOrder,
     /// Whether h comes from composite bodies, or from the recursion.
     pub composite_h: bool,
+    /// Whether C comes from composite momenta, or from the h_ikm.
+    pub flows: bool,
 }
 
 impl Form {
-    /// The forms that differ where the recursion over velocities is read, or
-    /// not, and where something travels, or not; the usually cheapest first.
-    pub fn all(recursion: bool, travels: bool) -> Vec<Form> {
+    /// The forms that differ where the recursion over velocities is read, or not, where
+    /// something travels, or not, and where C is wanted, or not; the usually cheapest first.
+    pub fn all(recursion: bool, travels: bool, flows: bool) -> Vec<Form> {
         let mut forms = Vec::new();
-        for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
-            for composite_h in [false, true] {
-                for spin in [AccelerationForm::Column, AccelerationForm::Rates] {
-                    for couple in [MomentForm::SecondMoments, MomentForm::Euler] {
-                        // A choice that nothing reads.
-                        let idle = (!recursion
-                            && (spin == AccelerationForm::Rates
-                                || couple == MomentForm::Euler
-                                || composite_h))
-                            || (!travels && travel == CompositeOrder::Inward)
-                            || (composite_h && couple == MomentForm::Euler);
-                        if !idle {
+        for flows in [false, true].into_iter().take(1 + usize::from(flows)) {
+            for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
+                for composite_h in [false, true] {
+                    for spin in [AccelerationForm::Column, AccelerationForm::Rates] {
+                        for couple in [MomentForm::SecondMoments, MomentForm::Euler] {
                             forms.push(Form {
                                 spin,
                                 couple,
                                 travel,
                                 composite_h,
+                                flows,
                             });
                         }
                     }
                 }
             }
         }
+        forms.retain(|form| !form.is_idle(recursion, travels));
         forms
+    }
+
+    /// Whether it has a choice that nothing reads, made otherwise than the first.
+    fn is_idle(self, recursion: bool, travels: bool) -> bool {
+        let rates = self.spin == AccelerationForm::Rates;
+        let euler = self.couple == MomentForm::Euler;
+        let inward = self.travel == CompositeOrder::Inward;
+        (!recursion && (rates || euler || self.composite_h))
+            || (!travels && !self.flows && inward)
+            || (self.composite_h && euler)
     }
 }

@@ -9,9 +9,11 @@
 //! - `momentum`: energies and momenta; `twist`: twists and wrenches
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
+//! - `coriolis`: C from composite momenta
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
+//! - `spin`: forward dynamics where the last joint turns about a principal axis
 //! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
@@ -20,6 +22,7 @@
 
 pub mod body;
 pub mod composite;
+mod coriolis;
 pub mod derivatives;
 mod form;
 mod load;
@@ -31,6 +34,7 @@ pub mod recursion;
 mod regressor;
 pub mod regrouping;
 pub mod skeleton;
+mod spin;
 mod twist;
 
 use alloc::vec::Vec;
@@ -41,6 +45,7 @@ pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
+pub use spin::Unspun;
 
 use super::SinCosPair;
 use super::friction::Friction;

@@ -94,7 +94,8 @@ impl<S: Scalar> Chain<S> {
             let link = &self.links[i];
             plus(&times(&link.armature, &a[i]), &link.friction.torque(&v[i]))
         };
-        self.torques(at, &motions, MomentForm::SecondMoments, drive)
+        let exerted = zero_vector();
+        self.torques(at, &motions, MomentForm::SecondMoments, &exerted, drive)
     }
 
     /// How the links move with both velocities at once: U and v̇, bilinear in

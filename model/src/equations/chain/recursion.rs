@@ -229,19 +229,21 @@ impl<S: Scalar> Chain<S> {
                 &link.friction.torque(&qd[i]),
             )
         };
-        self.torques(at, &motions, couple, drive)
+        self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 
-    /// τ of links in motion, with what the drive of each joint adds.
+    /// τ of links in motion, with a moment that the last one exerts on something
+    /// else and with what the drive of each joint adds.
     pub(super) fn torques(
         &self,
         at: &[Displacement<S>],
         motions: &[Motion<S>],
         couple: MomentForm,
+        exerted: &Vector<S>,
         drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
         let mut torques = Vec::with_capacity(self.links.len());
-        let (mut force, mut moment) = (zero_vector(), zero_vector());
+        let (mut force, mut moment) = (zero_vector(), exerted.clone());
         for (i, link) in self.links.iter().enumerate().rev() {
             let (body, motion) = (&link.body, &motions[i]);
             let (own, own_moment) = motion.wrench(body, couple);

@@ -4,16 +4,23 @@
 //! controller for several arms asks for `interface: traits;`, and each module has a
 //! `Robot` besides that answers the same questions by these traits. They are no
 //! more than signatures: any type can have them, such as a double in a test.
+//! What has several answers gives them as a struct of [`answers`]; a regressor
+//! says besides how many columns it has.
+
+pub mod answers;
 
 macro_rules! questions {
-    ($($(#[$doc:meta])* $question:ident::$ask:ident($($argument:ident),+) -> $answer:ty;)*) => {$(
+    ($($(#[$doc:meta])* $question:ident$(<$columns:ident>)?::$ask:ident($($argument:ident),+) -> $answer:ty;)*) => {$(
         $(#[$doc])*
-        pub trait $question<T, const N: usize> {
+        pub trait $question<T, const N: usize $(, const $columns: usize)?> {
             $(#[$doc])*
             fn $ask(&self, $($argument: &[T; N]),+) -> $answer;
         }
 
-        impl<R: $question<T, N> + ?Sized, T, const N: usize> $question<T, N> for &R {
+        impl<R, T, const N: usize $(, const $columns: usize)?> $question<T, N $(, $columns)?> for &R
+        where
+            R: $question<T, N $(, $columns)?> + ?Sized,
+        {
             #[inline]
             fn $ask(&self, $($argument: &[T; N]),+) -> $answer {
                 (**self).$ask($($argument),+)
@@ -22,8 +29,7 @@ macro_rules! questions {
     )*};
 }
 
-// One for every output that returns one array of the robot's size: what returns a
-// struct, has that of its module.
+// One for every output. What bundles of the user's return is of their module alone.
 questions! {
     /// τ(q, q̇, q̈): torques and forces, viscous damping included.
     InverseDynamics::inverse_dynamics(q, qd, qdd) -> [T; N];
@@ -55,4 +61,22 @@ questions! {
     ForwardDynamics::forward_dynamics(q, qd, tau) -> [T; N];
     /// D⁻¹(q): the inverse of the inertia matrix.
     InertiaInverse::inertia_inverse(q) -> [[T; N]; N];
+    /// D, h and c at once.
+    ManipulatorEquation::manipulator_equation(q, qd) -> answers::ManipulatorEquation<T, N>;
+    /// D, every h_ikm and c at once.
+    DynamicCoefficients::dynamic_coefficients(q) -> answers::DynamicCoefficients<T, N>;
+    /// D q̇ and Cᵀq̇.
+    Momentum::momentum(q, qd) -> answers::Momentum<T, N>;
+    /// What rotation and translation of the links contribute to D and h, and c.
+    DalembertTerms::dalembert_terms(q, qd) -> answers::DalembertTerms<T, N>;
+    /// ∂τ/∂q, ∂τ/∂q̇ and D.
+    InverseDynamicsDerivatives::inverse_dynamics_derivatives(q, qd, qdd) -> answers::InverseDynamicsDerivatives<T, N>;
+    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
+    ForwardDynamicsDerivatives::forward_dynamics_derivatives(q, qd, tau) -> answers::ForwardDynamicsDerivatives<T, N>;
+    /// Y in τ = Y π, over as many base parameters as the robot has.
+    Regressor<K>::regressor(q, qd, qdd) -> [[T; K]; N];
+    /// Y in τ = Y π, over the ten parameters of each link: K is 10 N.
+    FullRegressor<K>::full_regressor(q, qd, qdd) -> [[T; K]; N];
+    /// Y in D a + C v + c + b∘v = Y π, over the base parameters.
+    PassivityRegressor<K>::passivity_regressor(q, qd, v, a) -> [[T; K]; N];
 }

@@ -1,0 +1,105 @@
+//! C from composite momenta.
+//!
+//! h_i = Σ h_ikm q̇_k q̇_m with h_ikm = h_imk, so that C_ik = Σ_m h_ikm q̇_m is half of
+//! ∂h_i/∂q̇_k. The slopes of τ by velocities have a composite momentum for each
+//! joint instead of a composite body for each pair of joints: n² powers of wrenches
+//! on twists, where the symbols by themselves are n³.
+
+use alloc::vec::Vec;
+
+use super::composite::{Composite, CompositeOrder};
+use super::derivatives::{Flow, inertial, rate};
+use super::twist::Twist;
+use crate::equations::matrix::{dot, plus};
+use crate::equations::newton_euler::Wrench;
+use crate::scalar::Scalar;
+
+/// What one joint and its composite body contribute.
+struct Joint<S> {
+    /// How the joint's twist changes.
+    rate: Twist<S>,
+    /// The wrench of a unit acceleration.
+    push: Wrench<S>,
+    /// Half of what the joints before feel for each unit of its velocity.
+    felt: Wrench<S>,
+    /// Half of what the rate of the composite gives along the joint for each turn
+    /// of all that it is part of.
+    swing: [S; 3],
+}
+
+impl<S: Scalar> Composite<'_, S> {
+    /// C, n×n, by composite momenta.
+    pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
+        let joints = self.velocity_parts(qd);
+        let n = joints.len();
+        let mut matrix = alloc::vec![alloc::vec![S::zero(); n]; n];
+        for (i, own) in joints.iter().enumerate() {
+            matrix[i][i] = own.felt.along(&self.twist(i, i));
+            match travel {
+                CompositeOrder::Inward => self.inward(i, &joints, &mut matrix),
+                CompositeOrder::Outward => self.outward(i, &joints, &mut matrix),
+            }
+        }
+        for (i, row) in matrix.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = self.in_metres(i, self.in_metres(j, entry.clone()));
+            }
+        }
+        matrix
+    }
+
+    /// Wrenches of joint i come in to the joints before it.
+    fn inward(&self, i: usize, joints: &[Joint<S>], matrix: &mut [Vec<S>]) {
+        let chain = self.chain;
+        let mut wrenches = [joints[i].felt.clone(), joints[i].push.clone()];
+        let mut swing = joints[i].swing.clone();
+        for j in (0..i).rev() {
+            let (link, at) = (&chain.links[j + 1], &self.at[j + 1]);
+            wrenches = wrenches.map(|wrench| {
+                let (force, moment) = chain.to_previous(j + 1, at, &wrench.force, &wrench.moment);
+                Wrench { force, moment }
+            });
+            swing = link.outward(at, &swing);
+            let ([felt, push], twist) = (&wrenches, self.twist(j, j));
+            matrix[j][i] = felt.along(&twist);
+            matrix[i][j] = plus(&dot(&swing, &twist.turn), &push.along(&joints[j].rate));
+        }
+    }
+
+    /// Twists of the joints before i, and how they change, go out to frame i.
+    fn outward(&self, i: usize, joints: &[Joint<S>], matrix: &mut [Vec<S>]) {
+        let (chain, own) = (self.chain, &joints[i]);
+        for (j, joint) in joints.iter().enumerate().take(i) {
+            let twist = self.twist(j, i);
+            let out = |seen: Twist<S>, m: usize| seen.outward(&chain.links[m], &self.at[m]);
+            let rate = (j + 1..=i).fold(joint.rate.clone(), out);
+            matrix[j][i] = own.felt.along(&twist);
+            matrix[i][j] = plus(&dot(&own.swing, &twist.turn), &own.push.along(&rate));
+        }
+    }
+
+    /// What each joint contributes by itself, from the hand inward.
+    fn velocity_parts(&self, qd: &[S]) -> Vec<Joint<S>> {
+        let chain = self.chain;
+        let velocities = chain.velocities(self.at, qd);
+        let mut flow = Flow::nothing();
+        let mut joints = Vec::with_capacity(chain.links.len());
+        for (i, link) in chain.links.iter().enumerate().rev() {
+            flow = flow.with(&Flow::of(&link.body, &velocities[i]));
+            let rate = rate(link, &velocities[i]);
+            let (force, moment) = self.momentum(i);
+            let turn = self.twist(i, i).turn;
+            joints.push(Joint {
+                push: Wrench { force, moment },
+                felt: flow
+                    .half_of_turn(&turn)
+                    .with(&inertial(&self.bodies[i], &rate)),
+                swing: flow.half_swing(link),
+                rate,
+            });
+            flow = flow.carried(link, &self.at[i]);
+        }
+        joints.reverse();
+        joints
+    }
+}

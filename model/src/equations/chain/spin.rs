@@ -1,0 +1,208 @@
+//! Forward dynamics of a chain whose last joint turns about a principal axis.
+//!
+//! If the centre of mass of the last link is on its axis and the axis is a principal
+//! one, a unit acceleration of the joint is a couple along the axis and nothing else.
+//! With J the inertia about the axis, A the rotor's, s the part of the angular
+//! acceleration along the axis that the joints before bring along, and e what
+//! velocities alone ask for there, the joint's equation and the moment M on the link
+//! along the axis are
+//!
+//! ```text
+//! (J + A) q̈_n + J s + e = τ_n        M = J (q̈_n + s) + e
+//!                                      = J/(J + A) (τ_n − e) + A J/(J + A) s + e
+//! ```
+//!
+//! So the joints before feel a body that is fixed to link n−1, the last link as it is
+//! turned but with A J/(J + A) about the axis, and a couple that does not depend on q̈.
+//! This is the first step of eliminating joints from the hand inward, taken in the
+//! parameters: no entry of D is formed with J and cleared of it again. A link that is
+//! symmetric about its axis becomes constants of the one before.
+//!
+//! The couple is that of the link's own turn. What of the tensor is symmetric about the
+//! axis gives J ω_z (ω × z); the rest, I_δ, has no trace and no component along the
+//! axis, and with ω′ of the frame before gives e = z·(ω′ × I_δ ω′) and 2 q̇_n z × I_δ ω′.
+
+use alloc::vec::Vec;
+
+use super::composite::{Composite, CompositeOrder};
+use super::{Body, Chain, ChainLink, Displacement, Form};
+use crate::equations::SinCosPair;
+use crate::equations::forward::{inverted, solved};
+use crate::equations::matrix::{
+    Vector, dot, halved, minus, negative, over, plus, symmetric, times, total, twice, zeros,
+};
+use crate::robot::JointKind;
+use crate::scalar::{Divide, Scalar};
+
+/// A chain without its last joint, which turns about a principal axis of its link.
+#[derive(Clone, Debug)]
+pub struct Unspun<'a, S> {
+    whole: &'a Composite<'a, S>,
+    /// The joints before; the last link is fixed to theirs.
+    chain: Chain<S>,
+    /// The last link with what is left about the axis, in the axes that it turns from.
+    link: Body<S>,
+    /// J
+    inertia: S,
+    /// 1/(J + A)
+    inverse: S,
+    /// J/(J + A)
+    share: S,
+    /// A J/(J + A)
+    rest: S,
+}
+
+impl<'a, S: Divide> Unspun<'a, S> {
+    /// Of a chain at its position, if its last joint moves, is not the only one and
+    /// turns about a principal axis. J + A is the last joint's entry of D, a constant
+    /// that is above zero where D has an inverse.
+    pub fn new(whole: &'a Composite<'a, S>, moves: &[bool]) -> Option<Self> {
+        let (link, inner) = whole.chain.links.split_last()?;
+        let Displacement::Turn(theta) = whole.at.last()? else {
+            return None;
+        };
+        if inner.is_empty() || moves.last() != Some(&true) || !link.turns_about_principal_axis() {
+            return None;
+        }
+        let second = &link.body.second;
+        let inertia = plus(&second.xx, &second.yy);
+        let inverse = over(&S::one(), &plus(&inertia, &link.armature));
+        // Without a rotor nothing is left, and no rounding of J/J either.
+        let [share, rest] = match link.armature.is_zero() {
+            true => [S::one(), S::zero()],
+            false => {
+                let share = times(&inertia, &inverse);
+                let rest = times(&share, &link.armature);
+                [share, rest]
+            }
+        };
+        // I_xx and I_yy as they are, I_zz what is left.
+        let mut body = link.body.clone();
+        let taken = halved(&minus(&inertia, &rest));
+        body.second.xx = minus(&second.xx, &taken);
+        body.second.yy = minus(&second.yy, &taken);
+        body.second.zz = plus(&second.zz, &taken);
+        let body = body.turned_z(theta);
+        let mut chain = whole.chain.clone();
+        chain.links.pop();
+        if let Some(last) = chain.links.last_mut() {
+            let fixed = body.carried(&link.rotation, &link.offset);
+            last.body = last.body.with(&fixed);
+        }
+        Some(Unspun {
+            whole,
+            chain,
+            link: body,
+            inertia,
+            inverse,
+            share,
+            rest,
+        })
+    }
+
+    /// The joints before the last.
+    fn at(&self) -> &[Displacement<S>] {
+        &self.whole.at[..self.chain.links.len()]
+    }
+
+    /// What a unit acceleration of each joint before adds to the last one's.
+    fn brought(&self) -> Vec<S> {
+        let last = self.chain.links.len();
+        let along = |i: usize| self.whole.twist(i, last).turn[2].clone();
+        (0..last).map(along).collect()
+    }
+
+    /// What the joint before exerts besides on the last link, in the axes that this turns
+    /// from, and e: of the frame before ω′, of the joint its rate and what of its torque
+    /// friction leaves.
+    fn couple(&self, [x, y, z]: &Vector<S>, rate: &S, left: &S) -> (Vector<S>, S) {
+        let second = &self.link.second;
+        // I_δ ω′: of Σ half the difference, and Σ_xy.
+        let half = halved(&minus(&second.xx, &second.yy));
+        let spread = [
+            negative(&plus(&times(&half, x), &times(&second.xy, y))),
+            minus(&times(&half, y), &times(&second.xy, x)),
+        ];
+        let own = minus(&times(x, &spread[1]), &times(y, &spread[0]));
+        // J ω_z of the link, less what is left of it without a turn of its own.
+        let momentum = minus(&times(&self.inertia, &plus(z, rate)), &times(&self.rest, z));
+        let double = twice(rate);
+        let couple = [
+            minus(&times(&momentum, y), &times(&double, &spread[1])),
+            minus(&times(&double, &spread[0]), &times(&momentum, x)),
+            times(&self.share, &minus(left, &own)),
+        ];
+        (couple, own)
+    }
+
+    /// q̈ under τ, zero of joints that do not move.
+    pub fn forward_dynamics(&self, [qd, tau]: [&[S]; 2], moves: &[bool], form: Form) -> Vec<S> {
+        let (chain, at, last) = (&self.chain, self.at(), self.chain.links.len());
+        let link = &self.whole.chain.links[last];
+        let before = &qd[..last];
+        let motions = chain.motions(at, before, &zeros(last), form.spin);
+        let motion = &motions[last - 1];
+        let unturned = Displacement::Turn(SinCosPair {
+            sin: S::zero(),
+            cos: S::one(),
+        });
+        let omega = link.inward(&unturned, &motion.omega);
+        let left = minus(&tau[last], &link.friction.torque(&qd[last]));
+        let (couple, own) = self.couple(&omega, &qd[last], &left);
+        let couple = link.outward(&unturned, &couple);
+        let left = minus(&left, &own);
+        let composite = Composite::new(chain, at);
+        let drive = |i: usize| chain.links[i].friction.torque(&qd[i]);
+        let bias = match form.composite_h {
+            false => chain.torques(at, &motions, form.couple, &couple, drive),
+            true => {
+                let rest = zeros(last);
+                let torques = composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
+                let torques = torques.iter().enumerate();
+                torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
+            }
+        };
+        let d = composite.inertia(form.travel);
+        let mut qdd = solved(&d, &bias, &tau[..last], &moves[..last]);
+        let products = self.brought();
+        let products = products.iter().zip(&qdd).map(|(x, qdd)| times(x, qdd));
+        let still = dot(&link.axis_before(), &motion.omega_dot);
+        let brought = plus(&still, &total(products));
+        qdd.push(minus(
+            &times(&left, &self.inverse),
+            &times(&self.share, &brought),
+        ));
+        qdd
+    }
+
+    /// D⁻¹; zero in the rows and columns of joints that do not move.
+    pub fn inertia_inverse(&self, moves: &[bool], travel: CompositeOrder) -> Vec<Vec<S>> {
+        let last = self.chain.links.len();
+        let d = Composite::new(&self.chain, self.at()).inertia(travel);
+        let inner = inverted(&d, &moves[..last]);
+        let brought = self.brought();
+        let along = |row: &[S]| total(row.iter().zip(&brought).map(|(x, y)| times(x, y)));
+        // The accelerations of the joints before under a unit torque of the last one.
+        let given: Vec<S> = inner
+            .iter()
+            .map(|row| negative(&times(&self.share, &along(row))))
+            .collect();
+        let own = minus(&self.inverse, &times(&self.share, &along(&given)));
+        symmetric(last + 1, |i, k| match (i == last, k == last) {
+            (true, true) => own.clone(),
+            (true, false) => given[k].clone(),
+            (false, true) => given[i].clone(),
+            (false, false) => inner[i][k].clone(),
+        })
+    }
+}
+
+impl<S: Scalar> ChainLink<S> {
+    /// Whether, by structure, it turns about an axis through its centre of mass that is
+    /// a principal one.
+    fn turns_about_principal_axis(&self) -> bool {
+        let (body, second) = (&self.body, &self.body.second);
+        let across = [&body.first[0], &body.first[1], &second.xz, &second.yz];
+        self.kind == JointKind::Revolute && across.into_iter().all(S::is_zero)
+    }
+}
