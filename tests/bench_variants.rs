@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::approximate::sines::within;
-use dalembert_codegen::backend::{Entries, MathPath, function};
+use dalembert_codegen::backend::{Entries, MathPath, Printed, function};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::scale;
 use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
@@ -20,7 +20,7 @@ use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan;
 use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::sincos::{self, SinCos};
 use dalembert_model::read;
 
 const TOLERANCE: f64 = 1e-6;
@@ -68,7 +68,8 @@ fn the_bench_of_sines_is_up_to_date() {
         ("together", MathPath::together("dalembert_sines"), &[][..]),
         ("polynomials", MathPath::libm(""), sines.as_slice()),
     ] {
-        let code = function::with_sines(program, scalar, &math, sines, &[]);
+        let code = sincos::lowered(program, scalar, math.library, sines);
+        let code = function::write(&Printed::of(program, &code), &math.path, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
     }

@@ -80,6 +80,7 @@ fn a_box_alone_takes_the_plan_of_the_whole_robot() {
             Start::Auto,
             ScalarType::F64,
             None,
+            None,
         )
         .unwrap();
     let planned = |velocity_zero: bool| {
