@@ -32,7 +32,7 @@ pub const BOUND: f64 = 100.0;
 /// A seeded state counts relative to at least this part of the largest
 /// reference met. Next to balance, where every torque passes through zero,
 /// an error relative to the torque says nothing about the code.
-const LEAST_PART: f64 = 1.0 / 16.0;
+pub const LEAST_PART: f64 = 1.0 / 16.0;
 
 /// An emitted function, read back.
 #[derive(Clone, Debug)]

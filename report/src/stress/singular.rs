@@ -15,6 +15,7 @@ use dalembert_codegen::generate::{GenerateError, Request};
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::states::{JointState, positions, seeded};
 use dalembert_codegen::verify::condition::Condition;
+use dalembert_codegen::verify::floating::LEAST_PART;
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::big::Big;
@@ -31,11 +32,6 @@ const DRAWN: usize = 1000;
 
 /// How many of them are.
 const IMPROVED: usize = 8;
-
-/// An error counts relative to at least this part of the largest result met, as where
-/// generated code is checked: ∂q̈/∂q̇ of an arm that is stretched out all but vanishes,
-/// and what is left of it says nothing about the code.
-const LEAST_PART: f64 = 1.0 / 16.0;
 
 /// Steps are halved so often: the last are far below what a condition changes over.
 const HALVINGS: usize = 20;
@@ -286,7 +282,8 @@ impl<'a> Cases<'a> {
         quantities.map(part).collect()
     }
 
-    /// What an error of each quantity is relative to at least.
+    /// What an error of each quantity is relative to at least: ∂q̈/∂q̇ of an arm that is
+    /// stretched out all but vanishes, and what is left of it says nothing about the code.
     fn least(&self, function: Function, truths: &[Option<Vec<Big>>]) -> Vec<f64> {
         let most = |range: Range<usize>| {
             let parts = truths.iter().flatten();

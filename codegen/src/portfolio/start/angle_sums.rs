@@ -7,7 +7,7 @@ use crate::portfolio::tune::Tuned;
 use crate::portfolio::{Sums, Variant, angle_sums};
 use crate::scene::Setting;
 
-/// It.
+/// The start `angle_sums`.
 pub(super) struct AngleSums;
 
 impl Beginning for AngleSums {

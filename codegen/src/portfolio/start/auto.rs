@@ -11,7 +11,7 @@ use crate::portfolio::tune::Tuned;
 use crate::portfolio::{Source, Sums, Variant, angle_sums, regrouped, textbook, tuned};
 use crate::scene::Setting;
 
-/// It.
+/// The start `auto`.
 pub(super) struct Auto;
 
 impl Beginning for Auto {

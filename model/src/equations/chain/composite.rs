@@ -15,6 +15,7 @@ use crate::equations::matrix::{
     Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, zero_vector,
     zeros,
 };
+use crate::equations::newton_euler::Wrench;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -284,6 +285,29 @@ impl<'a, S: Scalar> Composite<'a, S> {
             JointKind::Revolute => value,
             JointKind::Prismatic => times(&value, &self.chain.per_unit),
         }
+    }
+
+    /// The same for a matrix over the joints, whose rows and columns both have a unit.
+    pub(super) fn matrix_in_metres(&self, matrix: &mut [Vec<S>]) {
+        for (i, row) in matrix.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = self.in_metres(i, self.in_metres(j, entry.clone()));
+            }
+        }
+    }
+
+    /// A wrench about the origin of frame m, about that of the frame before.
+    pub(super) fn wrench_inward(&self, m: usize, wrench: &Wrench<S>) -> Wrench<S> {
+        let (force, moment) = self
+            .chain
+            .to_previous(m, &self.at[m], &wrench.force, &wrench.moment);
+        Wrench { force, moment }
+    }
+
+    /// A twist in the axes of frame j, seen from frame i ≥ j.
+    pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
+        let out = |seen: Twist<S>, m: usize| seen.outward(&self.chain.links[m], &self.at[m]);
+        (j + 1..=i).fold(twist.clone(), out)
     }
 }
 

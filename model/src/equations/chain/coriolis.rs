@@ -40,26 +40,17 @@ impl<S: Scalar> Composite<'_, S> {
                 CompositeOrder::Outward => self.outward(i, &joints, &mut matrix),
             }
         }
-        for (i, row) in matrix.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry = self.in_metres(i, self.in_metres(j, entry.clone()));
-            }
-        }
+        self.matrix_in_metres(&mut matrix);
         matrix
     }
 
     /// Wrenches of joint i come in to the joints before it.
     fn inward(&self, i: usize, joints: &[Joint<S>], matrix: &mut [Vec<S>]) {
-        let chain = self.chain;
         let mut wrenches = [joints[i].felt.clone(), joints[i].push.clone()];
         let mut swing = joints[i].swing.clone();
         for j in (0..i).rev() {
-            let (link, at) = (&chain.links[j + 1], &self.at[j + 1]);
-            wrenches = wrenches.map(|wrench| {
-                let (force, moment) = chain.to_previous(j + 1, at, &wrench.force, &wrench.moment);
-                Wrench { force, moment }
-            });
-            swing = link.outward(at, &swing);
+            wrenches = wrenches.map(|wrench| self.wrench_inward(j + 1, &wrench));
+            swing = self.chain.links[j + 1].outward(&self.at[j + 1], &swing);
             let ([felt, push], twist) = (&wrenches, self.twist(j, j));
             matrix[j][i] = felt.along(&twist);
             matrix[i][j] = plus(&dot(&swing, &twist.turn), &push.along(&joints[j].rate));
@@ -68,11 +59,10 @@ impl<S: Scalar> Composite<'_, S> {
 
     /// Twists of the joints before i, and how they change, go out to frame i.
     fn outward(&self, i: usize, joints: &[Joint<S>], matrix: &mut [Vec<S>]) {
-        let (chain, own) = (self.chain, &joints[i]);
+        let own = &joints[i];
         for (j, joint) in joints.iter().enumerate().take(i) {
             let twist = self.twist(j, i);
-            let out = |seen: Twist<S>, m: usize| seen.outward(&chain.links[m], &self.at[m]);
-            let rate = (j + 1..=i).fold(joint.rate.clone(), out);
+            let rate = self.twist_outward(&joint.rate, j, i);
             matrix[j][i] = own.felt.along(&twist);
             matrix[i][j] = plus(&dot(&own.swing, &twist.turn), &own.push.along(&rate));
         }

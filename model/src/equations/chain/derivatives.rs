@@ -70,16 +70,10 @@ impl<S: Scalar> Composite<'_, S> {
                 CompositeOrder::Outward => self.outward_slopes(i, &joints, &mut slopes),
             }
         }
-        let chain = self.chain;
         for matrix in [&mut slopes.position, &mut slopes.velocity] {
-            for (i, row) in matrix.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    let entry_in_metres = self.in_metres(i, self.in_metres(j, entry.clone()));
-                    *entry = entry_in_metres;
-                }
-            }
+            self.matrix_in_metres(matrix);
         }
-        for (i, link) in chain.links.iter().enumerate() {
+        for (i, link) in self.chain.links.iter().enumerate() {
             slopes.velocity[i][i] = plus(&slopes.velocity[i][i], &link.friction.slope());
         }
         slopes
@@ -87,17 +81,12 @@ impl<S: Scalar> Composite<'_, S> {
 
     /// Wrenches of joint i come in to the joints before it.
     fn inward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
-        let chain = self.chain;
         let own = &joints[i];
         let mut wrenches = [&own.position.1, &own.velocity.1, &own.push].map(Wrench::clone);
         let mut swing = own.swing.clone();
         for j in (0..i).rev() {
-            let (link, at) = (&chain.links[j + 1], &self.at[j + 1]);
-            wrenches = wrenches.map(|wrench| {
-                let (force, moment) = chain.to_previous(j + 1, at, &wrench.force, &wrench.moment);
-                Wrench { force, moment }
-            });
-            swing = link.outward(at, &swing);
+            wrenches = wrenches.map(|wrench| self.wrench_inward(j + 1, &wrench));
+            swing = self.chain.links[j + 1].outward(&self.at[j + 1], &swing);
             let [position, velocity, push] = &wrenches;
             let [first, second] = &joints[j].drift;
             let twist = self.twist(j, j);
@@ -113,11 +102,8 @@ impl<S: Scalar> Composite<'_, S> {
         let own = &joints[i];
         for (j, joint) in joints.iter().enumerate().take(i) {
             let twist = self.twist(j, i);
-            let [first, second] = joint.drift.each_ref().map(|drift| {
-                let chain = self.chain;
-                let out = |seen: Twist<S>, m: usize| seen.outward(&chain.links[m], &self.at[m]);
-                (j + 1..=i).fold(drift.clone(), out)
-            });
+            let drift = joint.drift.each_ref();
+            let [first, second] = drift.map(|drift| self.twist_outward(drift, j, i));
             slopes.position[j][i] = own.position.1.along(&twist);
             slopes.velocity[j][i] = own.velocity.1.along(&twist);
             slopes.position[i][j] = plus(&dot(&own.swing, &first.turn), &own.push.along(&second));
