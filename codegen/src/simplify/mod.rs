@@ -5,7 +5,7 @@
 //! - [`rules`], [`egraph`]: equality saturation with rules as data
 //! - [`discover`]: ways that only the fingerprints show; `sieve`: whether a value may be
 //!   among others
-//! - [`extract`]: the cheapest program that the ways allow; `order`: none of them in a circle
+//! - [`extract`]: the cheapest program that the ways allow
 //! - [`search`]: discovery and extraction in turns, to a plateau
 
 pub mod classes;
@@ -13,7 +13,6 @@ pub mod discover;
 pub mod effort;
 pub mod egraph;
 pub mod extract;
-mod order;
 pub mod rules;
 pub mod search;
 mod sieve;

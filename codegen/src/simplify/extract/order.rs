@@ -2,7 +2,7 @@
 //! change: whether a way would close a cycle is then asked only of the classes
 //! between, which are few, and not of everything below.
 
-use super::classes::ClassId;
+use crate::simplify::classes::ClassId;
 
 const NONE: u32 = u32::MAX;
 

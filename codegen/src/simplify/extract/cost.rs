@@ -1,0 +1,54 @@
+//! What operations cost.
+
+use crate::program::AngleSum;
+use crate::simplify::classes::ENode;
+
+/// What operations cost, in hundredths of an operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CostModel {
+    /// A multiplication.
+    pub mul: u64,
+    /// An addition.
+    pub add: u64,
+    /// A division.
+    pub div: u64,
+    /// A sine/cosine pair of a joint's angle.
+    pub sincos: u64,
+    /// A sine/cosine pair of a sum of angles, where it is to be had at all.
+    pub sum_sincos: u64,
+}
+
+impl CostModel {
+    /// Fewest operations; of equal sums the one with fewer multiplications;
+    /// an angle costs as much as twenty operations, a division as five. The pair of a sum is to be
+    /// had only if somebody asked for it, and then costs a little less than the
+    /// six operations that form it from other pairs.
+    pub const OPERATIONS: CostModel = CostModel {
+        mul: 101,
+        add: 100,
+        div: 500,
+        sincos: 2000,
+        sum_sincos: 300,
+    };
+
+    /// The sine and cosine of an angle, apart from forming it.
+    pub fn angle(&self, angle: AngleSum) -> u64 {
+        match angle.additions() {
+            0 => self.sincos,
+            _ => self.sum_sincos,
+        }
+    }
+
+    /// The cheapest operation.
+    pub(super) fn least(&self) -> u64 {
+        self.mul.min(self.add).min(self.div)
+    }
+
+    pub(super) fn way(&self, way: ENode) -> u64 {
+        match way {
+            ENode::Product(..) => self.mul,
+            ENode::Sum(..) | ENode::Difference(..) => self.add,
+            ENode::Quotient(..) => self.div,
+        }
+    }
+}
