@@ -51,6 +51,14 @@ impl TrueValue {
     pub fn magnitude(&self) -> f64 {
         self.value.magnitude()
     }
+
+    /// The same; zero of what cannot be told from zero.
+    pub fn size(&self) -> f64 {
+        match self.magnitude() {
+            size if size <= self.lost => 0.0,
+            size => size,
+        }
+    }
 }
 
 impl<'s> Reference<'s> {
@@ -63,6 +71,11 @@ impl<'s> Reference<'s> {
         }
     }
 
+    /// What it is about.
+    pub fn setting(&self) -> &'s Setting {
+        self.setting
+    }
+
     /// The results of a function over the setting's rows at a state of finite
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
@@ -70,7 +83,7 @@ impl<'s> Reference<'s> {
         let pairs: Vec<SinCosPair<Wide>> = state.q.iter().map(|&q| pair(q)).collect();
         // A motion reads the angles of single joints only.
         let joint = |angle: AngleSum| angle.terms().map(|(joint, _)| joint).sum::<usize>();
-        let sine = |value: &Wide| Known::sized(value.clone(), 1.0);
+        let sine = |value: &Wide| Known::sized(*value, 1.0);
         let input = |input| match input {
             Input::Sin(angle) => sine(&pairs[joint(angle)].sin),
             Input::Cos(angle) => sine(&pairs[joint(angle)].cos),
@@ -138,7 +151,7 @@ impl Known {
             Some(Known::sized(Wide::from_rational(x), size))
         };
         let value = constant.map(rational, &mut |angle| {
-            Wide::sincos(angle).map(|x| Known::sized(x.clone(), 1.0))
+            Wide::sincos(angle).map(|x| Known::sized(*x, 1.0))
         });
         value.unwrap_or_else(|| Known::sized(Wide::from_exact(constant), f64::INFINITY))
     }

@@ -25,7 +25,7 @@ pub fn pose(placement: &Placement) -> Columns<Wide> {
 
 /// Rows for columns, and the origin seen from itself.
 pub fn inverse(pose: &Columns<Wide>) -> Columns<Wide> {
-    let axes = core::array::from_fn(|i| core::array::from_fn(|k| pose.axes[k][i].clone()));
+    let axes = core::array::from_fn(|i| core::array::from_fn(|k| pose.axes[k][i]));
     Columns {
         axes,
         origin: opposite(&pose.rotate_back(&pose.origin)),
@@ -37,7 +37,7 @@ pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
     let [x, y, z] = &pose.axes;
     // R = Rz(yaw) Ry(pitch) Rx(roll): x is (cos pitch cos yaw, cos pitch sin yaw,
     // −sin pitch).
-    let level = length(&[x[0].clone(), x[1].clone(), Wide::zero()]);
+    let level = length(&[x[0], x[1], Wide::zero()]);
     let pitch = Angle::recovered(&x[2].neg(), &level);
     let (roll, yaw) = match pitch.quarter_turns() {
         // The nose up or down: roll and yaw are about one axis.

@@ -46,9 +46,9 @@ pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
     let near_x = z[0].magnitude() > 0.9;
     let start: &Vector<Wide> = &base.axes[usize::from(near_x)];
     let across = along(start, &dot(start, z).neg(), z);
-    let x = unit(&across).unwrap_or_else(|| start.clone());
+    let x = unit(&across).unwrap_or(*start);
     Columns {
-        axes: [x.clone(), cross(z, &x), z.clone()],
+        axes: [x, cross(z, &x), *z],
         origin: along(&first.through, &back, z),
     }
 }
@@ -88,8 +88,8 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
         along_own.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
     let theta = if keeps { theta } else { Angle::default() };
     let x = match keeps {
-        true => own.axes[0].clone(),
-        false => here.axes[0].clone(),
+        true => own.axes[0],
+        false => here.axes[0],
     };
     Row {
         theta,
@@ -97,7 +97,7 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
         alpha: Angle::default(),
         beta: Angle::default(),
         frame: Columns {
-            axes: [x.clone(), cross(u, &x), u.clone()],
+            axes: [x, cross(u, &x), *u],
             origin: along(&here.origin, &d, u),
         },
         d,
@@ -108,7 +108,7 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
 fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let p = difference(&next.through, &here.origin);
-    let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0].clone()));
+    let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0]));
     // p = d u + a x − s w
     let square = dot(normal, normal);
     let d = dot(&cross(&p, w), normal).over(&square);
@@ -120,7 +120,7 @@ fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
         alpha: Angle::recovered(&dot(&cross(u, w), &x), &dot(u, w)),
         beta: Angle::default(),
         frame: Columns {
-            axes: [x.clone(), cross(w, &x), w.clone()],
+            axes: [x, cross(w, &x), *w],
             origin: foot,
         },
         d,
@@ -138,18 +138,18 @@ fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row 
     let apart = !is_nothing(&distance, size);
     let x = match unit(&across) {
         Some(x) if apart => near(here, x),
-        _ => here.axes[0].clone(),
+        _ => here.axes[0],
     };
     let a = if apart { dot(&p, &x) } else { Wide::zero() };
     let against = dot(u, &next.along).is_negative();
-    let z = if against { opposite(u) } else { u.clone() };
+    let z = if against { opposite(u) } else { *u };
     Row {
         theta: turn(here, &x),
         d,
         alpha: Angle::right_angles(if against { 2 } else { 0 }),
         beta: Angle::default(),
         frame: Columns {
-            axes: [x.clone(), cross(&z, &x), z],
+            axes: [x, cross(&z, &x), z],
             origin: along(&origin, &a, &x),
         },
         a,
@@ -162,11 +162,11 @@ fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row 
 fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let origin = along(&here.origin, &d, u);
-    let x = near(here, unit(passes).unwrap_or_else(|| here.axes[0].clone()));
+    let x = near(here, unit(passes).unwrap_or_else(|| here.axes[0]));
     let y = cross(u, &x);
     let a = dot(passes, &x);
     let [wx, wy, wz] = [dot(w, &x), dot(w, &y), dot(w, u)];
-    let level = length(&[Wide::zero(), wy.clone(), wz.clone()]);
+    let level = length(&[Wide::zero(), wy, wz]);
     // x of the new frame is (cos β, sin α sin β, −cos α sin β); with cos β = level.
     let back = wx.over(&level).unwrap_or_else(Wide::zero);
     let tilt = along(&scaled(&wy, &y), &wz, u);
@@ -177,7 +177,7 @@ fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<W
         alpha: Angle::recovered(&wy.neg(), &wz),
         beta: Angle::recovered(&wx, &level),
         frame: Columns {
-            axes: [new_x.clone(), cross(w, &new_x), w.clone()],
+            axes: [new_x, cross(w, &new_x), *w],
             origin: along(&origin, &a, &x),
         },
         a,

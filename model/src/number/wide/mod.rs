@@ -1,31 +1,52 @@
 //! A float of 256 bits: what errors of emitted code are measured against.
 //!
-//! A value is m·2^e with an integer m of at most 256 bits; every operation
-//! cuts its result to that many, so its relative error is below 2⁻²⁵⁵. There
+//! A value is ±m·2^e with an integer m of 256 bits, the highest of which is one; every
+//! operation cuts its result to that many, so its relative error is below 2⁻²⁵⁵. There
 //! is no infinity, no NaN and, for any exponent that a robot can bring about,
-//! no overflow. It needs nothing but the integers that exact constants need.
+//! no overflow. Numbers come from the integers that exact constants need.
+//!
+//! - `limbs`: significands
+
+mod limbs;
+
+use core::cmp::Ordering;
 
 use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::float::FloatCore;
+use num_traits::{One, Signed};
 
 use super::trig::sin_cos;
 use super::{Angle, Exact, Rational};
 use crate::scalar::{Divide, Scalar, SinCosPair};
+use limbs::{LIMBS, Limbs};
 
 /// The bits of a significand.
 const BITS: u64 = 256;
 
 /// A number of 256 bits.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wide {
-    significand: BigInt,
+    negative: bool,
+    /// All zero if the value is; its exponent is zero then, and it is not negative.
+    significand: Limbs,
     exponent: i64,
 }
 
 impl Wide {
     /// A double, exactly; `None` if it is not finite.
     pub fn from_f64(value: f64) -> Option<Wide> {
-        Rational::from_float(value).map(|value| Wide::from_rational(&value))
+        let (mantissa, exponent, sign) = FloatCore::integer_decode(value);
+        let bits = u32::from(mantissa > 0) * (u64::BITS - mantissa.leading_zeros());
+        if !value.is_finite() || bits == 0 {
+            return value.is_finite().then(Wide::zero);
+        }
+        let mut significand = [0; LIMBS];
+        significand[LIMBS - 1] = mantissa << (u64::BITS - bits);
+        Some(Wide {
+            negative: sign < 0,
+            significand,
+            exponent: i64::from(exponent) + i64::from(bits) - BITS as i64,
+        })
     }
 
     /// A rational, cut to 256 bits.
@@ -33,7 +54,7 @@ impl Wide {
         let (numerator, denominator) = (value.numer(), value.denom());
         let missing = BITS + denominator.bits() + 1;
         let shift = missing.saturating_sub(numerator.bits());
-        Wide::cut((numerator << shift) / denominator, -(shift as i64))
+        Wide::cut(&((numerator << shift) / denominator), -(shift as i64))
     }
 
     /// An exact constant.
@@ -48,164 +69,180 @@ impl Wide {
         let bits = BITS as usize + 16;
         let (sin, cos) = sin_cos(angle, bits);
         SinCosPair {
-            sin: Wide::cut(sin, -(bits as i64)),
-            cos: Wide::cut(cos, -(bits as i64)),
+            sin: Wide::cut(&sin, -(bits as i64)),
+            cos: Wide::cut(&cos, -(bits as i64)),
         }
     }
 
     /// The same number, exactly.
     pub fn to_rational(&self) -> Rational {
         let power = self.exponent.unsigned_abs();
+        let whole = self.whole();
         match self.exponent < 0 {
-            true => Rational::new(self.significand.clone(), BigInt::one() << power),
-            false => Rational::from_integer(&self.significand << power),
+            true => Rational::new(whole, BigInt::one() << power),
+            false => Rational::from_integer(whole << power),
         }
     }
 
     /// The square root, zero of what is negative.
     #[must_use]
     pub fn sqrt(&self) -> Wide {
-        if !self.significand.is_positive() {
+        let whole = self.whole();
+        if !whole.is_positive() {
             return Wide::zero();
         }
         // Twice the bits, and an even exponent.
-        let missing = (2 * BITS + 2).saturating_sub(self.significand.bits()) as i64;
+        let missing = BITS as i64 + 2;
         let shift = missing + (self.exponent - missing).rem_euclid(2);
-        let root = (&self.significand << shift).sqrt();
-        Wide::cut(root, (self.exponent - shift) / 2)
+        Wide::cut(&(whole << shift).sqrt(), (self.exponent - shift) / 2)
     }
 
     /// self / other; `None` if that is zero.
     pub fn over(&self, other: &Wide) -> Option<Wide> {
-        if other.significand.is_zero() {
+        if other.is_zero() {
             return None;
         }
-        let shift = BITS + other.significand.bits() + 1;
-        let quotient = (&self.significand << shift) / &other.significand;
-        let exponent = self.exponent - other.exponent - shift as i64;
-        Some(Wide::cut(quotient, exponent))
+        // The quotient has the bits of a significand and one more.
+        let shift = BITS + 1;
+        let exponent = self.exponent.saturating_sub(other.exponent);
+        Some(Wide::cut(
+            &((self.whole() << shift) / other.whole()),
+            exponent.saturating_sub(shift as i64),
+        ))
     }
 
     /// Whether it is below zero.
     pub fn is_negative(&self) -> bool {
-        self.significand.is_negative()
+        self.negative
     }
 
     /// |self|, rounded up to a double.
     pub fn magnitude(&self) -> f64 {
-        let size = self.significand.abs();
-        let drop = size.bits().saturating_sub(53);
-        let top: BigInt = &size >> drop;
-        let is_exact = (&top << drop) == size;
-        let top = top + u32::from(!is_exact);
-        let top = top.to_f64().unwrap_or(f64::INFINITY);
-        let exponent = self.exponent.saturating_add(drop as i64);
+        const DROPPED: u32 = u64::BITS - f64::MANTISSA_DIGITS;
+        let [rest @ .., first] = &self.significand;
+        let is_exact = rest.iter().all(|x| *x == 0) && first.trailing_zeros() >= DROPPED;
+        let top = (first >> DROPPED) + u64::from(!is_exact && *first > 0);
+        let dropped = BITS as i64 - i64::from(f64::MANTISSA_DIGITS);
+        let exponent = self.exponent.saturating_add(dropped);
         let exponent = exponent.clamp(-4000, 4000) as i32;
-        let value = libm::ldexp(top, exponent);
+        // At most 2⁵³: a double.
+        let value = libm::ldexp(top as f64, exponent);
         // What is below the least normal double has been rounded on the way.
-        if value < f64::MIN_POSITIVE && !size.is_zero() {
+        if value < f64::MIN_POSITIVE && !self.is_zero() {
             value.next_up()
         } else {
             value
         }
     }
 
-    fn cut(significand: BigInt, exponent: i64) -> Wide {
-        let extra = significand.bits().saturating_sub(BITS);
-        Wide {
-            exponent: if significand.is_zero() {
-                0
-            } else {
-                exponent.saturating_add(extra as i64)
-            },
-            significand: significand >> extra,
-        }
+    fn whole(&self) -> BigInt {
+        limbs::whole(&self.significand, self.negative)
     }
 
-    fn sum(&self, other: &Wide, minus: bool) -> Wide {
-        let signed = |value: &Wide| match minus {
-            true => value.neg(),
-            false => value.clone(),
-        };
+    fn cut(whole: &BigInt, exponent: i64) -> Wide {
+        limbs::cut(whole).map_or_else(Wide::zero, |(significand, power)| Wide {
+            negative: whole.is_negative(),
+            significand,
+            exponent: exponent.saturating_add(power),
+        })
+    }
+
+    fn sum(&self, other: &Wide) -> Wide {
         if self.is_zero() {
-            return signed(other);
+            return *other;
         }
         if other.is_zero() {
-            return self.clone();
+            return *self;
         }
-        let other = signed(other);
         let (high, low) = match self.exponent >= other.exponent {
-            true => (self, &other),
-            false => (&other, self),
+            true => (self, other),
+            false => (other, self),
         };
-        let gap = high.exponent.abs_diff(low.exponent);
-        if gap > 2 * BITS {
+        let gap = match u32::try_from(high.exponent.abs_diff(low.exponent)) {
+            Ok(gap) if u64::from(gap) <= BITS => gap,
             // The other is less than the last bit.
-            return high.clone();
+            _ => return *high,
+        };
+        if high.negative == low.negative {
+            let (significand, more) = limbs::sum(&high.significand, &low.significand, gap);
+            return Wide {
+                significand,
+                exponent: high.exponent.saturating_add(i64::from(more)),
+                ..*high
+            };
         }
-        Wide::cut((&high.significand << gap) + &low.significand, low.exponent)
+        let (significand, shift, order) =
+            limbs::difference(&high.significand, &low.significand, gap);
+        match order {
+            Ordering::Equal => Wide::zero(),
+            order => Wide {
+                negative: high.negative != (order == Ordering::Less),
+                significand,
+                exponent: high.exponent.saturating_sub(i64::from(shift)),
+            },
+        }
     }
 }
 
 impl Scalar for Wide {
     fn zero() -> Self {
         Wide {
-            significand: BigInt::zero(),
+            negative: false,
+            significand: [0; LIMBS],
             exponent: 0,
         }
     }
     fn one() -> Self {
+        let mut significand = [0; LIMBS];
+        significand[LIMBS - 1] = 1 << (u64::BITS - 1);
         Wide {
-            significand: BigInt::one(),
-            exponent: 0,
+            negative: false,
+            significand,
+            exponent: 1 - BITS as i64,
         }
     }
     fn add(&self, other: &Self) -> Self {
-        self.sum(other, false)
+        self.sum(other)
     }
     fn sub(&self, other: &Self) -> Self {
-        self.sum(other, true)
+        self.sum(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
-        Wide::cut(
-            &self.significand * &other.significand,
-            self.exponent.saturating_add(other.exponent),
-        )
+        if self.is_zero() || other.is_zero() {
+            return Wide::zero();
+        }
+        let (significand, less) = limbs::product(&self.significand, &other.significand);
+        let exponent = self.exponent.saturating_add(other.exponent);
+        Wide {
+            negative: self.negative != other.negative,
+            significand,
+            exponent: exponent.saturating_add(BITS as i64 - i64::from(less)),
+        }
     }
     fn neg(&self) -> Self {
         Wide {
-            significand: -&self.significand,
-            exponent: self.exponent,
+            negative: !self.negative && !self.is_zero(),
+            ..*self
         }
     }
     fn half(&self) -> Self {
         match self.is_zero() {
-            true => self.clone(),
+            true => *self,
             false => Wide {
-                significand: self.significand.clone(),
                 exponent: self.exponent.saturating_sub(1),
+                ..*self
             },
         }
     }
     fn is_zero(&self) -> bool {
-        self.significand.is_zero()
+        self.significand == [0; LIMBS]
     }
 }
 
 impl Divide for Wide {
     /// By zero: zero, for want of an infinity.
     fn div(&self, other: &Self) -> Self {
-        if other.is_zero() {
-            return Self::zero();
-        }
-        // The quotient has the bits of a significand and one more.
-        let missing = BITS + 1 + other.significand.bits();
-        let shift = missing.saturating_sub(self.significand.bits());
-        let exponent = self.exponent.saturating_sub(other.exponent);
-        Wide::cut(
-            (&self.significand << shift) / &other.significand,
-            exponent.saturating_sub(shift as i64),
-        )
+        self.over(other).unwrap_or_else(Self::zero)
     }
 }
 
@@ -264,5 +301,48 @@ mod tests {
         assert_eq!(tiny.sub(&Wide::zero()), tiny);
         assert_eq!(Wide::zero().sub(&tiny), tiny.neg());
         assert_eq!(one.half().add(&one.half()).sub(&one), Wide::zero());
+    }
+
+    /// Every operation, on numbers near each other and far apart, with few bits and
+    /// with many, is within 2⁻²⁵⁵ of what the rationals say.
+    #[test]
+    fn operations_are_those_of_rationals() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15u64;
+        let mut draw = || {
+            bits = bits
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            bits >> 33
+        };
+        let least = Rational::new(BigInt::one(), BigInt::one() << 255u32);
+        let mut number = || {
+            let mut whole = BigInt::from(draw() % 5) - BigInt::from(2);
+            for _ in 0..draw() % 12 {
+                // Runs of ones and zeros among them: carries and borrows go far.
+                let run = [0, u32::MAX, draw() as u32][(draw() % 3) as usize];
+                whole = (whole << 32u32) + BigInt::from(run);
+            }
+            let shift = [0, draw() % 4, draw() % 600][(draw() % 3) as usize];
+            Wide::cut(&whole, 0).mul(&Wide::cut(&BigInt::one(), -(shift as i64)))
+        };
+        for _ in 0..20_000 {
+            let (a, b) = (number(), number());
+            let (x, y) = (a.to_rational(), b.to_rational());
+            let cases = [
+                (a.add(&b), &x + &y),
+                (a.sub(&b), &x - &y),
+                (a.sub(&a.add(&b)), &x - a.add(&b).to_rational()),
+                (a.mul(&b), &x * &y),
+            ];
+            for (found, exact) in cases {
+                let off = (found.to_rational() - &exact).abs();
+                assert!(off <= exact.abs() * &least, "{a:?} {b:?}");
+                assert_eq!(found, Wide::from_rational(&found.to_rational()));
+            }
+            let size = a.magnitude();
+            let exact = Rational::from_float(size).unwrap();
+            assert!(exact >= x.abs() && (size == 0.0) == a.is_zero());
+            assert_eq!(Wide::from_f64(size).unwrap().to_rational(), exact);
+        }
     }
 }

@@ -1,0 +1,140 @@
+//! Whole numbers of 256 bits in limbs of 64, the least first: what a significand is.
+
+use core::cmp::Ordering;
+
+use num_bigint::{BigInt, BigUint, Sign};
+
+/// Of a significand.
+pub(super) const LIMBS: usize = 4;
+
+/// A significand.
+pub(super) type Limbs = [u64; LIMBS];
+
+/// Of a limb.
+const BITS: u32 = u64::BITS;
+
+/// Of a product, or of a significand with as many bits again below it.
+type Double = [u64; 2 * LIMBS];
+
+/// The top of a × b, the highest bit of both being one, and whether that of the product
+/// is the last but one: then all is shifted by one.
+pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
+    let mut all: Double = [0; 2 * LIMBS];
+    for (i, &x) in a.iter().enumerate() {
+        let mut carry = 0u128;
+        for (j, &y) in b.iter().enumerate() {
+            carry += u128::from(x) * u128::from(y) + u128::from(all[i + j]);
+            all[i + j] = carry as u64;
+            carry >>= BITS;
+        }
+        all[i + LIMBS] = carry as u64;
+    }
+    let shift = all[2 * LIMBS - 1].leading_zeros();
+    (top(&all, shift), shift > 0)
+}
+
+/// The top of a + b·2⁻ᵍ, the highest bit of both being one, and whether there is a bit
+/// more. The gap is at most as many bits as a significand has: nothing is lost before
+/// the sum is cut.
+pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
+    let (mut all, below) = (wide(a), lowered(b, gap));
+    let mut carry = false;
+    for (x, y) in all.iter_mut().zip(below) {
+        let (sum, first) = x.overflowing_add(y);
+        let (sum, second) = sum.overflowing_add(u64::from(carry));
+        (*x, carry) = (sum, first || second);
+    }
+    let mut kept = top(&all, 0);
+    if carry {
+        for i in 0..LIMBS {
+            let above = kept.get(i + 1).copied().unwrap_or(1);
+            kept[i] = (kept[i] >> 1) | (above << (BITS - 1));
+        }
+    }
+    (kept, carry)
+}
+
+/// The top of |a − b·2⁻ᵍ|, the highest bit of both being one, by how many bits it is
+/// shifted up, and which of the two is the larger one.
+pub(super) fn difference(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, u32, Ordering) {
+    let (left, right) = (wide(a), lowered(b, gap));
+    let order = left.iter().rev().cmp(right.iter().rev());
+    let (mut all, less) = match order {
+        Ordering::Less => (right, left),
+        _ => (left, right),
+    };
+    let mut borrow = false;
+    for (x, y) in all.iter_mut().zip(less) {
+        let (rest, first) = x.overflowing_sub(y);
+        let (rest, second) = rest.overflowing_sub(u64::from(borrow));
+        (*x, borrow) = (rest, first || second);
+    }
+    let empty = all.iter().rev().take_while(|x| **x == 0).count();
+    let Some(&first) = all.iter().rev().nth(empty) else {
+        return ([0; LIMBS], 0, Ordering::Equal);
+    };
+    let shift = empty as u32 * BITS + first.leading_zeros();
+    (top(&all, shift), shift, order)
+}
+
+/// A significand with as many zeros below it.
+fn wide(a: &Limbs) -> Double {
+    let mut all = [0; 2 * LIMBS];
+    all[LIMBS..].copy_from_slice(a);
+    all
+}
+
+/// The same, lowered by at most as many bits.
+fn lowered(a: &Limbs, by: u32) -> Double {
+    let (whole, part) = ((by / BITS) as usize, by % BITS);
+    let mut all = [0; 2 * LIMBS];
+    for (i, &x) in a.iter().enumerate() {
+        let place = (LIMBS + i).saturating_sub(whole);
+        all[place] |= x >> part;
+        if part > 0 && place > 0 {
+            all[place - 1] |= x << (BITS - part);
+        }
+    }
+    all
+}
+
+/// The highest limbs of what is shifted up.
+fn top(all: &Double, shift: u32) -> Limbs {
+    let (whole, part) = ((shift / BITS) as usize, shift % BITS);
+    let limb = |place: usize| (place.checked_sub(whole)).map_or(0, |place| all[place]);
+    core::array::from_fn(|i| {
+        let (own, below) = (limb(LIMBS + i), limb(LIMBS + i - 1));
+        match part {
+            0 => own,
+            _ => (own << part) | (below >> (BITS - part)),
+        }
+    })
+}
+
+/// |x| cut to a significand, and the power of two that it is multiplied by; nothing of
+/// zero.
+pub(super) fn cut(x: &BigInt) -> Option<(Limbs, i64)> {
+    let bits = x.bits();
+    let all = LIMBS as u64 * u64::from(BITS);
+    let magnitude = x.magnitude();
+    let digits = match bits {
+        0 => return None,
+        _ if bits > all => magnitude >> (bits - all),
+        _ => magnitude << (all - bits),
+    };
+    let mut limbs = [0; LIMBS];
+    for (limb, digit) in limbs.iter_mut().zip(digits.iter_u64_digits()) {
+        *limb = digit;
+    }
+    Some((limbs, bits as i64 - all as i64))
+}
+
+/// The whole number.
+pub(super) fn whole(limbs: &Limbs, negative: bool) -> BigInt {
+    let mut bytes = [0; LIMBS * size_of::<u64>()];
+    for (part, limb) in bytes.chunks_mut(size_of::<u64>()).zip(limbs) {
+        part.copy_from_slice(&limb.to_le_bytes());
+    }
+    let sign = if negative { Sign::Minus } else { Sign::Plus };
+    BigInt::from_biguint(sign, BigUint::from_bytes_le(&bytes))
+}
