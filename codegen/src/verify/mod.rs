@@ -1,7 +1,7 @@
 //! Checks that trust neither the search nor the printer.
 //!
 //! - [`accuracy`]: which programs round well enough, for choices between them
-//! - [`rounding`]: what rounding costs a program, estimated
+//! - [`rounding`]: what rounding costs a program, estimated; `lanes`: at states side by side
 //! - [`exact`]: the program equals Lagrange–Euler as written, modulo primes
 //! - [`challenge`]: which primes and points, drawn from what is to be proved
 //! - [`parameters`]: base parameters give every torque, modulo primes
@@ -18,6 +18,7 @@ pub mod condition;
 pub mod degree;
 pub mod exact;
 pub mod floating;
+mod lanes;
 pub mod miss;
 pub mod parameters;
 pub mod ratio;

@@ -7,12 +7,15 @@
 //! smoothly on the robot, whereas errors that are observed at some states
 //! depend on how the last digits of its parameters happen to fall.
 
+use std::array::from_fn;
 use std::collections::BTreeMap;
 
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::scalar::Scalar;
 use num_traits::Signed;
 
+use super::lanes::{LANES, Lanes};
 use crate::program::adjoint::{Leaf, backward};
 use crate::program::{Input, Operand, Operation, Program};
 use crate::scene::Setting;
@@ -38,7 +41,7 @@ impl Rounding {
     pub fn estimate(setting: &Setting, program: &Program) -> Rounding {
         let network = Network::new(program);
         let states = setting.states(STATES, SEED);
-        let runs: Vec<Vec<(f64, f64)>> = states.iter().map(|state| network.errors(state)).collect();
+        let runs = network.errors(&states);
         let mut rounding = Rounding {
             normwise: Vec::new(),
             per_output: Vec::new(),
@@ -113,38 +116,62 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// Each output with its error, in units of u.
-    fn errors(&self, state: &JointState) -> Vec<(f64, f64)> {
+    /// Each output with its error, in units of u, a list a state.
+    fn errors(&self, states: &[JointState]) -> Vec<Vec<(f64, f64)>> {
+        let mut runs = Vec::with_capacity(states.len());
+        for chunk in states.chunks(LANES) {
+            let found = self.side_by_side(chunk);
+            let of = |lane: usize| found.iter().map(move |(x, e)| (x.0[lane], e.0[lane]));
+            runs.extend((0..chunk.len()).map(|lane| of(lane).collect()));
+        }
+        runs
+    }
+
+    /// The same for a few states; lanes beyond repeat the last of them.
+    fn side_by_side(&self, states: &[JointState]) -> Vec<(Lanes, Lanes)> {
+        let each = |of: &dyn Fn(&JointState) -> f64| {
+            Lanes(from_fn(|lane| {
+                let state = states.get(lane).or(states.last());
+                state.map_or(f64::NAN, of)
+            }))
+        };
         let steps = &self.program.steps;
         // The sine and the cosine of each angle, in the order of `trig`.
         let trig = &self.program.trig;
         let angles = trig.iter().map(|trig| {
-            let signed = |(joint, negative): (usize, bool)| match negative {
-                true => -state.q[joint],
-                false => state.q[joint],
-            };
-            libm::sincos(trig.angle.terms().map(signed).sum())
+            let angle = each(&|state| {
+                let signed = |(joint, negative): (usize, bool)| match negative {
+                    true => -state.q[joint],
+                    false => state.q[joint],
+                };
+                trig.angle.terms().map(signed).sum()
+            });
+            let pairs = angle.0.map(libm::sincos);
+            (
+                Lanes(pairs.map(|pair| pair.0)),
+                Lanes(pairs.map(|pair| pair.1)),
+            )
         });
-        let pairs: Vec<(f64, f64)> = angles.collect();
+        let pairs: Vec<(Lanes, Lanes)> = angles.collect();
         let place = |angle| trig.iter().position(|trig| trig.angle == angle);
         let pair = |angle| place(angle).and_then(|place| pairs.get(place));
-        let speed = |joint: usize| {
+        let speed = |joint: usize, state: &JointState| {
             let own = self.program.speeds.iter().find(|own| own.joint == joint)?;
             let (qd, square) = (state.qd.get(joint)?, f64::nearest(&own.square));
             Some(per_speed(qd, &square, |x| libm::sqrt(*x)))
         };
         let input = |input: Input| match input {
-            Input::PerSpeed(joint) => speed(joint).unwrap_or(f64::NAN),
-            Input::Entry(argument, joint) => state.entry(argument, joint),
-            Input::Sin(angle) => pair(angle).map_or(0.0, |pair| pair.0),
-            Input::Cos(angle) => pair(angle).map_or(1.0, |pair| pair.1),
+            Input::PerSpeed(joint) => each(&|state| speed(joint, state).unwrap_or(f64::NAN)),
+            Input::Entry(argument, joint) => each(&|state| state.entry(argument, joint)),
+            Input::Sin(angle) => pair(angle).map_or(Lanes::zero(), |pair| pair.0),
+            Input::Cos(angle) => pair(angle).map_or(Lanes::one(), |pair| pair.1),
         };
-        let mut values: Vec<f64> = Vec::with_capacity(steps.len());
-        let mut operands: Vec<[f64; 2]> = Vec::with_capacity(steps.len());
+        let mut values: Vec<Lanes> = Vec::with_capacity(steps.len());
+        let mut operands: Vec<[Lanes; 2]> = Vec::with_capacity(steps.len());
         for (step, shared) in steps.iter().zip(&self.shared) {
             let read = |(operand, shared): (&Operand, Option<usize>)| match (operand, shared) {
-                (_, Some(constant)) => self.constants[constant].0,
-                (operand, None) => self.value(operand, &values, input),
+                (_, Some(constant)) => Lanes::all(self.constants[constant].0),
+                (operand, None) => value(operand, &values, input),
             };
             let [x, y] = [(&step.left, shared[0]), (&step.right, shared[1])].map(read);
             operands.push([x, y]);
@@ -152,44 +179,36 @@ impl<'a> Network<'a> {
         }
         let outputs = self.program.outputs.iter().map(|output| {
             let error = self.error(&output.value, &values, &operands, &pairs);
-            (self.value(&output.value, &values, input), error)
+            (value(&output.value, &values, input), error)
         });
         outputs.collect()
-    }
-
-    fn value(&self, operand: &Operand, values: &[f64], input: impl Fn(Input) -> f64) -> f64 {
-        match operand {
-            Operand::Input(of) => input(*of),
-            Operand::Constant(constant) => f64::nearest(constant),
-            Operand::Step(step) => values[*step],
-        }
     }
 
     /// The root of the sum of squares of all errors, as they reach an output.
     fn error(
         &self,
         output: &Operand,
-        values: &[f64],
-        operands: &[[f64; 2]],
-        pairs: &[(f64, f64)],
-    ) -> f64 {
-        let mut squares = 0.0;
-        let mut constants = vec![0.0; self.constants.len()];
-        let mut slopes = vec![(0.0, 0.0); pairs.len()];
-        let mut note = |operand: &Operand, slope: f64| {
+        values: &[Lanes],
+        operands: &[[Lanes; 2]],
+        pairs: &[(Lanes, Lanes)],
+    ) -> Lanes {
+        let mut squares = Lanes::zero();
+        let mut constants = vec![Lanes::zero(); self.constants.len()];
+        let mut slopes = vec![(Lanes::zero(), Lanes::zero()); pairs.len()];
+        let mut note = |operand: &Operand, slope: &Lanes| {
             let Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) = operand else {
                 return;
             };
             let mut trig = self.program.trig.iter().zip(&mut slopes);
             match (trig.find(|(trig, _)| trig.angle == *angle), input) {
-                (Some((_, (sin, _))), Input::Sin(_)) => *sin += slope,
-                (Some((_, (_, cos))), _) => *cos += slope,
+                (Some((_, (sin, _))), Input::Sin(_)) => *sin = sin.add(slope),
+                (Some((_, (_, cos))), _) => *cos = cos.add(slope),
                 (None, _) => {}
             }
         };
         match output {
             Operand::Step(top) => {
-                let visit = |index: usize, slope: &f64| {
+                let visit = |index: usize, slope: &Lanes| {
                     let step = &self.program.steps[index];
                     let mut shared = self.shared[index].iter().flatten();
                     let is_exact = match step.operation {
@@ -197,16 +216,17 @@ impl<'a> Network<'a> {
                         Operation::Mul => shared.any(|constant| self.constants[*constant].1),
                         Operation::Add | Operation::Sub | Operation::Div => false,
                     };
-                    if *slope != 0.0 && !is_exact {
-                        squares += square(slope * values[index]);
+                    let arrives = !slope.vanishes();
+                    if arrives && !is_exact {
+                        squares = squares.add(&slope.mul(&values[index]).square());
                     }
-                    *slope != 0.0
+                    arrives
                 };
-                let leaf = |leaf: Leaf<'_, Exact, Input>, slope: f64| match self.shared[leaf.step]
+                let leaf = |leaf: Leaf<'_, Exact, Input>, slope: Lanes| match self.shared[leaf.step]
                     [leaf.side]
                 {
-                    Some(constant) => constants[constant] += slope,
-                    None => note(leaf.operand, slope),
+                    Some(constant) => constants[constant] = constants[constant].add(&slope),
+                    None => note(leaf.operand, &slope),
                 };
                 backward(
                     &self.program.steps,
@@ -217,24 +237,29 @@ impl<'a> Network<'a> {
                 );
             }
             Operand::Constant(value) if !is_power_of_two(value) => {
-                squares += square(f64::nearest(value));
+                squares = squares.add(&Lanes::all(f64::nearest(value)).square());
             }
-            operand => note(operand, 1.0),
+            operand => note(operand, &Lanes::one()),
         }
         for ((value, is_exact), slope) in self.constants.iter().zip(&constants) {
             if !is_exact {
-                squares += square(slope * value);
+                squares = squares.add(&slope.mul(&Lanes::all(*value)).square());
             }
         }
         for ((sin, cos), slope) in pairs.iter().zip(&slopes) {
-            squares += square(slope.0 * sin) + square(slope.1 * cos);
+            let own = slope.0.mul(sin).square().add(&slope.1.mul(cos).square());
+            squares = squares.add(&own);
         }
         squares.sqrt()
     }
 }
 
-fn square(x: f64) -> f64 {
-    x * x
+fn value(operand: &Operand, values: &[Lanes], input: impl Fn(Input) -> Lanes) -> Lanes {
+    match operand {
+        Operand::Input(of) => input(*of),
+        Operand::Constant(constant) => Lanes::all(f64::nearest(constant)),
+        Operand::Step(step) => values[*step],
+    }
 }
 
 fn is_power_of_two(value: &Exact) -> bool {
