@@ -54,6 +54,12 @@ impl JointState {
         }
     }
 
+    /// Whether all its entries are finite.
+    pub fn is_finite(&self) -> bool {
+        let mut entries = Argument::ALL.iter().flat_map(|&argument| self.of(argument));
+        entries.all(|x| x.is_finite())
+    }
+
     /// An entry of an argument; NaN where the state has none, which
     /// reaches whatever reads it.
     pub fn entry(&self, argument: Argument, index: usize) -> f64 {

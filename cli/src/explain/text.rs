@@ -27,7 +27,7 @@ pub fn write(
     let scene = scene.map_or_else(String::new, |scene| format!(", scene {scene}"));
     let mut text = format!(
         "robot {}, {} joints, input {}{scene}\n\
-         errors: the worst of {states} states inside the limits, f64 against 134 digits,\n\
+         errors: the worst of {states} states inside the limits, f64 against 77 digits,\n\
          in u = 2⁻⁵³; normwise max|error|/max|result|, per joint over each joint's largest\n{}",
         robot.name,
         robot.joints.len(),

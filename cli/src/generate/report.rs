@@ -7,9 +7,9 @@ use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::emit::figures::bound_of;
 use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
 use dalembert_codegen::program::Counts;
+use dalembert_codegen::verify::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{Errors, of_program};
-use dalembert_report::stress::truth::Truth;
 
 use crate::output;
 
@@ -83,9 +83,11 @@ pub fn measured(
     if scene.is_some_and(|scene| scene.tolerance.is_some()) {
         return None;
     }
-    let truth = Truth::in_setting(&request.setting(robot).ok()?);
+    let setting = request.setting(robot).ok()?;
+    let reference = Reference::new(&setting);
     let functions = generated.functions.iter();
-    let errors = |f: &GeneratedFunction| of_program(&truth, &f.program, &request.scalars, states);
+    let errors =
+        |f: &GeneratedFunction| of_program(&reference, &f.program, &request.scalars, states);
     Some(functions.map(errors).collect())
 }
 

@@ -176,8 +176,7 @@ fn held(
         qdd: hold(&state.qdd, &limits.acceleration)?,
         ..JointState::default()
     };
-    let mut all = state.q.iter().chain(&state.qd).chain(&state.qdd);
-    all.all(|x| x.is_finite()).then_some(state)
+    state.is_finite().then_some(state)
 }
 
 /// The state with other numbers where nothing may be read.

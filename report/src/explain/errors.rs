@@ -1,18 +1,16 @@
-//! What rounding costs: each row, and what is emitted, against the big float.
+//! What rounding costs: each row, and what is emitted, against the true values.
 
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::big::Big;
 
 use super::Explanation;
 use super::run::Runner;
 use super::steps::Code;
-use crate::stress::truth::Truth;
 use dalembert_codegen::function::{Argument, Function, Sizes};
 use dalembert_codegen::program::{Input, Program, ScalarType};
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::states::JointState;
+use dalembert_codegen::verify::reference::{Reference, TrueValue};
 
 /// The most states that are measured.
 pub const MAX_STATES: usize = 10_000;
@@ -36,8 +34,8 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
     let (setting, function) = (&explanation.setting, explanation.function);
     let robot = setting.robot();
     let drawn = setting.states(states.min(MAX_STATES), SEED);
-    let truth = Truth::in_setting(setting);
-    let runs = at(&truth, function, drawn.iter().cloned());
+    let reference = Reference::new(setting);
+    let runs = at(&reference, function, drawn.iter().cloned());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
     let sizes = setting.sizes(function);
@@ -55,7 +53,7 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
             let single = drawn.iter().map(JointState::in_single);
             let own = match scalar {
                 ScalarType::F64 => None,
-                ScalarType::F32 => Some(at(&truth, function, single)),
+                ScalarType::F32 => Some(at(&reference, function, single)),
             };
             let runs = own.as_ref().unwrap_or(&runs);
             worst(function, sizes, runs, *scalar, |state| text.run_at(state))
@@ -70,26 +68,26 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
 
 /// The errors of a program in each scalar, inside the limits of the robot, or
 /// of its scene; states of f32 are rounded to it first. Programs of one setting are
-/// compared at the same states: one truth for all is quickest.
+/// compared at the same states: one reference for all is quickest.
 pub fn of_program(
-    truth: &Truth,
+    reference: &Reference<'_>,
     program: &Program,
     scalars: &[ScalarType],
     states: usize,
 ) -> Vec<Errors> {
     let function = program.function;
-    let setting = truth.setting();
+    let setting = reference.setting();
     let drawn = setting.states(states.min(MAX_STATES), SEED);
     let sizes = setting.sizes(function);
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {
             let runner = Runner::<f64>::new(program, scalar);
-            let runs = at(truth, function, drawn.iter().cloned());
+            let runs = at(reference, function, drawn.iter().cloned());
             worst(function, sizes, &runs, scalar, |state| runner.run(state))
         }
         ScalarType::F32 => {
             let runner = Runner::<f32>::new(program, scalar);
-            let runs = at(truth, function, drawn.iter().map(JointState::in_single));
+            let runs = at(reference, function, drawn.iter().map(JointState::in_single));
             worst(function, sizes, &runs, scalar, |state| runner.run(state))
         }
     };
@@ -107,15 +105,20 @@ pub fn affordable_states(joints: usize) -> usize {
     }
 }
 
-/// The states and the truth there, without those that are not finite.
+/// The states and the true values there, without those that are not finite.
 fn at(
-    truth: &Truth,
+    reference: &Reference<'_>,
     function: Function,
     states: impl Iterator<Item = JointState>,
-) -> Vec<(JointState, Vec<Big>)> {
-    let with_truth =
-        |state: JointState| truth.run(function, &state).map(|results| (state, results));
-    states.filter_map(with_truth).collect()
+) -> Vec<(JointState, Vec<TrueValue>)> {
+    let with_truth = |state: JointState| {
+        let truth = reference.run(function, &state);
+        (state, truth)
+    };
+    states
+        .filter(JointState::is_finite)
+        .map(with_truth)
+        .collect()
 }
 
 /// A formulation over f64, its constants rounded once.
@@ -146,7 +149,7 @@ fn formula(
 fn worst(
     function: Function,
     sizes: Sizes,
-    runs: &[(JointState, Vec<Big>)],
+    runs: &[(JointState, Vec<TrueValue>)],
     scalar: ScalarType,
     run: impl Fn(&JointState) -> Vec<f64>,
 ) -> Errors {
@@ -162,11 +165,7 @@ fn worst(
             start = range.end;
             let (mut error, mut size) = (0.0f64, 0.0f64);
             for i in range {
-                let difference = match Big::from_f64(found[i]) {
-                    Some(found) => found.sub(&truth[i]).abs().to_f64(),
-                    None => f64::INFINITY,
-                };
-                let value = truth[i].abs().to_f64();
+                let (difference, value) = (truth[i].error(found[i]), truth[i].size());
                 (error, size) = (error.max(difference), size.max(value));
                 errors[i] = errors[i].max(difference);
                 largest[i] = largest[i].max(value);
@@ -185,11 +184,7 @@ fn worst(
     }
 }
 
-/// What vanishes leaves dust of the reference's 134 digits; robots are not as
-/// small as that.
-const DUST: f64 = 1e-100;
-
 /// error / size; where the truth vanishes there is nothing to relate it to.
 fn ratio(error: f64, size: f64) -> f64 {
-    if size > DUST { error / size } else { 0.0 }
+    if size > 0.0 { error / size } else { 0.0 }
 }

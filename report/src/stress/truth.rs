@@ -44,11 +44,6 @@ impl Truth {
         }
     }
 
-    /// What it is about.
-    pub fn setting(&self) -> &Setting {
-        &self.setting
-    }
-
     /// Sine and cosine of a position.
     fn pair(&self, q: f64) -> (Big, Big) {
         let mut sines = self.sines.borrow_mut();
@@ -62,10 +57,7 @@ impl Truth {
     /// The results of a function over the setting's rows, flat; `None` at a
     /// state that is not finite.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
-        let mut values = Argument::ALL
-            .iter()
-            .flat_map(|&argument| state.of(argument));
-        if values.any(|x| !x.is_finite()) {
+        if !state.is_finite() {
             return None;
         }
         let finite = |x: f64| Big::from_f64(x).unwrap_or_else(Big::zero);
