@@ -1,11 +1,16 @@
 //! Generated functions whose sines are polynomials: printed, counted, read
 //! back, and as near to libm's as was proved.
 
-use dalembert_codegen::function::Function;
+use dalembert_codegen::backend::{Printed, function};
+use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::program::{Library, Lowered, ScalarType};
+use dalembert_codegen::interval::Interval;
+use dalembert_codegen::program::{
+    AngleSum, Input, Library, Lowered, Operand, Output, Program, ScalarType, Trig,
+};
 use dalembert_codegen::scene::Setting;
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::sincos::choose::Candidates;
+use dalembert_codegen::sincos::{AngleKernel, SinCos, need};
 use dalembert_codegen::split::Split;
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
@@ -59,6 +64,103 @@ fn polynomials_are_printed_counted_read_back_and_near() {
                     "{name}"
                 );
             }
+        }
+    }
+}
+
+/// The sine and cosine of one angle, as far as they are wanted: a function of two
+/// results.
+fn pair(sin: bool, cos: bool) -> Program {
+    let angle = AngleSum::joint(0);
+    let (sine, cosine) = (Input::Sin(angle), Input::Cos(angle));
+    let outputs = match (sin, cos) {
+        (true, false) => [sine, sine],
+        (false, true) => [cosine, cosine],
+        _ => [sine, cosine],
+    };
+    Program {
+        function: Function::Gravity,
+        joints: 2,
+        rows: vec![0, 1],
+        arguments: vec![Argument::Position],
+        load: 0,
+        trig: vec![Trig { angle, sin, cos }],
+        speeds: Vec::new(),
+        steps: Vec::new(),
+        outputs: outputs
+            .map(|input| Output::of(Operand::Input(input)))
+            .to_vec(),
+    }
+}
+
+/// Over narrow ranges a sine or cosine may be a constant, of either sign, or the
+/// angle itself: every kernel there is prints as what is read back.
+#[test]
+fn kernels_of_narrow_ranges_are_read_back() {
+    let mut read = 0;
+    let quarter = core::f64::consts::FRAC_PI_2;
+    let centres = [0.0, 1.57, 2.0 * quarter, -quarter];
+    let halves: &[f64] = if cfg!(debug_assertions) {
+        &[5e-4]
+    } else {
+        &[1e-9, 1e-5, 5e-4, 0.02]
+    };
+    for scalar in ScalarType::ALL {
+        for (centre, half) in centres
+            .iter()
+            .flat_map(|c| halves.iter().map(move |h| (c, h)))
+        {
+            let range = Interval::new(centre - half, centre + half).unwrap();
+            for (sin, cos) in [(true, true), (true, false), (false, true)] {
+                let program = pair(sin, cos);
+                let candidates = Candidates::new(need(&program.trig[0]), scalar, range);
+                for (most, enough) in [(f64::INFINITY, 0.0), (1.0, 1e-2)] {
+                    for choice in candidates.front(most, enough) {
+                        let sines = [AngleKernel {
+                            angle: program.trig[0].angle,
+                            range,
+                            form: choice.form.to_string(),
+                            kernel: choice.kernel,
+                            errors: choice.errors,
+                        }];
+                        let kernel = |_: AngleSum| Some(&sines[0].kernel);
+                        let code = program.lower(scalar, kernel);
+                        let text = function::write(&Printed::of(&program, &code), "libm", &[]);
+                        let found = Lowered::parse(&text, program.function, scalar).unwrap();
+                        let same = found.matches(&program, Library::Libm, &sines);
+                        assert_eq!(same, Ok(()), "{}\n{text}", sines[0].form);
+                        read += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(read > 100, "{read}");
+}
+
+/// Over such ranges inputs run alike, and sines are nearly constants: what is left out
+/// can be written down, and what is printed is read back.
+#[test]
+fn tolerances_over_narrow_ranges_are_met() {
+    for (centre, tolerance) in [(-1.571, 1e-5), (-1.571, 1e-6), (3.1, 1e-6), (0.0, 1e-3)] {
+        let range = format!("[{:?}, {:?}]", centre - 5e-4, centre + 5e-4);
+        let scene = format!(
+            "\n[scene.narrow]\noutputs = [\"gravity\"]\nbox = {{ position = [{}] }}\n\
+             tolerance = {{ value = {tolerance:?}, relative_to = \"range\" }}\n",
+            [range.as_str(); 6].join(", ")
+        );
+        let reading = support::reading_with("puma560", &scene);
+        for sincos in [SinCos::Auto, SinCos::Polynomial { error: None }] {
+            let request = Request {
+                sincos,
+                ..Request::default().in_scene(&reading.scenes[0])
+            };
+            let generated = generate(&reading.robot, &request);
+            assert!(
+                generated.is_ok(),
+                "{centre} {tolerance}: {:?}",
+                generated.err()
+            );
         }
     }
 }

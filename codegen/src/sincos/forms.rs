@@ -19,8 +19,8 @@ use num_traits::One;
 
 use super::reduction;
 use super::series::{Fit, Wave};
-use crate::program::kernel::{ANGLE, Kernel, Value, literal};
-use crate::program::{Operation, ScalarType};
+use crate::program::kernel::{ANGLE, Kernel, Term, Value, literal};
+use crate::program::{Literal, Operation, ScalarType};
 
 /// Where a polynomial's variable is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,9 +121,11 @@ impl Form {
             Centre::Quarter(k) => k.rem_euclid(4),
             Centre::At(_) => 0,
         };
-        let value = |negative, term| Value {
-            negative,
-            value: term,
+        // Over narrow ranges a result may be a constant, whose sign is a literal's: as
+        // such it is read back.
+        let value = |negative, term| match term {
+            Term::Constant(Literal(x)) if negative => Value::of(literal(-x)),
+            value => Value { negative, value },
         };
         let (sin, cos) = match turned {
             0 => (value(false, s), value(false, c)),

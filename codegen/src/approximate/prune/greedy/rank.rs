@@ -44,10 +44,12 @@ impl Greedy<'_> {
             all.extend(values.into_iter().map(|value| (node, value)));
         }
         let scores = self.scores(state, columns, fit, &all, (before, paid));
-        let pairs = all.into_iter().zip(scores);
+        let (pairs, inputs) = (all.into_iter().zip(scores), state.nodes.inputs.len());
         let ranked = pairs.filter_map(|((node, value), score)| {
             let score = score? * (1.0 + noise * random.unit());
-            Some(Ranked { node, value, score })
+            // An edit puts no input in an input's place: over narrow ranges they are alike.
+            let is_edit = node >= inputs || matches!(value, Value::Known(_));
+            is_edit.then_some(Ranked { node, value, score })
         });
         ranked.collect()
     }
