@@ -17,8 +17,8 @@ use super::columns::{Nodes, Value};
 use super::motions::Motions;
 use crate::program::Operand;
 use adjoints::adjoints;
+use products::{Columns, gram};
 pub(super) use products::{LANES, dot};
-use products::{gram, subtract, transposed};
 
 /// What a change of a constant by itself weighs, against errors in units of
 /// their allowance: changes that are large and undo each other go wrong
@@ -31,7 +31,7 @@ pub(super) struct Fit {
     /// right operand.
     places: Vec<(usize, bool)>,
     /// J, weighted, without what the other columns can do by themselves.
-    columns: Vec<Vec<f64>>,
+    columns: Columns,
     /// R of JᵀJ + inertia = RᵀR, column by column.
     factor: Vec<Vec<f64>>,
 }
@@ -90,7 +90,7 @@ impl Fit {
     fn of(all: Vec<((usize, bool), Vec<f64>, f64)>) -> Fit {
         let mut fit = Fit {
             places: Vec::new(),
-            columns: Vec::new(),
+            columns: Columns::default(),
             factor: Vec::new(),
         };
         let mut kept: Vec<usize> = Vec::new();
@@ -114,12 +114,14 @@ impl Fit {
                 kept.push(index);
             }
         }
+        let mut left = Vec::with_capacity(kept.len());
         for (index, (place, column, _)) in all.into_iter().enumerate() {
             if kept.binary_search(&index).is_ok() {
                 fit.places.push(place);
-                fit.columns.push(column);
+                left.push(column);
             }
         }
+        fit.columns = Columns::of(left);
         fit
     }
 
@@ -140,7 +142,7 @@ impl Fit {
                     row[lane] = *x;
                 }
             }
-            let products = transposed(&self.columns, &errors);
+            let products = self.columns.transposed(&errors);
             let mut changes = vec![[0.0; LANES]; products.len()];
             for (lane, trial) in trials.iter().enumerate() {
                 let products = products.iter().map(|y| y[lane]).collect();
@@ -149,7 +151,7 @@ impl Fit {
                     row[lane] = x;
                 }
             }
-            subtract(&self.columns, &changes, &mut errors);
+            self.columns.subtract(&changes, &mut errors);
             for (lane, trial) in trials.iter_mut().enumerate() {
                 for (x, row) in trial.errors.iter_mut().zip(&errors) {
                     *x = row[lane];
@@ -160,7 +162,11 @@ impl Fit {
 
     /// The changes of constants that do so, none gone.
     pub(super) fn changes(&self, errors: &[f64]) -> Vec<((usize, bool), f64)> {
-        let products = self.columns.iter().map(|column| dot(column, errors));
+        let products = self
+            .columns
+            .columns
+            .iter()
+            .map(|column| dot(column, errors));
         let least = self.solve(products.collect());
         let places = self.places.iter().copied();
         places.zip(least.iter().map(|x| -x)).collect()
@@ -187,7 +193,7 @@ impl Fit {
         // those before.
         let mut pivots: Vec<(usize, Vec<f64>)> = Vec::new();
         for &column in gone {
-            let mut unit = vec![0.0; self.columns.len()];
+            let mut unit = vec![0.0; self.places.len()];
             unit[column] = 1.0;
             let mut pivot = self.solve(unit);
             for (other, before) in &pivots {

@@ -62,8 +62,10 @@ const RANKED_AGAIN: usize = 24;
 /// In place of an allowance of zero, where nothing may go.
 const TINY: f64 = 1e-12;
 
-/// How many are taken before all are ranked again.
+/// How many are taken before all are ranked again: of long programs, a part of their
+/// values, since each changes the less about the others.
 const FRESH: usize = 10;
+const FRESH_PART: usize = 32;
 
 impl<'a> Greedy<'a> {
     pub(super) fn new(
@@ -105,6 +107,7 @@ impl<'a> Greedy<'a> {
         let mut columns = state.nodes.run(&state.edits);
         let mut fit = self.fit(state, &columns);
         let mut refused = vec![false; state.nodes.len()];
+        let fresh = FRESH.max(state.nodes.len() / FRESH_PART);
         loop {
             let mut ranked = self.rank_all(state, &columns, &fit, &refused, noise, random);
             if ranked.is_empty() {
@@ -112,7 +115,7 @@ impl<'a> Greedy<'a> {
             }
             ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
             let mut taken = 0;
-            while taken < FRESH {
+            while taken < fresh {
                 self.mirror(&columns);
                 let before = self.settled(state, &columns, &fit).sum;
                 let paid = self.price(state);
@@ -137,8 +140,8 @@ impl<'a> Greedy<'a> {
                 let kept = state.nodes.steps.clone();
                 state.edits[node] = Some(value);
                 let edited = state.nodes.run(&state.edits);
-                let fresh = self.fit(state, &edited);
-                columns = self.correct(state, edited, &fresh);
+                let refitted = self.fit(state, &edited);
+                columns = self.correct(state, edited, &refitted);
                 if self.potential(&self.errors(&state.nodes, &columns)).worst > 1.0 {
                     // Constants cannot make up for it as hoped.
                     state.edits[node] = None;
@@ -146,7 +149,7 @@ impl<'a> Greedy<'a> {
                     columns = state.nodes.run(&state.edits);
                     refused[node] = true;
                 } else {
-                    fit = fresh;
+                    fit = refitted;
                 }
                 taken += 1;
                 ranked.retain(|c| c.score.is_finite());
