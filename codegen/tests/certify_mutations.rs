@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 
+use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::certificate::{Certificate, format};
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::plan::{Edited, Entry, Plan};
@@ -86,7 +87,12 @@ fn certificate(generated: &Generated) -> &Certificate {
 fn honest() -> Vec<Certificate> {
     let all = [SinCos::Libm, SinCos::Polynomial { error: None }];
     let all = all.map(|sincos| certificate(&generated(sincos).1).clone());
-    let together = all[0].calling(Library::Together);
+    let setting = Setting::new(
+        &reading(ROBOT).unwrap().robot,
+        &reading(ROBOT).unwrap().scenes[0],
+    );
+    let sensitivity = Sensitivity::of(&all[0].emitted, &all[0].limits, BoundEffort::QUICK);
+    let together = all[0].calling(&setting.unwrap(), Library::Together, &sensitivity);
     all.into_iter().chain([together]).collect()
 }
 

@@ -1,7 +1,8 @@
 //! Generated functions that call for all their angles at once: the same
-//! program, one line of text apart, and certified with the same bounds.
+//! program, one line of text apart, and certified with what is proved of their sines.
 
 use dalembert_codegen::backend::MathPath;
+use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::certificate::{Refuted, format};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
@@ -9,7 +10,8 @@ use dalembert_codegen::program::Library;
 use dalembert_codegen::scene::Setting;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::seeded;
-use dalembert_model::robot::Robot;
+use dalembert_model::number::Angle;
+use dalembert_model::robot::{Position, Robot};
 
 use crate::support;
 
@@ -89,9 +91,14 @@ fn certificates_name_the_library() {
         std::slice::from_ref(certificate)
     );
 
-    let alone = certificate.calling(Library::Libm);
+    let effort = BoundEffort::QUICK;
+    let sensitivity = Sensitivity::of(&certificate.emitted, &certificate.limits, effort);
+    let alone = certificate.calling(&setting, Library::Libm, &sensitivity);
     alone.check(&setting).unwrap();
-    assert_eq!(alone.bounds, certificate.bounds);
+    // Of libm's sines an ulp is assumed, of the others less is proved.
+    for (alone, together) in alone.bounds.iter().zip(&certificate.bounds) {
+        assert!(alone.sincos > together.sincos && alone.rounding == together.rounding);
+    }
     let mixed = dalembert_codegen::certificate::Certificate {
         text: alone.text.clone(),
         ..certificate.clone()
@@ -101,4 +108,44 @@ fn certificates_name_the_library() {
         matches!(refused, Err(Refuted::Text { line: 3, .. })),
         "{refused:?}"
     );
+}
+
+/// Where joints have limits, the sines' part of a bound is what is proved of them, less
+/// than an ulp; what is claimed below that is refused, and so is libm's text with it.
+#[test]
+fn proved_sines_have_smaller_bounds() {
+    let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\
+                 tolerance = { value = 1e-9, relative_to = \"range\" }\nscalar = \"f64\"\n";
+    let reading = support::reading_with("planar2r", scene);
+    let mut robot = reading.robot.clone();
+    for joint in &mut robot.joints {
+        let ends = [-2, 2].map(|n| Position::Angle(Angle::right_angles(n)));
+        joint.limits.position = Some(ends);
+    }
+    let setting = Setting::new(&robot, &reading.scenes[0]).unwrap();
+    let certificates = [Library::Libm, Library::Together].map(|library| {
+        let request = Request {
+            sincos: match library {
+                Library::Libm => SinCos::Libm,
+                Library::Together => SinCos::Together,
+            },
+            math: MathPath::of(library),
+            ..Request::default().in_scene(&reading.scenes[0])
+        };
+        let generated = generate(&robot, &request).unwrap();
+        let admitted = generated.functions[0].admitted.clone().unwrap();
+        admitted.certificates[0].clone()
+    });
+    for certificate in &certificates {
+        certificate.check(&setting).unwrap();
+    }
+    let [libm, together] = &certificates;
+    for (libm, together) in libm.bounds.iter().zip(&together.bounds) {
+        let ratio = together.sincos / libm.sincos;
+        assert!((0.8..=0.91).contains(&ratio), "{ratio}");
+        assert!((together.rounding - libm.rounding).abs() <= 1e-9 * libm.rounding);
+    }
+    let mut lie = libm.clone();
+    lie.bounds.clone_from(&together.bounds);
+    assert!(matches!(lie.check(&setting), Err(Refuted::Bound { .. })));
 }

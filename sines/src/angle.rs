@@ -42,7 +42,7 @@ pub trait Angle:
 /// is left of it. The documentation of the crate says why every line is as exact
 /// as is needed.
 #[inline(always)]
-fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
+pub fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
     let shifted = x * T::INVERSE + T::SHIFT;
     let k = shifted - T::SHIFT;
     let [much, little, least] = T::QUARTER;

@@ -106,6 +106,14 @@ mod single;
 #[cfg(test)]
 mod tests;
 
+/// The computation as it stands, generic over numbers: what the generator's proof of
+/// its error reads.
+#[doc(hidden)]
+pub mod text {
+    pub use crate::angle::{Angle, rest};
+    pub use crate::lanes::Number;
+}
+
 /// Roots, correctly rounded: libm's, for code that has all from here.
 pub use libm::{sqrt, sqrtf};
 

@@ -1,6 +1,6 @@
 //! What a program wants to know about generated code.
 
-use dalembert_codegen::approximate::choose::Admitted;
+use dalembert_codegen::approximate::admitted::Admitted;
 use dalembert_codegen::approximate::prune::omissions;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};

@@ -1,7 +1,7 @@
 //! What a person wants to know about generated code: counts, errors, what a
 //! tolerance admitted, proofs.
 
-use dalembert_codegen::approximate::choose::Admitted;
+use dalembert_codegen::approximate::admitted::Admitted;
 use dalembert_codegen::approximate::prune::omissions;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::emit::figures::bound_of;

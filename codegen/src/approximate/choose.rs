@@ -6,17 +6,17 @@
 //! the tolerance, more is set aside, and in the end nothing is left out.
 
 use std::cell::RefCell;
-use std::fmt;
 use std::rc::Rc;
 
 use dalembert_model::scene::{Scale, Tolerance};
 
+use crate::approximate::admitted::{Admitted, Claim, within};
+use crate::approximate::error::{NoPolynomials, ToleranceError, Unbounded};
 use crate::approximate::prune::{self, Settings};
 use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::bound::definite::{Indefinite, least_eigenvalue};
-use crate::bound::input_box::{InputBox, MissingLimit};
-use crate::bound::ranges::{Finding, RANGE_BOXES, ranges};
+use crate::bound::input_box::InputBox;
 use crate::bound::scale;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
@@ -24,12 +24,9 @@ use crate::bound::turns::sine_positions;
 use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
 use crate::certificate::{Certificate, Refuted, Shared};
-use crate::edits::{Stage, has_edits};
-use crate::function::{Argument, Columns, Function};
-use crate::program::{Program, ScalarType, has_inertia};
+use crate::edits::Stage;
+use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::Setting;
-use crate::sincos::TooAccurate;
-use crate::split::Split;
 use crate::watch::{FunctionWatch, Part};
 
 /// What errors of a function are bounded in and relative to.
@@ -55,207 +52,6 @@ pub struct ErrorBudget<'a> {
 
 /// The exact program's sensitivity and a variant's or two.
 const KEPT: usize = 3;
-
-/// A variant that meets its tolerance.
-#[derive(Clone, Debug)]
-pub struct Admitted {
-    /// What was edited, program after program; none if nothing was.
-    pub stages: Vec<Stage>,
-    /// The program to emit.
-    pub program: Program,
-    /// One a scalar, as they were asked for.
-    pub certificates: Vec<Certificate>,
-    /// What is claimed of each with libm's sines, which plans keep.
-    pub libm: Vec<Claim>,
-}
-
-/// What is claimed of a variant in a scalar.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
-    /// The scalar.
-    pub scalar: ScalarType,
-    /// E of each output.
-    pub bounds: Vec<Split>,
-    /// [`Certificate::lambda_min`].
-    pub lambda_min: Option<f64>,
-}
-
-/// Why no variant meets a tolerance.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ToleranceError {
-    /// Errors of such a function have no bound.
-    Function(Unbounded),
-    /// A limit that a bound needs.
-    Missing(MissingLimit),
-    /// The actuators are no measure of its outputs.
-    Scale(scale::NoScale),
-    /// The full model's D cannot be shown to be positive definite.
-    Indefinite(Indefinite),
-    /// What is computed inside the box may be more than the scalar holds.
-    Overflow {
-        /// In which scalar.
-        scalar: ScalarType,
-        /// The first step that may.
-        finding: Finding,
-    },
-    /// It would take more work than may be done.
-    Work {
-        /// Units of work that were allowed.
-        limit: u64,
-        /// The scene's name.
-        scene: String,
-    },
-    /// Already what sines and rounding cost cannot be shown to be less.
-    Above {
-        /// The output's name.
-        entry: String,
-        /// In which scalar.
-        scalar: ScalarType,
-        /// The output's tolerance.
-        tolerance: f64,
-        /// What can be shown of the exact program.
-        bound: Split,
-    },
-}
-
-/// Why errors of a function have no bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unbounded {
-    /// It reads an argument that no box bounds.
-    Reads(Argument),
-    /// Its program divides.
-    Divides,
-    /// It has Coulomb friction in it.
-    Friction,
-    /// It is a regressor: what multiplies its entries is not known.
-    Parameters,
-}
-
-impl Unbounded {
-    /// What a function is, whatever its program.
-    pub fn of(function: Function) -> Option<Unbounded> {
-        let mut arguments = function.arguments().into_iter();
-        let other = arguments.find(|argument| !Argument::STATE.contains(argument));
-        if function.columns() != Columns::None {
-            return Some(Unbounded::Parameters);
-        }
-        match function.inverts_inertia() {
-            true => Some(Unbounded::Divides),
-            false => other.map(Unbounded::Reads),
-        }
-    }
-
-    fn find(program: &Program) -> Option<Unbounded> {
-        let divides = program.divides().then_some(Unbounded::Divides);
-        let rubs = !program.speeds.is_empty();
-        let rubs = rubs.then_some(Unbounded::Friction);
-        divides.or(rubs).or_else(|| Unbounded::of(program.function))
-    }
-}
-
-impl fmt::Display for Unbounded {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unbounded::Friction => {
-                return f.write_str(
-                    "it has Coulomb friction in it, which divides by a root, so its errors have \
-                     no certified bound: leave `coulomb` out of the robot file and add the friction \
-                     to the torques yourself, or leave the tolerance out of the scene",
-                );
-            }
-            Unbounded::Divides => f.write_str("it divides by what depends on the state")?,
-            Unbounded::Parameters => f.write_str("its entries multiply parameters of any size")?,
-            Unbounded::Reads(argument) => {
-                write!(f, "no box bounds its argument `{}`", argument.name())?;
-            }
-        }
-        f.write_str(
-            ", so its errors have no certified bound; what has one is what it is made of: give \
-             the tolerance to `inverse_dynamics`, or to `manipulator_equation` for D, h and c",
-        )
-    }
-}
-
-impl fmt::Display for ToleranceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ToleranceError::Function(why) => why.fmt(f),
-            ToleranceError::Missing(missing) => missing.fmt(f),
-            ToleranceError::Scale(why) => why.fmt(f),
-            ToleranceError::Overflow { scalar, finding } => write!(
-                f,
-                "inside the box {finding} in {scalar}, and no error is certified of what overflows: \
-                 bound the box, choose other units{}",
-                wider(*scalar)
-            ),
-            ToleranceError::Work { limit, scene } => write!(
-                f,
-                "the search for a program within the tolerance was stopped: it takes too long for a \
-                 compilation (more than {limit} units of work). Run `dalembert generate ROBOT.toml \
-                 --scene {scene} --effort thorough --save-plan` once: macro and build script then take the \
-                 program from its plan"
-            ),
-            ToleranceError::Indefinite(why) => {
-                write!(f, "the full model: {why}")?;
-                match why {
-                    Indefinite::Negative { .. } => f.write_str(
-                        ", so a link that they move has an inertia that no body has: correct its \
-                         `inertia`, `mass` or `com`",
-                    ),
-                    _ => Ok(()),
-                }
-            }
-            ToleranceError::Above {
-                entry,
-                scalar,
-                tolerance,
-                bound,
-            } => write!(
-                f,
-                "no variant in {scalar} can be certified to keep {entry} within {tolerance:.1e}: with nothing \
-                 left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
-                 allow more{}",
-                bound.rounding,
-                bound.sincos,
-                wider(*scalar)
-            ),
-        }
-    }
-}
-
-fn wider(scalar: ScalarType) -> &'static str {
-    match scalar {
-        ScalarType::F32 => ", or choose a wider scalar",
-        ScalarType::F64 => "",
-    }
-}
-
-impl std::error::Error for ToleranceError {}
-
-/// Why a variant gets no polynomials for its sines.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoPolynomials {
-    /// None is as exact as what is left of the tolerance.
-    TooAccurate(TooAccurate),
-    /// Their errors with those of the rest are too much.
-    Above(ToleranceError),
-    /// D with their errors cannot be shown to be positive definite.
-    Indefinite,
-}
-
-impl fmt::Display for NoPolynomials {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoPolynomials::TooAccurate(why) => why.fmt(f),
-            NoPolynomials::Above(why) => why.fmt(f),
-            NoPolynomials::Indefinite => {
-                f.write_str("with their errors D cannot be shown to be positive definite")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoPolynomials {}
 
 impl<'a> ErrorBudget<'a> {
     /// The box of a setting, and T over it.
@@ -356,6 +152,7 @@ impl<'a> ErrorBudget<'a> {
             scales: &self.scales,
             relative_to: Some(self.relative_to),
             sines: &[],
+            library: Library::Libm,
         }
     }
 
@@ -543,6 +340,26 @@ impl<'a> ErrorBudget<'a> {
         Ok(found)
     }
 
+    /// The claim of a variant whose sines this library computes, unless polynomials do.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Above`], as of any variant.
+    pub fn calling(
+        &self,
+        certificate: &Certificate,
+        library: Library,
+        tolerances: &[f64],
+        bound_effort: BoundEffort,
+    ) -> Result<Certificate, ToleranceError> {
+        if !certificate.sines.is_empty() || certificate.library == library {
+            return Ok(certificate.clone());
+        }
+        let sensitivity = self.sensitivity(&certificate.emitted, bound_effort);
+        let found = certificate.calling(self.setting, library, &sensitivity);
+        within(&found, tolerances)?;
+        Ok(found)
+    }
+
     /// What is left for edits, in each output's unit; `None` if that is
     /// nothing.
     fn allowances(
@@ -565,76 +382,5 @@ impl<'a> ErrorBudget<'a> {
         }
         let some = allowances.iter().any(|&left| left > 0.0);
         some.then_some(allowances)
-    }
-}
-
-impl Admitted {
-    fn of(stages: &[Stage], emitted: &Program, certificates: Vec<Certificate>) -> Admitted {
-        let claim = |certificate: &Certificate| Claim {
-            scalar: certificate.scalar,
-            bounds: certificate.bounds.clone(),
-            lambda_min: certificate.lambda_min,
-        };
-        Admitted {
-            stages: stages.to_vec(),
-            program: emitted.clone(),
-            libm: certificates.iter().map(claim).collect(),
-            certificates,
-        }
-    }
-
-    /// Whether D, if it is an output and was edited, is positive definite.
-    pub fn is_definite(&self) -> bool {
-        let certain = |certificate: &Certificate| certificate.lambda_min.is_some();
-        !has_edits(&self.stages)
-            || !has_inertia(&self.program)
-            || self.certificates.iter().all(certain)
-    }
-
-    /// Whether every E is within its output's tolerance, and nothing overflows.
-    ///
-    /// # Errors
-    /// [`ToleranceError::Above`] with the first that is not;
-    /// [`ToleranceError::Overflow`].
-    pub fn within(&self, tolerances: &[f64]) -> Result<(), ToleranceError> {
-        self.certificates
-            .iter()
-            .try_for_each(|c| within(c, tolerances))
-    }
-}
-
-fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), ToleranceError> {
-    let mut pairs = certificate.bounds.iter().zip(tolerances);
-    // No number is within nothing.
-    let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
-    match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
-        None => in_range(certificate),
-        Some(index) => Err(ToleranceError::Above {
-            entry: certificate.emitted.entry(index),
-            scalar: certificate.scalar,
-            tolerance: tolerances[index],
-            bound: certificate.bounds[index],
-        }),
-    }
-}
-
-/// Bounds of rounding are of numbers that the scalar holds.
-fn in_range(certificate: &Certificate) -> Result<(), ToleranceError> {
-    let Certificate {
-        emitted,
-        scalar,
-        sines,
-        limits,
-        ..
-    } = certificate;
-    let mut findings = ranges(emitted, *scalar, sines, limits, RANGE_BOXES)
-        .findings
-        .into_iter();
-    match findings.find(|finding| matches!(finding, Finding::Overflow { .. })) {
-        None => Ok(()),
-        Some(finding) => Err(ToleranceError::Overflow {
-            scalar: *scalar,
-            finding,
-        }),
     }
 }

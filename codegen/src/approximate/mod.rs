@@ -3,12 +3,15 @@
 //! - [`prune`]: the cheapest edits that a bound admits; `regrouping`: the exact
 //!   program that they leave least of
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
-//! - [`choose`]: the cheapest variant, with its certificate
+//! - [`choose`]: the cheapest variant; [`admitted`]: with its certificates; [`error`]: why
+//!   there is none
 //!
 //! Nothing here decides what is true: what comes out is claimed in a certificate,
 //! whose check knows nothing of the search.
 
+pub mod admitted;
 pub mod choose;
+pub mod error;
 pub mod prune;
 mod regrouping;
 pub mod sines;

@@ -177,6 +177,7 @@ impl Certificate {
             scales,
             relative_to: None,
             sines: &[],
+            library: Library::Libm,
         };
         let bound_effort = BoundEffort::CERTIFY;
         let sensitivity = subject.sensitivity(bound_effort);
@@ -241,22 +242,39 @@ impl Certificate {
         other.with_sines(setting, &self.sines, sensitivity)
     }
 
-    /// The same claim about the text that calls this library: every bound takes
-    /// its sines to be within one ulp, and whose they are is all the same.
+    /// The claim about the text that calls this library, with what is known of its
+    /// sines; the edits' bounds stay, and so does the least eigenvalue, for which they are
+    /// within one ulp.
     #[must_use]
-    pub fn calling(&self, library: Library) -> Certificate {
-        if !self.sines.is_empty() {
+    pub fn calling(
+        &self,
+        setting: &Setting,
+        library: Library,
+        sensitivity: &Sensitivity,
+    ) -> Certificate {
+        if !self.sines.is_empty() || self.library == library {
             return self.clone();
         }
-        Certificate {
+        let mut other = Certificate {
             library,
             text: printed(&self.emitted, self.scalar, library, &self.sines),
             ..self.clone()
+        };
+        let found = other
+            .subject(setting, &[])
+            .rounding(self.scalar, sensitivity);
+        for (bound, found) in other.bounds.iter_mut().zip(found) {
+            *bound = Split {
+                model: bound.model,
+                ..found
+            };
         }
+        other
     }
 
     /// What its bounds rest on besides arithmetic. Where sines are polynomials,
-    /// nothing is taken for granted of them: their errors are proved.
+    /// nothing is taken for granted of them: their errors are proved. Of called ones it
+    /// is said what is proved and what is assumed.
     pub fn assumptions(&self) -> Vec<&'static str> {
         let mut all = match self.emitted.fuses() {
             true => FUSED_ASSUMPTIONS.to_vec(),
@@ -281,6 +299,11 @@ impl Certificate {
             scales: &self.scales,
             relative_to: self.relative_to,
             sines,
+            // Polynomials call nothing.
+            library: match sines.iter().all(|(_, sines)| sines.is_empty()) {
+                true => self.library,
+                false => Library::Libm,
+            },
         }
     }
 }

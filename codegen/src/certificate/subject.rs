@@ -8,10 +8,12 @@ use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
+use crate::bound::turns::turns_freely;
 use crate::edits::{Stage, difference, has_edits};
-use crate::program::{Library, Program, ScalarType, has_inertia};
+use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
 use crate::scene::Setting;
 use crate::scene::{SceneKey, input_hash};
+use crate::sincos::called::Called;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::Split;
 
@@ -30,8 +32,10 @@ pub struct Subject<'a> {
     pub scales: &'a [f64],
     /// What the scales are, if they are one of these.
     pub relative_to: Option<Scale>,
-    /// The polynomials for sines in each scalar; libm's where there are none.
+    /// The polynomials for sines in each scalar; the library's where there are none.
     pub sines: &'a [(ScalarType, Sines)],
+    /// Who computes the sines that are called.
+    pub library: Library,
 }
 
 impl Subject<'_> {
@@ -70,7 +74,10 @@ impl Subject<'_> {
 
     /// What sines and rounding cost, relative to the scales.
     pub(super) fn rounding(&self, scalar: ScalarType, sensitivity: &Sensitivity) -> Vec<Split> {
-        let found = sensitivity.rounding(scalar, self.sines(scalar));
+        let found = match (self.library, self.sines(scalar)) {
+            (Library::Together, []) => sensitivity.calling(scalar, &self.proved(scalar)),
+            (_, sines) => sensitivity.rounding(scalar, sines),
+        };
         let pairs = found.iter().zip(self.scales);
         pairs
             .map(|(rounding, &scale)| Split {
@@ -78,6 +85,27 @@ impl Subject<'_> {
                 sincos: relative(rounding.sincos, scale),
                 rounding: relative(rounding.arithmetic, scale),
             })
+            .collect()
+    }
+
+    /// The angles that are never beyond what `dalembert-sines` computes itself. What turns
+    /// freely may stand anywhere.
+    fn proved(&self, scalar: ScalarType) -> Vec<AngleSum> {
+        let trig = &self.emitted.trig;
+        let reach = |angle: AngleSum| {
+            let joints = angle.terms().map(|(joint, _)| joint);
+            joints.fold(0.0, |sum, joint| {
+                match turns_freely(self.setting.robot(), trig, joint) {
+                    true => f64::INFINITY,
+                    false => sum + self.limits.position[joint].magnitude(),
+                }
+            })
+        };
+        let largest = Called::largest(scalar);
+        let angles = trig.iter().map(|trig| trig.angle);
+        // A sum of angles is rounded.
+        angles
+            .filter(|&angle| reach(angle) * (1.0 + 1e-5) <= largest)
             .collect()
     }
 
@@ -111,8 +139,8 @@ impl Subject<'_> {
                 stages => stages.to_vec(),
             },
             emitted: self.emitted.clone(),
-            text: printed(self.emitted, scalar, Library::Libm, self.sines(scalar)),
-            library: Library::Libm,
+            text: printed(self.emitted, scalar, self.library, self.sines(scalar)),
+            library: self.library,
             sines: self.sines(scalar).to_vec(),
             bounds,
             lambda_min: None,

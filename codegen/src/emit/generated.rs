@@ -1,6 +1,6 @@
 //! A function with what was found and proved of it.
 
-use crate::approximate::choose::Admitted;
+use crate::approximate::admitted::Admitted;
 use crate::function::Function;
 use crate::portfolio::Source;
 use crate::program::{Counts, Library, Lowered, Program, ScalarType};

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use super::figures::{at_least, bound as up, inside};
 use super::scale;
-use crate::approximate::choose::Admitted;
+use crate::approximate::admitted::Admitted;
 use crate::approximate::prune::{Omission, omissions};
 use crate::certificate::Certificate;
 use crate::function::Argument;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::parameters::ParameterError;
 use super::reason::{Contradiction, NoSines, TextDefect};
-use crate::approximate::choose::ToleranceError;
+use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
 use crate::function::Function;
 use crate::program::ScalarType;

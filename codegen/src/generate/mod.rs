@@ -27,7 +27,7 @@ pub mod tolerate;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
-pub use crate::approximate::choose::{ToleranceError, Unbounded};
+pub use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::backend::entries::angles::Angles;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;

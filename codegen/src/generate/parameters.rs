@@ -5,7 +5,7 @@ use std::fmt;
 use dalembert_model::outputs::{Burden, RuntimeParameter};
 
 use super::request::Request;
-use crate::approximate::choose::Unbounded;
+use crate::approximate::error::Unbounded;
 use crate::backend::Entries;
 use crate::function::{Argument, Function};
 use crate::portfolio::Start;

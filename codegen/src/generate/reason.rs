@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::approximate::choose::NoPolynomials;
+use crate::approximate::error::NoPolynomials;
 use crate::backend::read::TextError;
 use crate::certificate::Refuted;
 use crate::program::Difference;

@@ -6,7 +6,9 @@
 
 use dalembert_model::scene::Tolerance;
 
-use crate::approximate::choose::{Admitted, Claim, ErrorBudget, NoPolynomials, ToleranceError};
+use crate::approximate::admitted::{Admitted, Claim};
+use crate::approximate::choose::ErrorBudget;
+use crate::approximate::error::{NoPolynomials, ToleranceError};
 use crate::approximate::prune::Settings;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
@@ -229,8 +231,10 @@ fn one(
         let all: Result<_, GenerateError> = admitted.certificates.iter().map(with).collect();
         admitted.certificates = all?;
     }
+    let library = request.math.library;
     for certificate in &mut admitted.certificates {
-        *certificate = certificate.calling(request.math.library);
+        let found = budget.calling(certificate, library, &tolerances, bound_effort);
+        *certificate = found.map_err(fail)?;
     }
     Ok(admitted)
 }

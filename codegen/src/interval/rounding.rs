@@ -41,3 +41,12 @@ pub fn forward<C: PartialEq, I: PartialEq>(
     }
     Forward { values, own }
 }
+
+/// The largest power of two that is at most x; x if that is no normal number.
+/// Rounding a number that is no larger than x moves it by at most this times u.
+pub fn binade(x: f64) -> f64 {
+    match x.is_normal() && x > 0.0 {
+        true => f64::from_bits(x.to_bits() & !((1 << 52) - 1)),
+        false => x,
+    }
+}

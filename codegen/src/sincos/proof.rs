@@ -74,24 +74,33 @@ pub fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Err
 }
 
 fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
+    let approximations = approximations(kernel, range)?;
+    let rounding = rounding(kernel, scalar, range);
+    let one = |value: Option<Value>, approximation: f64, rounding: f64| match value {
+        None => 0.0,
+        Some(_) => (approximation + rounding).next_up(),
+    };
+    let errors = Errors {
+        sin: one(kernel.sin, approximations.sin, rounding.sin),
+        cos: one(kernel.cos, approximations.cos, rounding.cos),
+    };
+    errors.worst().is_finite().then_some(errors)
+}
+
+/// What a kernel is off with exact arithmetic.
+pub(super) fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
     if range.magnitude().is_nan() || range.magnitude() > FARTHEST {
         return None;
     }
     let values = expand(kernel)?;
-    let rounding = rounding(kernel, scalar, range);
-    let one = |value: Option<Value>, wave, rounding: f64| match value {
+    let one = |value: Option<Value>, wave| match value {
         None => Some(0.0),
-        Some(value) => {
-            let poly = result(value, &values)?;
-            let approximation = approximation(&poly, wave, range)?;
-            Some((approximation + rounding).next_up())
-        }
+        Some(value) => approximation(&result(value, &values)?, wave, range),
     };
-    let errors = Errors {
-        sin: one(kernel.sin, Wave::Sin, rounding.sin)?,
-        cos: one(kernel.cos, Wave::Cos, rounding.cos)?,
-    };
-    errors.worst().is_finite().then_some(errors)
+    Some(Errors {
+        sin: one(kernel.sin, Wave::Sin)?,
+        cos: one(kernel.cos, Wave::Cos)?,
+    })
 }
 
 /// The polynomial of each step.

@@ -7,7 +7,7 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
-use dalembert_codegen::approximate::choose::Admitted;
+use dalembert_codegen::approximate::admitted::Admitted;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::search::{self, Found};

@@ -3,7 +3,8 @@
 //! From the largest tolerance down: where nothing more can be left out, less
 //! tolerance leaves out nothing either, and no search is needed.
 
-use dalembert_codegen::approximate::choose::{Admitted, ErrorBudget};
+use dalembert_codegen::approximate::admitted::Admitted;
+use dalembert_codegen::approximate::choose::ErrorBudget;
 use dalembert_codegen::approximate::prune::Settings;
 use dalembert_codegen::bound::sensitivity::BoundEffort;
 use dalembert_codegen::certificate::Certificate;

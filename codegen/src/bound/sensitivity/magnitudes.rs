@@ -20,9 +20,10 @@
 
 use super::extremes::Extremes;
 use super::intervals::{Constants, is_exact, read};
-use super::{Rounding, binade, note};
+use super::{Rounding, note};
 use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
+use crate::interval::rounding::binade;
 use crate::program::fused::underflows;
 use crate::program::scalar_type::underflow;
 use crate::program::{Operand, Operation, Program, ScalarType};

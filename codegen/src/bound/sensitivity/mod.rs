@@ -3,8 +3,9 @@
 //! **Model** (named in certificates). Every operation gives
 //! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
 //! products and η = 0 for sums; literals are constants rounded once; `sin`
-//! and `cos` are within one ulp, which is at most u·2 relative and u
-//! absolute, or polynomials within their proved errors; nothing is contracted
+//! and `cos` are libm's within one ulp, which is at most u·2 relative and u
+//! absolute, or within the errors that are proved of `dalembert-sines`
+//! ([`called`](crate::sincos::called)) or of polynomials; nothing is contracted
 //! to a fused multiply-add but what the program fuses: there the product has
 //! neither δ nor η, and the sum that takes it an η as products have.
 //!
@@ -35,7 +36,7 @@ mod together;
 use crate::bound::distinct::Distinct;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::BoxEffort;
-use crate::program::{Operand, Program, ScalarType};
+use crate::program::{AngleSum, Operand, Program, ScalarType};
 use crate::sincos::AngleKernel;
 use extremes::Extremes;
 pub(super) use intervals::{Constants, forward};
@@ -156,8 +157,18 @@ impl Sensitivity {
     /// Bounds, one an output, with polynomials for sines, whose errors are as
     /// they are claimed; angles that are not among them are libm's.
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
+        self.with(scalar, Constants::of(&self.program, scalar, sines))
+    }
+
+    /// Bounds where sines are called from `dalembert-sines`: of these angles their errors
+    /// are proved, and those of the others within one ulp.
+    pub fn calling(&self, scalar: ScalarType, proved: &[AngleSum]) -> Vec<Rounding> {
+        let constants = Constants::of(&self.program, scalar, &[]);
+        self.with(scalar, constants.calling(scalar, proved))
+    }
+
+    fn with(&self, scalar: ScalarType, constants: Constants) -> Vec<Rounding> {
         let (program, limits) = (&self.program, &self.limits);
-        let constants = Constants::of(program, scalar, sines);
         let boxes = self.bound_effort.boxes;
         let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
         let Some(extremes) = &self.extremes else {
@@ -167,15 +178,6 @@ impl Sensitivity {
         let pairs = coarse.into_iter().zip(fine);
         let least: Vec<Rounding> = pairs.map(|(a, b)| a.min(b)).collect();
         self.distinct.spread(&least)
-    }
-}
-
-/// The largest power of two that is at most x; x if that is no normal number.
-/// Rounding a number that is no larger than x moves it by at most this times u.
-fn binade(x: f64) -> f64 {
-    match x.is_normal() && x > 0.0 {
-        true => f64::from_bits(x.to_bits() & !((1 << 52) - 1)),
-        false => x,
     }
 }
 

@@ -13,7 +13,6 @@
 
 use std::f64::consts::PI;
 
-use super::binade;
 use super::gradient::{Adjoints, Gradient};
 use super::intervals::{Constants, is_exact, read};
 use crate::bound::expand::Polynomial;
@@ -21,6 +20,7 @@ use crate::bound::grid::{GridEffort, Largest, Product, Products};
 use crate::bound::input_box::InputBox;
 use crate::graph::Edge;
 use crate::interval::Interval;
+use crate::interval::rounding::binade;
 use crate::program::{Input, Operand, Operation, Program, ScalarType};
 
 /// How close a bound is to come to a sum that is taken.

@@ -1,0 +1,117 @@
+//! What is proved of the called sines, against what the crate computes.
+
+use super::*;
+use crate::program::Operand;
+use crate::random::Random;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::big::Big;
+
+/// Below what is said in certificates, and not far above what was measured
+/// (`sines/tests/accuracy.rs`): 0.8166 and 0.7999 u.
+#[test]
+fn less_than_stated_is_proved_in_both_scalars() {
+    for scalar in ScalarType::ALL {
+        let u = scalar.unit_roundoff();
+        let called = Called::of(scalar).unwrap();
+        let worst = called.error(1.0) / u;
+        println!("{scalar}: {worst} u, cosine {} u", called.cosine / u);
+        assert!(worst > 0.79 && worst <= STATED, "{scalar}: {worst}");
+        // Small ones err less, and relative to their size by less than is assumed of
+        // libm's, for which an ulp is up to 2 u of it.
+        let relative = |k: i32| {
+            let size = 0.5 * 0.96f64.powi(k);
+            called.error(size) / (u * size)
+        };
+        let worst = (0..200).map(relative).fold(0.0, f64::max);
+        println!("{scalar}: {worst} u of small sines");
+        assert!(worst < 2.0, "{scalar}: {worst}");
+    }
+}
+
+/// What was recorded is the crate's, to the last bit: the kernel runs as it does where
+/// no quarter turn is taken off.
+#[test]
+fn the_recorded_text_is_the_routine() {
+    let mut random = Random::new(3);
+    let kernels = ScalarType::ALL.map(|scalar| (scalar, trace::trace(scalar)));
+    for _ in 0..1000 {
+        let x = 1.5 * (random.unit() - 0.5);
+        for (scalar, kernel) in &kernels {
+            match scalar {
+                ScalarType::F64 => {
+                    let ([sin], [cos]) = dalembert_sines::sincos(&[x]);
+                    assert_eq!(kernel.run(x), (sin, cos));
+                }
+                ScalarType::F32 => {
+                    let ([sin], [cos]) = dalembert_sines::sincosf(&[x as f32]);
+                    assert_eq!(kernel.run(x as f32), (sin, cos));
+                }
+            }
+        }
+    }
+}
+
+/// Nothing that is computed is further off than is proved, large and small alike.
+#[test]
+fn no_sine_is_further_off() {
+    let mut random = Random::new(4);
+    let called = ScalarType::ALL.map(|scalar| Called::of(scalar).unwrap());
+    for index in 0..600 {
+        let reach = [8192.0, 3.2, 0.3, 1e-3][index % 4];
+        let turns = core::f64::consts::PI * (index % 3) as f64;
+        let x = (turns + reach * (2.0 * random.unit() - 1.0)).clamp(-8192.0, 8192.0);
+        let single = (x as f32).clamp(-100.0, 100.0);
+        let ([sin], [cos]) = dalembert_sines::sincos(&[x]);
+        let ([sinf], [cosf]) = dalembert_sines::sincosf(&[single]);
+        let runs = [
+            (x, [sin, cos]),
+            (f64::from(single), [sinf.into(), cosf.into()]),
+        ];
+        for (called, (x, found)) in called.iter().zip(runs) {
+            let (sin, cos) = Big::from_f64(x).unwrap().sin_cos();
+            for (found, exact) in found.into_iter().zip([sin, cos]) {
+                let error = Big::from_f64(found).unwrap().sub(&exact).abs().to_f64();
+                let size = exact.abs().to_f64();
+                assert!(error <= called.error(size), "{x:e}: {error:e} of {size:e}");
+            }
+        }
+    }
+}
+
+/// Another literal or another operation shows in the bound, or ends it.
+#[test]
+fn another_text_has_another_bound() {
+    let scalar = ScalarType::F64;
+    let kernel = trace::trace(scalar);
+    let (parts, _) = reduction::split(&kernel, scalar).unwrap();
+    let largest = Called::largest(scalar);
+    assert!(reduction::bound(&parts, scalar, largest).is_some());
+    // Beyond, a count times a part of π/2 is no float any more.
+    assert!(reduction::bound(&parts, scalar, 64.0 * largest).is_none());
+    for step in 0..11 {
+        let mut other = kernel.clone();
+        other.steps[step].left = crate::program::kernel::literal(1.0);
+        assert!(reduction::split(&other, scalar).is_none(), "{step}");
+    }
+    assert!(reduction::split(&kernel, ScalarType::F32).is_none());
+    let proved = Called::prove_of(&kernel, scalar).unwrap();
+    for index in 11..kernel.steps.len() {
+        let mut other = kernel.clone();
+        let step = &mut other.steps[index];
+        let mut changed = false;
+        for operand in [&mut step.left, &mut step.right] {
+            // What one is taken from is put back by the difference that follows.
+            if let Operand::Constant(literal) = operand
+                && literal.0 != 1.0
+            {
+                literal.0 *= 1.0 + 1e-3;
+                changed = true;
+            }
+        }
+        if changed {
+            let worse = Called::prove_of(&other, scalar);
+            let shows = worse.is_none_or(|worse| worse.error(1.0) > proved.error(1.0));
+            assert!(shows, "{index}");
+        }
+    }
+}
