@@ -19,7 +19,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::plan;
 use dalembert_codegen::program::{Library, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::sincos::{self, SinCos};
 use dalembert_model::read;
 
@@ -52,7 +52,7 @@ fn the_bench_of_sines_is_up_to_date() {
         .collect();
     let sensitivity = Sensitivity::of(program, &limits, fineness);
     let sines = within(program, scalar, &limits.position, &allowances, &sensitivity).unwrap();
-    let certificate = libm.with_sines(&Setting::whole(&robot), &sines, &sensitivity);
+    let certificate = libm.with_sines(&SceneRobot::whole(&robot), &sines, &sensitivity);
     for bound in &certificate.bounds {
         assert!(bound.total() <= TOLERANCE, "{bound:?}");
     }

@@ -4,7 +4,7 @@
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::{Source, Start};
 use dalembert_codegen::program::Counts;
-use dalembert_codegen::simplify::Stage;
+use dalembert_codegen::simplify::Pass;
 use dalembert_model::robot::Robot;
 use dalembert_report::table3::{self, FORMULATIONS, JOINTS, Pair, Row};
 use serde_json::{Map, Value, json};
@@ -62,24 +62,24 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
     for (formulation, name) in FORMULATIONS {
         let found = table3::comparison(robot, formulation)?;
         let key = Source::Textbook(formulation).name();
-        starts.push((key, name, Some([found.paper, found.written]), found.stages));
+        starts.push((key, name, Some([found.paper, found.written]), found.passes));
     }
     starts.push((
         "auto",
         "the best start (auto)",
         None,
-        table3::stages(robot, Start::Auto)?,
+        table3::passes(robot, Start::Auto)?,
     ));
     if as_json {
         let formulations: Map<String, Value> = starts
             .iter()
-            .map(|(key, _, formula, stages)| {
+            .map(|(key, _, formula, passes)| {
                 let mut value = json!({});
                 if let Some([paper, written]) = formula {
                     value["paper"] = pair_json(*paper);
                     value["as_written"] = pair_json(*written);
                 }
-                value["stages"] = stages.iter().map(stage_json).collect();
+                value["stages"] = passes.iter().map(stage_json).collect();
                 ((*key).to_owned(), value)
             })
             .collect();
@@ -96,14 +96,14 @@ fn robot(robot: &Robot, as_json: bool) -> Outcome {
         robot.name,
         robot.short_hash()
     );
-    for (_, name, formula, stages) in &starts {
+    for (_, name, formula, passes) in &starts {
         text += &format!("\nfrom {name}\n");
         let mut lines = Vec::new();
         if let Some([paper, written]) = formula {
             lines.push(vec!["Table 3".to_owned(), pair_text(*paper)]);
             lines.push(vec!["formula as written".to_owned(), pair_text(*written)]);
         }
-        for Stage { name, counts } in stages {
+        for Pass { name, counts } in passes {
             lines.push(vec![(*name).to_owned(), counts_text(counts)]);
         }
         text += &output::table(&lines, 0);
@@ -124,7 +124,7 @@ fn row_json(row: &Row) -> Value {
     value
 }
 
-fn stage_json(stage: &Stage) -> Value {
+fn stage_json(stage: &Pass) -> Value {
     let mut value = json!({ "stage": stage.name });
     if let (Value::Object(value), Value::Object(counts)) =
         (&mut value, output::counts(&stage.counts))

@@ -15,7 +15,7 @@
 //! - `split`: the error of emitted code by cause
 //! - `watch`: watching a long search, and ending it early
 //! - `simplify`: fewer operations, same function
-//! - `scene`: the robot in its setting: locked joints, results asked for
+//! - `scene`: the robot in its scene: locked joints, results asked for
 //! - `trace`: the equations as a graph
 //! - `portfolio`: the formulations to start from, tuned to the robot
 //! - `schedule`: from a graph to straight-line code

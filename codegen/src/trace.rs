@@ -13,7 +13,7 @@ use crate::function::{Argument, Function};
 use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Folding, Graph, Node};
 use crate::program::{Counts, Input};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// A traced function.
 #[derive(Clone, Debug)]
@@ -24,15 +24,15 @@ pub struct Trace {
     pub traced: Counts,
 }
 
-/// The motion of a setting in symbols. Of the arguments that are no part of a
+/// The motion of a robot in its scene in symbols. Of the arguments that are no part of a
 /// state only these are inputs: a search pairs whatever a graph has, and what
 /// nothing reads would only be in its way.
 pub fn symbols(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     arguments: &[Argument],
     builder: &Rc<RefCell<Builder>>,
 ) -> Motion<Symbol> {
-    setting.motion(reader(arguments, builder), |constant| {
+    scene_robot.motion(reader(arguments, builder), |constant| {
         Symbol::from(constant.clone())
     })
 }
@@ -46,28 +46,28 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
     }
 }
 
-/// Whether a function of a setting depends on what Coulomb friction reads of
+/// Whether a function of a robot in its scene depends on what Coulomb friction reads of
 /// speeds.
-pub fn feels_coulomb(setting: &Setting, function: Function) -> bool {
-    if !setting.has_coulomb() {
+pub fn feels_coulomb(scene_robot: &SceneRobot, function: Function) -> bool {
+    if !scene_robot.has_coulomb() {
         return false;
     }
-    let graph = trace(setting, function, Formulation::NewtonEulerLink).graph;
+    let graph = trace(scene_robot, function, Formulation::NewtonEulerLink).graph;
     let live = graph.live();
     let mut nodes = graph.nodes.iter().zip(&live);
     nodes.any(|(node, live)| *live && matches!(node, Node::Input(Input::PerSpeed(_))))
 }
 
-/// Runs a formulation with symbols in a setting.
-pub fn trace(setting: &Setting, function: Function, formulation: Formulation) -> Trace {
+/// Runs a formulation with symbols in a scene.
+pub fn trace(scene_robot: &SceneRobot, function: Function, formulation: Formulation) -> Trace {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let constant = |constant: &Exact| Symbol::from(constant.clone());
-    let arm = Arm::from_robot(setting.robot(), &mut { constant });
+    let arm = Arm::from_robot(scene_robot.robot(), &mut { constant });
     // As the textbook has it, a payload is a body and no load.
-    let mut arguments = setting.arguments(function);
+    let mut arguments = scene_robot.arguments(function);
     arguments.push(Argument::Payload);
-    let posed = setting.posed(function, arm, reader(&arguments, &builder), constant);
-    let outputs = posed.results(setting, function, formulation);
+    let posed = scene_robot.posed(function, arm, reader(&arguments, &builder), constant);
+    let outputs = posed.results(scene_robot, function, formulation);
     let outputs: Vec<_> = outputs
         .iter()
         .map(|output| output.value(&mut builder.borrow_mut()))

@@ -5,7 +5,7 @@ use crate::support::{arm_file, dose, read_robot};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GeneratedFunction, Prefer, Request, generate};
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::floating::Runtime;
 use dalembert_codegen::verify::rounding::Rounding;
@@ -78,8 +78,8 @@ fn the_estimate_is_what_is_observed() {
         };
         let generated = generate(&robot, &request).unwrap();
         let program = &generated.functions[0].program;
-        let estimate = Rounding::estimate(&Setting::whole(&robot), program).worst();
-        let runtime = Runtime::in_setting(Setting::whole(&robot));
+        let estimate = Rounding::estimate(&SceneRobot::whole(&robot), program).worst();
+        let runtime = Runtime::in_scene(SceneRobot::whole(&robot));
         let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         let mut observed = 0.0f64;
         for state in seeded(&robot, 300, 7) {

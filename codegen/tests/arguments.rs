@@ -105,9 +105,9 @@ fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64>
 /// the largest met.
 fn check(robot: &Robot, request: &Request, states: usize) {
     let generated = generate(robot, request);
-    let setting = request.setting(robot).unwrap();
-    let states = setting.states(states, 0x6c6f_6164);
-    let own = Runtime::in_setting(setting);
+    let scene_robot = request.scene_robot(robot).unwrap();
+    let states = scene_robot.states(states, 0x6c6f_6164);
+    let own = Runtime::in_scene(scene_robot);
     for emitted in &generated.emitted {
         let name = (&robot.name, emitted.function, emitted.scalar);
         // What verifies the functions of a command.
@@ -209,7 +209,7 @@ fn a_payload_is_in_the_links_own_frame() {
         ..placed.clone()
     };
     let [of_frames, of_rows] = [&placed, &rows].map(|robot| generate(robot, &request));
-    for state in request.setting(&placed).unwrap().states(10, 7) {
+    for state in request.scene_robot(&placed).unwrap().states(10, 7) {
         let &[mass, x, y, z, xx, yy, zz, xy, yz, xz] = state.payload.as_slice() else {
             panic!("a payload has ten numbers");
         };
@@ -240,7 +240,7 @@ fn a_load_of_nothing_is_the_robot() {
     let request = request(&[Function::InverseDynamics], PAYLOAD);
     let generated = generate(&robot, &request);
     let runtime = Runtime::new(&robot);
-    for mut state in request.setting(&robot).unwrap().states(20, 5) {
+    for mut state in request.scene_robot(&robot).unwrap().states(20, 5) {
         state.payload.fill(0.0);
         let [_, emitted] = [0, 1].map(|place| &generated.emitted[place]);
         let found = run(&generated, emitted, &state);
@@ -311,8 +311,8 @@ fn loads_in_scenes() {
         ..request(&functions, PAYLOAD)
     };
     let generated = generate(&robot, &request);
-    let setting = request.setting(&robot).unwrap();
-    for state in setting.states(10, 9) {
+    let scene_robot = request.scene_robot(&robot).unwrap();
+    for state in scene_robot.states(10, 9) {
         let carrying = Scene {
             payload: None,
             ..scene.clone()
@@ -322,7 +322,7 @@ fn loads_in_scenes() {
             scene: Some(carrying),
             ..Request::default()
         };
-        let runtime = Runtime::in_setting(expected.setting(&merged).unwrap());
+        let runtime = Runtime::in_scene(expected.scene_robot(&merged).unwrap());
         for emitted in &generated.emitted {
             if emitted.function == Function::Load || emitted.scalar == ScalarType::F32 {
                 continue;
@@ -342,12 +342,12 @@ fn loads_in_scenes() {
 fn wrong_entries_are_disproved() {
     let robot = support::robot("planar3r");
     let request = request(&[Function::InverseDynamics], BOTH);
-    let setting = request.setting(&robot).unwrap();
+    let scene_robot = request.scene_robot(&robot).unwrap();
     let generated = generate(&robot, &request);
     let mut planted = 0;
     for function in &generated.functions {
         let program = &function.program;
-        assert!(prove(&setting, program).is_ok());
+        assert!(prove(&scene_robot, program).is_ok());
         for argument in [Argument::Load, Argument::Gravity, Argument::Payload] {
             let length = argument.length(program.sizes());
             for entry in 0..length {
@@ -359,14 +359,14 @@ fn wrong_entries_are_disproved() {
                 };
                 let wrong = with_inputs(program, other);
                 if wrong != *program {
-                    assert!(prove(&setting, &wrong).is_err(), "{argument:?} {entry}");
+                    assert!(prove(&scene_robot, &wrong).is_err(), "{argument:?} {entry}");
                     planted += 1;
                 }
             }
         }
         let mut swapped = program.clone();
         swapped.outputs.swap(0, 1);
-        assert!(prove(&setting, &swapped).is_err());
+        assert!(prove(&scene_robot, &swapped).is_err());
     }
     assert!(planted > 10, "{planted}");
 }

@@ -69,8 +69,8 @@ fn auto_is_never_dearer_than_one_formulation() {
                 let one = support::from(&support::robot(name), function, Start::Only(formulation));
                 // Sines and cosines weigh more than operations: a few more of
                 // these may stand for fewer of those.
-                let stages = &one.functions[0].stages;
-                let folded = stages[1].counts.operations();
+                let passes = &one.functions[0].passes;
+                let folded = passes[1].counts.operations();
                 assert!(auto <= folded, "{name} {function} {formulation:?}");
             }
         }

@@ -11,7 +11,7 @@ use dalembert_codegen::generate::keep::keep;
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::plan::Plan;
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::states;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
@@ -227,8 +227,8 @@ velocity = "zero"
         "{text}"
     );
     assert!(text.contains("pub c: [f64; 2],") && text.contains("pub jacobian: [[f64; 2]; 6],"));
-    let setting = Setting::new(&reading.robot, scene).unwrap();
-    let runtime = Runtime::in_setting(setting);
+    let scene_robot = SceneRobot::new(&reading.robot, scene).unwrap();
+    let runtime = Runtime::in_scene(scene_robot);
     let states = states::seeded(&reading.robot, 50, 3);
     for emitted in &generated.emitted {
         for measure in emitted.against_runtime(&runtime, &states) {

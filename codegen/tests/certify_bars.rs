@@ -2,7 +2,7 @@
 //!
 //! Minutes without optimisation, so they run in release only.
 
-use dalembert_codegen::approximate::prune::{Settings, prune};
+use dalembert_codegen::approximate::prune::{PruneSettings, prune};
 use dalembert_codegen::bound::definite::least_eigenvalue;
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::scale;
@@ -11,7 +11,7 @@ use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 
 use crate::support;
 
@@ -22,9 +22,9 @@ fn bar(tolerance: f64, operations: usize) {
     let limits = InputBox::of(&robot).unwrap();
     let scales = scale::actuator(&robot, program).unwrap();
     let allowances: Vec<f64> = scales.iter().map(|t| t * tolerance).collect();
-    let settings = Settings {
+    let settings = PruneSettings {
         retries: 4,
-        ..Settings::default()
+        ..PruneSettings::default()
     };
     let pruned = prune(program, &limits, &allowances, &settings);
     let counts = pruned.program.counts();
@@ -37,7 +37,7 @@ fn bar(tolerance: f64, operations: usize) {
         &limits,
         &scales,
     );
-    certificate.check(&Setting::whole(&robot)).unwrap();
+    certificate.check(&SceneRobot::whole(&robot)).unwrap();
     let falsification = falsify(&certificate, 20_000, 4, 7).unwrap();
     assert_eq!(falsification.violation, None);
     let worst = |values: Vec<f64>| values.into_iter().fold(0.0, f64::max);

@@ -3,7 +3,7 @@
 //! whole campaign is in `src/certificate/README.md`; this is its smaller dose.
 
 use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::approximate::prune::Settings;
+use dalembert_codegen::approximate::prune::PruneSettings;
 use dalembert_codegen::bound::magnitude::BoxEffort;
 use dalembert_codegen::bound::sensitivity::BoundEffort;
 use dalembert_codegen::certificate::Certificate;
@@ -11,7 +11,7 @@ use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_model::scene::{Scale, Scene};
 
 use crate::support;
@@ -60,15 +60,15 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
         .functions
         .remove(0)
         .program;
-    let setting = Setting::of(&reading.robot, bare.as_ref()).unwrap();
-    let frame = ErrorBudget::new(&setting, &exact, Scale::Range).unwrap();
-    let settings = Settings {
+    let scene_robot = SceneRobot::of(&reading.robot, bare.as_ref()).unwrap();
+    let frame = ErrorBudget::new(&scene_robot, &exact, Scale::Range).unwrap();
+    let settings = PruneSettings {
         samples: 24,
         guesses,
         retries: 0,
         stages: 1,
         budget: FINENESS.budget,
-        ..Settings::default()
+        ..PruneSettings::default()
     };
     let tolerances = vec![tolerance; frame.scales.len()];
     let admitted = frame

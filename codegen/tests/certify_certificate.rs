@@ -1,6 +1,6 @@
 //! Certificates hold, are tight enough, and are caught when they lie.
 
-use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
+use dalembert_codegen::approximate::prune::{PruneSettings, Pruned, prune};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::magnitude::{BoxEffort, magnitudes};
 use dalembert_codegen::bound::ranges::{Finding, ranges};
@@ -12,7 +12,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::graph::Folding;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
 
@@ -33,8 +33,8 @@ fn exact(robot: &Robot) -> Program {
     generated.functions[0].program.clone()
 }
 
-fn settings() -> Settings {
-    Settings {
+fn settings() -> PruneSettings {
+    PruneSettings {
         samples: 64,
         guesses: 4,
         retries: 6,
@@ -42,7 +42,7 @@ fn settings() -> Settings {
             points: 1 << 14,
             ..BoxEffort::QUICK
         },
-        ..Settings::default()
+        ..PruneSettings::default()
     }
 }
 
@@ -97,7 +97,7 @@ fn a_pruned_program_is_cheaper_certified_and_not_refuted() {
     let (before, after) = (case.program.counts(), case.pruned.program.counts());
     assert!(after.operations() < before.operations(), "{after}");
     let certificate = case.certificate(ScalarType::F64);
-    certificate.check(&Setting::whole(&case.robot)).unwrap();
+    certificate.check(&SceneRobot::whole(&case.robot)).unwrap();
     let falsification = falsify(&certificate, 2000, 3, 1).unwrap();
     assert_eq!(
         falsification.violation, None,
@@ -123,7 +123,7 @@ fn a_bound_made_too_small_is_caught_by_the_check_and_by_the_sampler() {
     let mut lie = honest.clone();
     lie.bounds[worst].model /= 4.0;
     assert!(matches!(
-        lie.check(&Setting::whole(&case.robot)),
+        lie.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Bound { .. })
     ));
     let found = falsify(&lie, 2000, 3, 1).unwrap();
@@ -132,7 +132,7 @@ fn a_bound_made_too_small_is_caught_by_the_check_and_by_the_sampler() {
     let mut rounding = honest.clone();
     rounding.bounds[0].rounding /= 2.0;
     assert!(matches!(
-        rounding.check(&Setting::whole(&case.robot)),
+        rounding.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Bound { .. })
     ));
 }
@@ -144,19 +144,22 @@ fn every_other_lie_is_caught() {
 
     let mut other = case.robot.clone();
     other.joints[0].mass = dalembert_model::number::Rational::from_integer(3.into());
-    assert_eq!(honest.check(&Setting::whole(&other)), Err(Refuted::Robot));
+    assert_eq!(
+        honest.check(&SceneRobot::whole(&other)),
+        Err(Refuted::Robot)
+    );
 
     let mut forgotten = honest.clone();
     forgotten.stages[0].edits.pop();
     assert_eq!(
-        forgotten.check(&Setting::whole(&case.robot)),
+        forgotten.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Step(0))
     );
 
     let mut text = honest.clone();
     text.text = text.text.replacen(" + ", " - ", 1);
     assert!(matches!(
-        text.check(&Setting::whole(&case.robot)),
+        text.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Text { .. })
     ));
 
@@ -164,7 +167,7 @@ fn every_other_lie_is_caught() {
     let output = &mut exact.stages[0].program.outputs[0];
     output.negative = !output.negative;
     assert!(matches!(
-        exact.check(&Setting::whole(&case.robot)),
+        exact.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Exact(_))
     ));
 
@@ -180,14 +183,14 @@ fn every_other_lie_is_caught() {
         value,
     }];
     assert!(matches!(
-        edit.check(&Setting::whole(&case.robot)),
+        edit.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Edits(0, _))
     ));
 
     let mut short = honest;
     short.bounds.pop();
     assert_eq!(
-        short.check(&Setting::whole(&case.robot)),
+        short.check(&SceneRobot::whole(&case.robot)),
         Err(Refuted::Shape)
     );
 }
@@ -283,7 +286,7 @@ fn rounding_is_bounded_and_not_wildly() {
     let program = exact(&robot);
     let scales = [20.0, 10.0, 5.0];
     let certificate = Certificate::make(&robot, &[], &program, ScalarType::F32, &limits, &scales);
-    certificate.check(&Setting::whole(&robot)).unwrap();
+    certificate.check(&SceneRobot::whole(&robot)).unwrap();
     let falsification = falsify(&certificate, 4000, 3, 2).unwrap();
     assert_eq!(falsification.violation, None);
     for (bound, seen) in certificate.bounds.iter().zip(&falsification.observed) {

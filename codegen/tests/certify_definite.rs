@@ -1,6 +1,6 @@
 //! D stays positive definite where terms were left out, and that is certified.
 
-use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
+use dalembert_codegen::approximate::prune::{PruneSettings, Pruned, prune};
 use dalembert_codegen::bound::definite::{Indefinite, least_eigenvalue};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::bound::sample::draw;
@@ -14,7 +14,7 @@ use dalembert_codegen::plan::{Edited, Entry, Plan};
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Program, ScalarType};
 use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
+use dalembert_codegen::scene::{SceneKey, SceneRobot, input_hash};
 use dalembert_codegen::states::JointState;
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Options, Reading, parse};
@@ -47,11 +47,11 @@ fn certificate(
 fn pruned(program: &Program, limits: &InputBox, stages: usize, alike: usize) -> Pruned {
     let ranges = scale::range(program, limits);
     let allowances: Vec<f64> = ranges.iter().map(|t| 0.15 * t).collect();
-    let settings = Settings {
+    let settings = PruneSettings {
         retries: 2,
         stages,
         alike,
-        ..Settings::default()
+        ..PruneSettings::default()
     };
     prune(program, limits, &allowances, &settings)
 }
@@ -69,7 +69,7 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     let found = pruned(&program, &limits, 3, 4);
     let found = certificate(&robot, &found.stages, &found.program, &limits);
     assert!(found.lambda_min.is_some_and(|least| least > 0.0));
-    found.check(&Setting::whole(&robot)).unwrap();
+    found.check(&SceneRobot::whole(&robot)).unwrap();
 
     for joint in &mut robot.joints {
         joint.armature = Rational::from_integer(1.into());
@@ -80,7 +80,7 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     assert!(counts.1.operations() < counts.0.operations(), "{counts:?}");
     let honest = certificate(&robot, &pruned.stages, &pruned.program, &limits);
     assert!(honest.lambda_min.is_some_and(|least| least > 0.0));
-    honest.check(&Setting::whole(&robot)).unwrap();
+    honest.check(&SceneRobot::whole(&robot)).unwrap();
     // A fiftieth of a value that is taken is the least that is ever claimed.
     for lie in [
         honest.lambda_min.map(|least| 60.0 * least),
@@ -89,7 +89,7 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     ] {
         let mut other = honest.clone();
         other.lambda_min = lie;
-        let refuted = other.check(&Setting::whole(&robot));
+        let refuted = other.check(&SceneRobot::whole(&robot));
         assert!(
             matches!(refuted, Err(Refuted::Eigenvalue { .. })),
             "{lie:?}"
@@ -130,7 +130,7 @@ fn a_plan_keeps_the_least_eigenvalue() {
             start: request.start,
             scalar: claim.scalar,
             source: found.source,
-            stages: found.stages,
+            passes: found.passes,
             scene: request.scene.as_ref().map(SceneKey::of),
             parameters: None,
             program: admitted.stages[0].program.clone(),
@@ -151,10 +151,10 @@ fn a_plan_keeps_the_least_eigenvalue() {
     assert!(replayed.planned);
     let again = replayed.admitted.unwrap();
     assert_eq!(again.libm, admitted.libm);
-    let setting = Setting::of(robot, request.scene.as_ref()).unwrap();
+    let scene_robot = SceneRobot::of(robot, request.scene.as_ref()).unwrap();
     for (certificate, first) in again.certificates.iter().zip(&admitted.certificates) {
         assert_eq!(certificate.lambda_min, first.lambda_min);
-        certificate.check(&setting).unwrap();
+        certificate.check(&scene_robot).unwrap();
     }
     for (line, words) in [
         ("# ", "expected `eigenvalue`"),
@@ -193,7 +193,7 @@ fn a_singular_d_gets_no_certificate() {
             let made = certificate(&robot, &[stage], &emitted, &limits);
             assert_eq!(made.lambda_min, None);
             assert!(matches!(
-                made.check(&Setting::whole(&robot)),
+                made.check(&SceneRobot::whole(&robot)),
                 Err(Refuted::Indefinite(_))
             ));
             found += 1;
@@ -247,9 +247,9 @@ fn sines_that_are_off_leave_d_positive() {
                 lambda_min: None,
                 ..certificate.clone()
             };
-            let setting = Setting::new(&robot, &scenes[0]).unwrap();
+            let scene_robot = SceneRobot::new(&robot, &scenes[0]).unwrap();
             assert!(matches!(
-                silent.check(&setting),
+                silent.check(&scene_robot),
                 Err(Refuted::Eigenvalue { .. })
             ));
         }

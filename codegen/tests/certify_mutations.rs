@@ -11,7 +11,7 @@ use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::plan::{Edited, Entry, Plan};
 use dalembert_codegen::program::{Library, ScalarType};
 use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::scene::input_hash;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::JointState;
@@ -87,12 +87,12 @@ fn certificate(generated: &Generated) -> &Certificate {
 fn honest() -> Vec<Certificate> {
     let all = [SinCos::Libm, SinCos::Polynomial { error: None }];
     let all = all.map(|sincos| certificate(&generated(sincos).1).clone());
-    let setting = Setting::new(
+    let scene_robot = SceneRobot::new(
         &reading(ROBOT).unwrap().robot,
         &reading(ROBOT).unwrap().scenes[0],
     );
     let sensitivity = Sensitivity::of(&all[0].emitted, &all[0].limits, BoundEffort::QUICK);
-    let together = all[0].calling(&setting.unwrap(), Library::Together, &sensitivity);
+    let together = all[0].calling(&scene_robot.unwrap(), Library::Together, &sensitivity);
     all.into_iter().chain([together]).collect()
 }
 
@@ -197,8 +197,8 @@ fn execute(text: &str, state: &JointState, scalar: ScalarType) -> Option<Vec<f64
 
 /// Whether the claim is true at corners and random states, as far as doubles
 /// can tell.
-fn is_true(claim: &Certificate, setting: &Setting) -> bool {
-    let runtime = Runtime::in_setting(setting.clone());
+fn is_true(claim: &Certificate, scene_robot: &SceneRobot) -> bool {
+    let runtime = Runtime::in_scene(scene_robot.clone());
     let mut random = Random::new(7);
     let limits = &claim.limits;
     (0..400).all(|index| {
@@ -237,7 +237,7 @@ fn is_true(claim: &Certificate, setting: &Setting) -> bool {
 
 /// Refused, or true; how many were refused.
 fn judge(texts: impl Iterator<Item = String>, robot: &Reading) -> usize {
-    let setting = Setting::new(&robot.robot, &robot.scenes[0]).unwrap();
+    let scene_robot = SceneRobot::new(&robot.robot, &robot.scenes[0]).unwrap();
     let mut refused = 0;
     for text in texts {
         let Ok(claims) = format::read(&text) else {
@@ -245,9 +245,12 @@ fn judge(texts: impl Iterator<Item = String>, robot: &Reading) -> usize {
             continue;
         };
         for claim in claims {
-            match claim.check(&setting) {
+            match claim.check(&scene_robot) {
                 Err(_) => refused += 1,
-                Ok(_) => assert!(is_true(&claim, &setting), "accepted, and false:\n{text}"),
+                Ok(_) => assert!(
+                    is_true(&claim, &scene_robot),
+                    "accepted, and false:\n{text}"
+                ),
             }
         }
     }
@@ -324,20 +327,20 @@ fn is_line(path: &str, value: &Value) -> bool {
 #[test]
 fn honest_certificates_hold_and_the_judge_can_tell() {
     let reading = reading(ROBOT).unwrap();
-    let setting = Setting::new(&reading.robot, &reading.scenes[0]).unwrap();
+    let scene_robot = SceneRobot::new(&reading.robot, &reading.scenes[0]).unwrap();
     for claim in honest() {
-        claim.check(&setting).unwrap();
-        assert!(is_true(&claim, &setting));
+        claim.check(&scene_robot).unwrap();
+        assert!(is_true(&claim, &scene_robot));
         // The judge is no rubber stamp.
         let mut lie = claim.clone();
         for bound in &mut lie.bounds {
             bound.model *= 1e-3;
             bound.sincos *= 1e-3;
         }
-        assert!(!is_true(&lie, &setting));
+        assert!(!is_true(&lie, &scene_robot));
         let mut lie = claim.clone();
         lie.text = lie.text.replacen(" + ", " - ", 1);
-        assert!(!is_true(&lie, &setting));
+        assert!(!is_true(&lie, &scene_robot));
     }
 }
 
@@ -475,7 +478,7 @@ fn scenes() {
         let Some(robot) = reading(&changed).filter(|_| changed != ROBOT) else {
             continue;
         };
-        if Setting::new(&robot.robot, &robot.scenes[0]).is_err() {
+        if SceneRobot::new(&robot.robot, &robot.scenes[0]).is_err() {
             continue;
         }
         refused += judge(std::iter::once(texts[tried % 2].clone()), &robot);
@@ -489,7 +492,7 @@ fn scenes() {
 #[test]
 fn plans() {
     let (robot, generated) = generated(SinCos::Libm);
-    let setting = Setting::new(&robot.robot, &robot.scenes[0]).unwrap();
+    let scene_robot = SceneRobot::new(&robot.robot, &robot.scenes[0]).unwrap();
     let plan = plan(&robot, &generated);
     let lines: Vec<&str> = plan.lines().collect();
     let mut random = Random::new(0x91a2);
@@ -512,10 +515,10 @@ fn plans() {
             Err(_) => refused += 1,
             Ok(generated) => {
                 let claim = certificate(&generated);
-                match claim.check(&setting) {
+                match claim.check(&scene_robot) {
                     Err(_) => refused += 1,
                     Ok(_) => {
-                        assert!(is_true(claim, &setting), "{}", changed.join("\n"));
+                        assert!(is_true(claim, &scene_robot), "{}", changed.join("\n"));
                         kept += 1;
                     }
                 }
@@ -537,7 +540,7 @@ fn plan(robot: &Reading, generated: &Generated) -> String {
             start: Request::default().start,
             scalar: claim.scalar,
             source: function.source,
-            stages: Vec::new(),
+            passes: Vec::new(),
             scene: claim.scene.clone(),
             parameters: None,
             program: exact.clone(),

@@ -4,7 +4,7 @@
 use crate::support;
 use crate::support::draw::{Draw, robots};
 use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::approximate::prune::{Pruned, Settings, prune};
+use dalembert_codegen::approximate::prune::{PruneSettings, Pruned, prune};
 use dalembert_codegen::bound::input_box::InputBox;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::edits::Stage;
@@ -12,7 +12,7 @@ use dalembert_codegen::falsify::falsify;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::Scale;
@@ -42,12 +42,12 @@ fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {
 /// A twentieth of the range, by a short search.
 fn pruned(program: &Program, limits: &InputBox, scales: &[f64]) -> Pruned {
     let allowances: Vec<f64> = scales.iter().map(|t| 0.05 * t).collect();
-    let settings = Settings {
+    let settings = PruneSettings {
         samples: 10,
         guesses: 2,
         retries: 0,
         stages: 1,
-        ..Settings::default()
+        ..PruneSettings::default()
     };
     prune(program, limits, &allowances, &settings)
 }
@@ -65,14 +65,14 @@ fn bounds_hold_and_are_close() {
         let what = format!("seed {seed}, {} joints", robot.joints.len());
         let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
         let program = &generated.functions[0].program;
-        let setting = Setting::whole(&robot);
-        let scales = ErrorBudget::new(&setting, program, Scale::Range)
+        let scene_robot = SceneRobot::whole(&robot);
+        let scales = ErrorBudget::new(&scene_robot, program, Scale::Range)
             .unwrap()
             .scales;
         let limits = InputBox::of(&robot).unwrap();
         let certify = |stages: &[Stage], program: &Program, scalar| {
             let made = Certificate::make(&robot, stages, program, scalar, &limits, &scales);
-            made.check(&Setting::whole(&robot))
+            made.check(&SceneRobot::whole(&robot))
                 .unwrap_or_else(|refuted| panic!("{what}: {refuted}"));
             let falsification = falsify(&made, 4000, 3, seed).unwrap();
             assert_eq!(falsification.violation, None, "{what}");

@@ -14,7 +14,7 @@ use dalembert_codegen::interval::Interval;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::kernel::Term;
 use dalembert_codegen::program::{AngleSum, Library, Literal, Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::sincos::{Sines, counts, lowered, stated};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
@@ -70,7 +70,7 @@ impl Case {
         let (robot, program) = (&self.robot, &self.program);
         let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
         let sensitivity = Sensitivity::of(program, &self.limits, BoundEffort::CERTIFY);
-        libm.with_sines(&Setting::whole(robot), sines, &sensitivity)
+        libm.with_sines(&SceneRobot::whole(robot), sines, &sensitivity)
     }
 
     /// The certificate with other sines in its text, and the same claims.
@@ -89,7 +89,7 @@ fn a_certificate_with_polynomials_holds_and_is_not_refuted() {
     for (scalar, tolerance) in [(ScalarType::F64, TOLERANCE), (ScalarType::F32, 1e-3)] {
         let sines = case.sines(scalar, tolerance);
         let certificate = case.certificate(scalar, &sines);
-        certificate.check(&Setting::whole(&case.robot)).unwrap();
+        certificate.check(&SceneRobot::whole(&case.robot)).unwrap();
         let falsification = falsify(&certificate, 4000, 3, 1).unwrap();
         assert_eq!(
             falsification.violation, None,
@@ -142,7 +142,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
             }
         }
         let lie = case.with_other(&honest, changed.clone());
-        let refuted = lie.check(&Setting::whole(&case.robot));
+        let refuted = lie.check(&SceneRobot::whole(&case.robot));
         assert!(
             matches!(refuted, Err(Refuted::Sine { .. })),
             "x{}",
@@ -159,7 +159,7 @@ fn a_changed_coefficient_is_caught_by_the_check_and_by_the_sampler() {
         let mut text = honest.clone();
         text.text = lie.text;
         assert!(matches!(
-            text.check(&Setting::whole(&case.robot)),
+            text.check(&SceneRobot::whole(&case.robot)),
             Err(Refuted::Text { .. })
         ));
     }
@@ -170,7 +170,7 @@ fn a_claim_made_too_small_is_caught() {
     let case = planar();
     let sines = case.sines(ScalarType::F64, TOLERANCE);
     let honest = case.certificate(ScalarType::F64, &sines);
-    let refuted = |lie: &Certificate| lie.check(&Setting::whole(&case.robot)).unwrap_err();
+    let refuted = |lie: &Certificate| lie.check(&SceneRobot::whole(&case.robot)).unwrap_err();
 
     let mut error = honest.clone();
     error.sines[0].errors.cos *= 0.999;
@@ -229,7 +229,7 @@ fn a_joint_without_limits_turns_on() {
     let mut reading = support::reading_with("planar2r", more);
     reading.robot.joints[0].limits.position = None;
     let (robot, scene) = (reading.robot, reading.scenes.pop().unwrap());
-    let setting = Setting::of(&robot, Some(&scene)).unwrap();
+    let scene_robot = SceneRobot::of(&robot, Some(&scene)).unwrap();
     let request = Request {
         functions: vec![Function::Gravity],
         scene: Some(scene.clone()),
@@ -254,7 +254,7 @@ fn a_joint_without_limits_turns_on() {
                 _ => assert!(held.high() >= stated(scalar), "{held:?}"),
             }
             // Runs the text over all of it, against 256 bits.
-            certificate.check(&setting).unwrap();
+            certificate.check(&scene_robot).unwrap();
         }
     }
 }

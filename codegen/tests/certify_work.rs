@@ -8,7 +8,7 @@ use dalembert_codegen::certificate::{Certificate, Refuted};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
@@ -27,7 +27,7 @@ fn honest() -> (Robot, Value) {
     let limits = InputBox::of(&robot).unwrap();
     let scalar = ScalarType::F64;
     let claim = Certificate::make(&robot, &[], program, scalar, &limits, &[1.0; 2]);
-    claim.check(&Setting::whole(&robot)).unwrap();
+    claim.check(&SceneRobot::whole(&robot)).unwrap();
     let json = serde_json::from_str(&claim.to_json()).unwrap();
     (robot, json)
 }
@@ -37,7 +37,7 @@ fn too_much(robot: &Robot, claim: &Value, what: &str) {
     let begun = Instant::now();
     let said = match format::read(&claim.to_string()) {
         Err(error) => error.to_string(),
-        Ok(claims) => match claims[0].check(&Setting::whole(robot)) {
+        Ok(claims) => match claims[0].check(&SceneRobot::whole(robot)) {
             Err(Refuted::Work(much)) => much.to_string(),
             other => panic!("{what}: {other:?}"),
         },

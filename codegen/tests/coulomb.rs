@@ -13,7 +13,7 @@ use dalembert_codegen::plan::Plan;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::JointState;
 use dalembert_codegen::verify::exact::{Disproof, prove};
@@ -80,8 +80,8 @@ fn in_f64(generated: &Generated, function: Function) -> &Emitted {
 }
 
 /// Where friction has its full force, where it is within its width, and at rest.
-fn states(setting: &Setting, count: usize) -> Vec<JointState> {
-    let mut states = setting.states(count, 0x636f_756c);
+fn states(scene_robot: &SceneRobot, count: usize) -> Vec<JointState> {
+    let mut states = scene_robot.states(count, 0x636f_756c);
     for (index, state) in states.iter_mut().enumerate() {
         let factor = [1.0, 1e-2, 1e-4, 0.0][index % 4];
         state.qd.iter_mut().for_each(|qd| *qd *= factor);
@@ -96,8 +96,8 @@ fn code_is_as_accurate_as_without() {
     let robot = arm();
     let functions = [&RUBBED[..], &PLAIN].concat();
     let generated = of(&robot, &request(&functions));
-    let setting = Setting::whole(&robot);
-    let (states, runtime) = (states(&setting, 200), Runtime::new(&robot));
+    let scene_robot = SceneRobot::whole(&robot);
+    let (states, runtime) = (states(&scene_robot, 200), Runtime::new(&robot));
     assert_eq!(generated.emitted.len(), 2 * functions.len());
     for emitted in &generated.emitted {
         for measure in emitted.against_runtime(&runtime, &states) {
@@ -117,7 +117,7 @@ fn torques_are_those_of_the_textbook() {
     let robot = arm();
     let functions = &RUBBED[..3];
     let [with, plain] = [&robot, &without(&robot)].map(|robot| of(robot, &request(functions)));
-    for state in states(&Setting::whole(&robot), 100) {
+    for state in states(&SceneRobot::whole(&robot), 100) {
         let friction = |v: &[f64]| -> Vec<f64> {
             let smoothed = (0..3).map(|i| FORCES[i] * v[i] / state.qd[i].hypot(WIDTHS[i]));
             smoothed.collect()
@@ -151,7 +151,7 @@ fn torques_are_those_of_the_textbook() {
 #[test]
 fn every_formulation_has_it() {
     let robot = arm();
-    let (states, runtime) = (states(&Setting::whole(&robot), 20), Runtime::new(&robot));
+    let (states, runtime) = (states(&SceneRobot::whole(&robot), 20), Runtime::new(&robot));
     for formulation in [Formulation::LagrangeEuler, Formulation::NewtonEulerLink] {
         let request = Request {
             start: Start::Only(formulation),
@@ -178,7 +178,7 @@ fn random_robots_are_proved() {
                 joint.coulomb_width = draw.milli(1, 100);
             }
         }
-        let (states, runtime) = (states(&Setting::whole(&robot), 40), Runtime::new(&robot));
+        let (states, runtime) = (states(&SceneRobot::whole(&robot), 40), Runtime::new(&robot));
         let functions = [&RUBBED[..3], &PLAIN[..1]].concat();
         for emitted in of(&robot, &request(&functions)).emitted {
             for measure in emitted.against_runtime(&runtime, &states) {
@@ -207,9 +207,9 @@ fn scenes_drop_what_does_not_move() {
             ..request(&RUBBED)
         };
         let generated = of(&robot, &request);
-        let setting = request.setting(&robot).unwrap();
-        let states = states(&setting, 40);
-        let runtime = Runtime::in_setting(setting);
+        let scene_robot = request.scene_robot(&robot).unwrap();
+        let states = states(&scene_robot, 40);
+        let runtime = Runtime::in_scene(scene_robot);
         for emitted in &generated.emitted {
             for measure in emitted.against_runtime(&runtime, &states) {
                 assert!(measure.in_units() < BOUND, "{}: {measure:?}", scene.name);
@@ -308,18 +308,18 @@ fn another_line_is_another_program() {
 fn proofs_are_of_the_robots_widths() {
     let robot = arm();
     let generated = of(&robot, &request(&RUBBED[..1]));
-    let setting = Setting::whole(&robot);
+    let scene_robot = SceneRobot::whole(&robot);
     let program = &generated.functions[0].program;
-    assert!(prove(&setting, program).is_ok());
+    assert!(prove(&scene_robot, program).is_ok());
     let mut wider = robot.clone();
     wider.joints[0].coulomb_width = Rational::new(1.into(), 50.into());
     assert_eq!(
-        prove(&Setting::whole(&wider), program),
+        prove(&SceneRobot::whole(&wider), program),
         Err(Disproof::Shape)
     );
     let mut stronger = robot.clone();
     stronger.joints[0].coulomb = Rational::new(13.into(), 5.into());
-    let wrong = prove(&Setting::whole(&stronger), program);
+    let wrong = prove(&SceneRobot::whole(&stronger), program);
     assert!(
         matches!(wrong, Err(Disproof::Output { index: 0, .. })),
         "{wrong:?}"
@@ -352,9 +352,9 @@ fn arguments_go_with_it() {
         ..request(&RUBBED[..1])
     };
     let generated = of(&robot, &request);
-    let setting = request.setting(&robot).unwrap();
-    let states = states(&setting, 40);
-    let runtime = Runtime::in_setting(setting);
+    let scene_robot = request.scene_robot(&robot).unwrap();
+    let states = states(&scene_robot, 40);
+    let runtime = Runtime::in_scene(scene_robot);
     let load = in_f64(&generated, Function::Load);
     let torques = in_f64(&generated, Function::InverseDynamics);
     for mut state in states {
@@ -413,8 +413,8 @@ fn what_cannot_be_is_refused_by_name() {
     let admitted = rough.functions[0].admitted.as_ref().unwrap();
     let certificate = &admitted.certificates[0];
     let read = format::read(&format::write(&[certificate])).unwrap();
-    let setting = roughly(Function::Gravity).setting(&robot).unwrap();
-    read[0].check(&setting).unwrap();
+    let scene_robot = roughly(Function::Gravity).scene_robot(&robot).unwrap();
+    read[0].check(&scene_robot).unwrap();
     let full = of(&robot, &request(&[Function::FullRegressor]));
     assert!(
         full.text

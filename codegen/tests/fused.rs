@@ -8,7 +8,7 @@ use dalembert_codegen::generate::{Fma, Generated, Request, generate};
 use dalembert_codegen::program::columns::Columns;
 use dalembert_codegen::program::run::State;
 use dalembert_codegen::program::{Lowered, Operation, Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::states::{JointState, SEED, STATES, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_codegen::verify::rounding::Rounding;
@@ -100,7 +100,7 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
         let plain = support::one(&robot, Function::InverseDynamics)
             .functions
             .remove(0);
-        let setting = Setting::whole(&robot);
+        let scene_robot = SceneRobot::whole(&robot);
         let program = plain.program.fused();
         let (before, after) = (plain.counts, program.counts());
         assert_eq!(before.fma, 0);
@@ -110,7 +110,7 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
         assert_eq!(program.fused(), program);
         assert_eq!(program.unfused().fused(), program);
         let [before, after] =
-            [&plain.program, &program].map(|program| Rounding::estimate(&setting, program));
+            [&plain.program, &program].map(|program| Rounding::estimate(&scene_robot, program));
         assert!(after.worst() < before.worst(), "{name}");
         let pairs = after.per_output.iter().zip(&before.per_output);
         assert!(
@@ -274,7 +274,7 @@ fn held() -> (Reading, Request) {
 fn certificates_bound_one_rounding() {
     let (reading, request) = held();
     let robot = &reading.robot;
-    let setting = request.setting(robot).unwrap();
+    let scene_robot = request.scene_robot(robot).unwrap();
     let plain = certificates(&request, robot);
     let found = generated(robot, &fused(&request));
     let certificates = &found.functions[0].admitted.as_ref().unwrap().certificates;
@@ -289,7 +289,7 @@ fn certificates_bound_one_rounding() {
             smaller += usize::from(own.rounding < other.rounding);
         }
         assert!(smaller > 0);
-        certificate.check(&setting).unwrap();
+        certificate.check(&scene_robot).unwrap();
         let read = format::read(&certificate.to_json()).unwrap();
         assert_eq!(read[0].to_json(), certificate.to_json());
     }
@@ -304,10 +304,10 @@ fn certificates_bound_one_rounding() {
 #[test]
 fn forged_certificates_are_refused() {
     let (reading, request) = held();
-    let setting = request.setting(&reading.robot).unwrap();
+    let scene_robot = request.scene_robot(&reading.robot).unwrap();
     let [plain, honest] =
         [&request, &fused(&request)].map(|request| certificates(request, &reading.robot).remove(0));
-    let refused = |forged: Certificate| forged.check(&setting).unwrap_err();
+    let refused = |forged: Certificate| forged.check(&scene_robot).unwrap_err();
     // A text with `mul_add` of a program without, and the other way round.
     let forged = Certificate {
         text: honest.text.clone(),

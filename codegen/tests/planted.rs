@@ -4,7 +4,7 @@
 use dalembert_codegen::backend::{Printed, function};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::program::{Library, Lowered, Operand, Operation, Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::verify::exact::{Disproof, prove};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
@@ -38,7 +38,7 @@ fn some(program: &Program) -> impl Iterator<Item = usize> + use<> {
 
 fn refused(robot: &Robot, program: &Program) -> bool {
     matches!(
-        prove(&Setting::whole(robot), program),
+        prove(&SceneRobot::whole(robot), program),
         Err(Disproof::Output { .. })
     )
 }
@@ -46,7 +46,7 @@ fn refused(robot: &Robot, program: &Program) -> bool {
 #[test]
 fn a_wrong_sign() {
     for (robot, program) in programs() {
-        assert!(prove(&Setting::whole(&robot), &program).is_ok());
+        assert!(prove(&SceneRobot::whole(&robot), &program).is_ok());
         for index in some(&program) {
             let mut wrong = program.clone();
             let operation = &mut wrong.steps[index].operation;
@@ -119,7 +119,7 @@ fn a_missing_output() {
         .program;
     program.outputs.pop();
     assert_eq!(
-        prove(&Setting::whole(&robot), &program),
+        prove(&SceneRobot::whole(&robot), &program),
         Err(Disproof::Shape)
     );
 }

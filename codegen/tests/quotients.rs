@@ -5,7 +5,7 @@ use dalembert_codegen::certificate::format;
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::program::{Operand, Operation, Program};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::exact::prove;
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
@@ -53,7 +53,7 @@ fn a_wrong_quotient_is_no_proof() {
     let robot = support::robot("planar3r");
     for function in INVERTING {
         let right = program(&robot, function);
-        assert!(prove(&Setting::whole(&robot), &right).is_ok());
+        assert!(prove(&SceneRobot::whole(&robot), &right).is_ok());
         for index in quotients(&right) {
             let mut upside_down = right.clone();
             let step = &mut upside_down.steps[index];
@@ -64,7 +64,7 @@ fn a_wrong_quotient_is_no_proof() {
             other.steps[index].right = Operand::Step(0);
             for wrong in [upside_down, product, other] {
                 assert!(
-                    prove(&Setting::whole(&robot), &wrong).is_err(),
+                    prove(&SceneRobot::whole(&robot), &wrong).is_err(),
                     "{function} t{}",
                     index + 1
                 );
@@ -83,7 +83,7 @@ fn a_divisor_that_is_zero_everywhere_proves_nothing() {
     };
     let step = &mut wrong.steps[index];
     step.right = Operand::Constant("0".parse().unwrap());
-    assert!(prove(&Setting::whole(&robot), &wrong).is_err());
+    assert!(prove(&SceneRobot::whole(&robot), &wrong).is_err());
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn scenes_hold_what_is_locked() {
         ..Request::default()
     };
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
-    let runtime = Runtime::in_setting(Setting::new(&robot, &scene).unwrap());
+    let runtime = Runtime::in_scene(SceneRobot::new(&robot, &scene).unwrap());
     let states = seeded(&robot, 100, SEED);
     assert_eq!(generated.emitted.len(), 2 * INVERTING.len());
     for emitted in &generated.emitted {

@@ -11,7 +11,7 @@ use dalembert_codegen::graph::Points;
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::ScalarType;
 use dalembert_codegen::program::run::State;
-use dalembert_codegen::scene::{self, Setting};
+use dalembert_codegen::scene::{self, SceneRobot};
 use dalembert_codegen::states::{SEED, seeded};
 use dalembert_codegen::verify::floating::{BOUND, Runtime};
 use dalembert_model::equations::{Arm, Formulation};
@@ -117,14 +117,14 @@ fn recordings_are_the_formulas() {
         if n > 4 {
             continue;
         }
-        let setting = Setting::whole(&robot);
+        let scene_robot = SceneRobot::whole(&robot);
         for function in Function::ALL {
             for formulation in [Formulation::LagrangeEuler, Formulation::NewtonEulerLink] {
                 let arm = Arm::from_robot(&robot, &mut { of_constant });
-                let posed = setting.posed(function, arm, of_input, of_constant);
-                let expected = posed.results(&setting, function, formulation);
-                let recording = setting.record(function, |posed, _| {
-                    posed.results(&setting, function, formulation)
+                let posed = scene_robot.posed(function, arm, of_input, of_constant);
+                let expected = posed.results(&scene_robot, function, formulation);
+                let recording = scene_robot.record(function, |posed, _| {
+                    posed.results(&scene_robot, function, formulation)
                 });
                 let found = recording.run(|x| of_input(*x), |x| Some(of_constant(x)));
                 assert!(

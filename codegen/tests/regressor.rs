@@ -7,7 +7,7 @@ use dalembert_codegen::clauses::expand;
 use dalembert_codegen::function::{Function, Quantity};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, ToleranceError, Unbounded};
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::scene::base::{BaseParameters, Parameter};
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::exact::Disproof;
@@ -75,10 +75,10 @@ fn printed(linear: Linear, text: &str) -> Vec<Vec<f64>> {
 
 /// The rank of Y over all links' parameters, in f64 from the runtime: elimination
 /// with the largest pivot there is, columns brought to one length first.
-fn rank(runtime: &Runtime, setting: &Setting) -> usize {
-    let rows = setting.rows().len();
-    let columns = 10 * setting.joints().len();
-    let states = seeded(setting.robot(), columns / rows + 10, 0x72616e6b);
+fn rank(runtime: &Runtime, scene_robot: &SceneRobot) -> usize {
+    let rows = scene_robot.rows().len();
+    let columns = 10 * scene_robot.joints().len();
+    let states = seeded(scene_robot.robot(), columns / rows + 10, 0x72616e6b);
     let values = states
         .iter()
         .flat_map(|state| runtime.run(Function::FullRegressor, state));
@@ -127,23 +127,23 @@ fn rank(runtime: &Runtime, setting: &Setting) -> usize {
 /// The emitted Y times the printed π against the runtime's torques, relative to
 /// what the sums are made of; and as many columns as the rank.
 fn check(linear: Linear, robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
-    let setting = Setting::of(robot, scene).unwrap();
-    let runtime = Runtime::in_setting(setting.clone());
-    let base = rank(&runtime, &setting) + drives;
+    let scene_robot = SceneRobot::of(robot, scene).unwrap();
+    let runtime = Runtime::in_scene(scene_robot.clone());
+    let base = rank(&runtime, &scene_robot) + drives;
     with_columns(linear, robot, scene, base)
 }
 
 /// The same with so many columns.
 fn with_columns(linear: Linear, robot: &Robot, scene: Option<&Scene>, base: usize) -> Generated {
     let generated = generate(linear, robot, scene);
-    let setting = Setting::of(robot, scene).unwrap();
-    let runtime = Runtime::in_setting(setting.clone());
+    let scene_robot = SceneRobot::of(robot, scene).unwrap();
+    let runtime = Runtime::in_scene(scene_robot.clone());
     let parameters = printed(linear, &generated.text);
     assert_eq!(generated.emitted.len(), 2);
     for (emitted, pi) in generated.emitted.iter().zip(&parameters) {
         assert_eq!(pi.len(), base, "{}", robot.name);
         assert_eq!(emitted.sizes.base, base);
-        for state in seeded(setting.robot(), 50, 0x7275) {
+        for state in seeded(scene_robot.robot(), 50, 0x7275) {
             let state = match emitted.scalar {
                 ScalarType::F64 => state,
                 ScalarType::F32 => state.in_single(),
@@ -275,9 +275,9 @@ fn passivity_in_scenes() {
 #[test]
 fn wrong_combinations_are_refused() {
     let robot = support::robot("puma560");
-    let setting = Setting::whole(&robot);
-    let base = setting.base(TORQUES.quantity).unwrap();
-    assert_eq!(prove_base(&setting, TORQUES.regressor, base), Ok(()));
+    let scene_robot = SceneRobot::whole(&robot);
+    let base = scene_robot.base(TORQUES.quantity).unwrap();
+    assert_eq!(prove_base(&scene_robot, TORQUES.regressor, base), Ok(()));
     let arm = Arm::from_robot(&robot, &mut Exact::clone);
     let printed = &printed(TORQUES, &generate(TORQUES, &robot, None).text)[0];
     let values: Vec<f64> = base.values(&arm).iter().map(f64::nearest).collect();
@@ -287,7 +287,7 @@ fn wrong_combinations_are_refused() {
         let parameter = parameter.to_string();
         let expected = Err(Disproof::Dependence { parameter });
         for linear in [TORQUES, PASSIVITY] {
-            assert_eq!(prove_base(&setting, linear.regressor, wrong), expected);
+            assert_eq!(prove_base(&scene_robot, linear.regressor, wrong), expected);
         }
     };
     for column in [0, 8, 20, 35] {

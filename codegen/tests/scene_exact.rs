@@ -4,7 +4,7 @@ use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::plan::{Entry, Plan};
 use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
+use dalembert_codegen::scene::{SceneKey, SceneRobot, input_hash};
 use dalembert_codegen::states::seeded;
 use dalembert_codegen::verify::exact::{Disproof, prove};
 use dalembert_codegen::verify::floating::Runtime;
@@ -48,7 +48,7 @@ fn run(robot: &Robot, scene: &Scene, functions: &[Function]) -> Generated {
 }
 
 /// The scene's text against the runtime of the whole robot, at states that
-/// have the scene's values; nothing here goes through [`Setting`].
+/// have the scene's values; nothing here goes through [`SceneRobot`].
 fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
     let whole = Runtime::new(&scene.apply(robot));
     let rows = scene.rows(robot.joints.len());
@@ -269,8 +269,8 @@ fn another_scene_disproves() {
     let generated = run(&robot, &own, &[Function::Gravity]);
     let program = &generated.functions[0].program;
     let proved = |scene: &Scene| {
-        let setting = Setting::new(&robot, scene).unwrap_or_else(|error| panic!("{error}"));
-        prove(&setting, program)
+        let scene_robot = SceneRobot::new(&robot, scene).unwrap_or_else(|error| panic!("{error}"));
+        prove(&scene_robot, program)
     };
     assert!(proved(&own).is_ok());
     for other in [scene(pi_times(1, 3), 2), scene(pi_times(1, 2), 3)] {
@@ -303,7 +303,7 @@ fn plans_tell_scenes_apart() {
         start: wanted.start,
         scalar: ScalarType::F64,
         source: first.functions[0].source,
-        stages: first.functions[0].stages.clone(),
+        passes: first.functions[0].passes.clone(),
         scene: Some(SceneKey::of(&scene)),
         parameters: None,
         program: first.functions[0].program.clone(),

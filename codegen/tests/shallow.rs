@@ -80,6 +80,6 @@ fn certificates_are_of_the_order_that_is_emitted() {
     assert_eq!(certificate.emitted, function.program);
     assert_ne!(admitted.program, function.program);
     assert!(function.program.depth() < admitted.program.depth());
-    let setting = request.setting(&reading.robot).unwrap();
-    certificate.check(&setting).unwrap();
+    let scene_robot = request.scene_robot(&reading.robot).unwrap();
+    certificate.check(&scene_robot).unwrap();
 }

@@ -8,7 +8,7 @@ use dalembert_codegen::interval::Interval;
 use dalembert_codegen::program::{
     AngleSum, Input, Library, Lowered, Operand, Output, Program, ScalarType, Trig,
 };
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::sincos::choose::Candidates;
 use dalembert_codegen::sincos::{AngleKernel, SinCos, need};
 use dalembert_codegen::split::Split;
@@ -37,7 +37,7 @@ fn polynomials_are_printed_counted_read_back_and_near() {
         let generated = with(&robot, 1e-5).unwrap();
         assert!(!generated.text.contains("libm"), "{name}");
         let states = seeded(&robot, 200, 3);
-        let runtime = Runtime::in_setting(Setting::whole(&robot));
+        let runtime = Runtime::in_scene(SceneRobot::whole(&robot));
         for emitted in &generated.emitted {
             let function = &generated.functions[0];
             let counts = function.counts_in(emitted.scalar);
@@ -278,10 +278,10 @@ fn a_tolerance_says_how_exact_sines_are() {
     let request = Request::default().in_scene(scene);
     let generated = generate(&reading.robot, &request).unwrap();
     let function = &generated.functions[0];
-    let setting = Setting::of(&reading.robot, Some(scene)).unwrap();
+    let scene_robot = SceneRobot::of(&reading.robot, Some(scene)).unwrap();
     let certificate = &function.admitted.as_ref().unwrap().certificates[0];
     assert_eq!(certificate.sines, function.sines(ScalarType::F64));
-    certificate.check(&setting).unwrap();
+    certificate.check(&scene_robot).unwrap();
     let most = |of: fn(&Split) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
     let (all, part) = (most(|b| b.total()), most(|b| b.sincos));
     assert!(all <= 1e-4 && part > 1e-7, "{all:e} {part:e}");

@@ -7,7 +7,7 @@ use dalembert_codegen::certificate::{Refuted, format};
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Generated, Request, generate};
 use dalembert_codegen::program::Library;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::sincos::SinCos;
 use dalembert_codegen::states::seeded;
 use dalembert_model::number::Angle;
@@ -72,7 +72,7 @@ fn certificates_name_the_library() {
     let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\
                  tolerance = { value = 1e-9, relative_to = \"range\" }\nscalar = \"f64\"\n";
     let reading = support::reading_with("planar2r", scene);
-    let setting = Setting::new(&reading.robot, &reading.scenes[0]).unwrap();
+    let scene_robot = SceneRobot::new(&reading.robot, &reading.scenes[0]).unwrap();
     let request = Request {
         sincos: SinCos::Together,
         math: MathPath::of(Library::Together),
@@ -83,7 +83,7 @@ fn certificates_name_the_library() {
     let admitted = generated.functions[0].admitted.as_ref().unwrap();
     let certificate = &admitted.certificates[0];
     assert_eq!(certificate.library, Library::Together);
-    certificate.check(&setting).unwrap();
+    certificate.check(&scene_robot).unwrap();
     let json = certificate.to_json();
     assert!(json.contains("dalembert-sines") && !json.contains("libm's, within"));
     assert_eq!(
@@ -93,8 +93,8 @@ fn certificates_name_the_library() {
 
     let effort = BoundEffort::QUICK;
     let sensitivity = Sensitivity::of(&certificate.emitted, &certificate.limits, effort);
-    let alone = certificate.calling(&setting, Library::Libm, &sensitivity);
-    alone.check(&setting).unwrap();
+    let alone = certificate.calling(&scene_robot, Library::Libm, &sensitivity);
+    alone.check(&scene_robot).unwrap();
     // Of libm's sines an ulp is assumed, of the others less is proved.
     for (alone, together) in alone.bounds.iter().zip(&certificate.bounds) {
         assert!(alone.sincos > together.sincos && alone.rounding == together.rounding);
@@ -103,7 +103,7 @@ fn certificates_name_the_library() {
         text: alone.text.clone(),
         ..certificate.clone()
     };
-    let refused = mixed.check(&setting);
+    let refused = mixed.check(&scene_robot);
     assert!(
         matches!(refused, Err(Refuted::Text { line: 3, .. })),
         "{refused:?}"
@@ -122,7 +122,7 @@ fn proved_sines_have_smaller_bounds() {
         let ends = [-2, 2].map(|n| Position::Angle(Angle::right_angles(n)));
         joint.limits.position = Some(ends);
     }
-    let setting = Setting::new(&robot, &reading.scenes[0]).unwrap();
+    let scene_robot = SceneRobot::new(&robot, &reading.scenes[0]).unwrap();
     let certificates = [Library::Libm, Library::Together].map(|library| {
         let request = Request {
             sincos: match library {
@@ -137,7 +137,7 @@ fn proved_sines_have_smaller_bounds() {
         admitted.certificates[0].clone()
     });
     for certificate in &certificates {
-        certificate.check(&setting).unwrap();
+        certificate.check(&scene_robot).unwrap();
     }
     let [libm, together] = &certificates;
     for (libm, together) in libm.bounds.iter().zip(&together.bounds) {
@@ -147,5 +147,8 @@ fn proved_sines_have_smaller_bounds() {
     }
     let mut lie = libm.clone();
     lie.bounds.clone_from(&together.bounds);
-    assert!(matches!(lie.check(&setting), Err(Refuted::Bound { .. })));
+    assert!(matches!(
+        lie.check(&scene_robot),
+        Err(Refuted::Bound { .. })
+    ));
 }

@@ -74,8 +74,8 @@ fn an_early_end_keeps_the_best_so_far() {
         let rounds = seen.iter().filter(|p| p.part == Part::Search).count();
         assert!(rounds <= 1, "{until}: {rounds} rounds");
         for function in &generated.functions {
-            let stages = &function.stages;
-            let began = stages.iter().find(|s| s.name == "fingerprints").unwrap();
+            let passes = &function.passes;
+            let began = passes.iter().find(|s| s.name == "fingerprints").unwrap();
             assert!(function.counts.operations() <= began.counts.operations());
         }
         // The function whose turn had not come got the quick search, unwatched.

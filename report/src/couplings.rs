@@ -13,7 +13,7 @@ use dalembert_model::robot::{JointKind, Robot};
 use dalembert_codegen::function::{Function, Quantity, Sizes};
 use dalembert_codegen::generate::MAX_OUTPUTS;
 use dalembert_codegen::graph::{Folding, Graph, Node, NodeId};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::trace::trace;
 
 /// Why a coefficient vanishes or repeats another.
@@ -122,7 +122,7 @@ impl Couplings {
             0..=6 => Formulation::LagrangeEuler,
             _ => Formulation::NewtonEulerLink,
         };
-        let graph = trace(&Setting::whole(robot), function, formulation)
+        let graph = trace(&SceneRobot::whole(robot), function, formulation)
             .graph
             .rebuild(Folding::Semantic);
         let mut couplings = Couplings {

@@ -4,7 +4,7 @@
 use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{Request, generate};
 use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::verify::exact::prove;
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
@@ -34,7 +34,7 @@ fn every_row_is_proved() {
                 if let Code::Program(program) = row.code {
                     let step = row.step.key();
                     assert_eq!(row.counts, program.counts());
-                    prove(&Setting::whole(&robot), &program)
+                    prove(&SceneRobot::whole(&robot), &program)
                         .unwrap_or_else(|e| panic!("{name} {step}: {e}"));
                 }
             }
@@ -51,13 +51,13 @@ fn a_scene_is_explained() {
     let reading = support::reading_with("planar3r", scene);
     let request = Request::default().in_scene(&reading.scenes[0]);
     let explained = explain(&reading.robot, Function::Gravity, &request).unwrap();
-    let setting = Setting::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
+    let scene_robot = SceneRobot::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
     let (last, exact) = explained.rows.split_last().unwrap();
     assert_eq!(last.step, SearchStep::Tolerance);
     for row in exact {
         if let Code::Program(program) = &row.code {
             let step = row.step.key();
-            prove(&setting, program).unwrap_or_else(|e| panic!("{step}: {e}"));
+            prove(&scene_robot, program).unwrap_or_else(|e| panic!("{step}: {e}"));
         }
     }
     let searched = operations(&explained, SearchStep::Search);

@@ -96,7 +96,7 @@ fn check(name: &str, functions: &[Function]) {
             start: Start::Auto,
             scalar: request.scalars[0],
             source: function.source,
-            stages: function.stages.clone(),
+            passes: function.passes.clone(),
             scene: None,
             parameters: None,
             program: function.program.clone(),

@@ -13,7 +13,7 @@ use dalembert_codegen::emit::figures::inside;
 use dalembert_codegen::falsify::{Falsification, falsify};
 use dalembert_codegen::generate::GenerateError;
 use dalembert_codegen::interval::Interval;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::{Scene, Tolerance};
@@ -100,7 +100,7 @@ impl<'a> Check<'a> {
         let scene = args.scene.as_ref().or(own);
         let scene = scene.map(|scene| input::scene(&args.robot, reading, scene));
         let scene = scene.transpose()?;
-        let setting = Setting::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
+        let scene_robot = SceneRobot::of(&reading.robot, scene).map_err(GenerateError::Scene)?;
         let own = scene.and_then(|scene| scene.tolerance.clone());
         let tolerance = match &args.tolerance {
             Some(value) => Some(Tolerance {
@@ -115,7 +115,7 @@ impl<'a> Check<'a> {
         };
         let failed = |why: String| Failure::Check(format!("error: {name}: {why}"));
         let checked = certificate
-            .check_within(&setting, tolerance.as_ref())
+            .check_within(&scene_robot, tolerance.as_ref())
             .map_err(|why| failed(why.to_string()))?;
         let seen = (args.samples > 0)
             .then(|| falsify(certificate, args.samples, args.climbs, 1))

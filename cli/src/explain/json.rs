@@ -39,7 +39,9 @@ pub fn write(
 
 fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Value {
     let mut rows = Vec::new();
-    if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
+    if explanation.function == Function::InverseDynamics
+        && explanation.scene_robot.scene().is_none()
+    {
         let Pair { mul, add } = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
         rows.push(json!({ "step": "lagrange_euler_table3", "mul": mul, "add": add }));
     }

@@ -71,7 +71,9 @@ fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<
     let head = head.concat().into_iter();
     let mut rows = vec![head.map(String::from).collect::<Vec<_>>()];
     // Table 3 is about whole arms.
-    if explanation.function == Function::InverseDynamics && explanation.setting.scene().is_none() {
+    if explanation.function == Function::InverseDynamics
+        && explanation.scene_robot.scene().is_none()
+    {
         let Pair { mul, add } = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
         rows.push(vec![
             "Lagrange–Euler, Table 3".to_owned(),

@@ -33,7 +33,7 @@ pub fn json(robot: &Robot, request: &Request, generated: &Generated, states: usi
 }
 
 fn one(function: &GeneratedFunction, errors: Option<Value>) -> Value {
-    let stages = function.stages.iter().map(|stage| {
+    let stages = function.passes.iter().map(|stage| {
         let counts = output::counts(&stage.counts);
         json!({ "stage": stage.name, "counts": counts })
     });

@@ -96,10 +96,10 @@ fn certificates(
         .iter()
         .filter_map(|f| f.admitted.as_ref());
     let certificates: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
-    let setting = request.setting(robot).map_err(GenerateError::Scene)?;
+    let scene_robot = request.scene_robot(robot).map_err(GenerateError::Scene)?;
     for certificate in &certificates {
         let function = certificate.emitted.function;
-        certificate.check(&setting).map_err(|why| {
+        certificate.check(&scene_robot).map_err(|why| {
             Failure::Check(format!("error: the certificate of `{function}`: {why}"))
         })?;
     }

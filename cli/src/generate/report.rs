@@ -83,8 +83,8 @@ pub fn measured(
     if scene.is_some_and(|scene| scene.tolerance.is_some()) {
         return None;
     }
-    let setting = request.setting(robot).ok()?;
-    let reference = Reference::new(&setting);
+    let scene_robot = request.scene_robot(robot).ok()?;
+    let reference = Reference::new(&scene_robot);
     let functions = generated.functions.iter();
     let errors =
         |f: &GeneratedFunction| of_program(&reference, &f.program, &request.scalars, states);
@@ -246,12 +246,12 @@ fn stages(generated: &Generated) -> String {
     for function in &generated.functions {
         if rows.is_empty() {
             let mut head = vec![String::new()];
-            head.extend(function.stages.iter().map(|s| s.name.to_owned()));
+            head.extend(function.passes.iter().map(|s| s.name.to_owned()));
             head.extend(admitted.then(|| "tolerance".to_owned()));
             rows.push(head);
         }
         let mut row = vec![function.function.to_string()];
-        row.extend(function.stages.iter().map(|stage| cell(&stage.counts)));
+        row.extend(function.passes.iter().map(|stage| cell(&stage.counts)));
         // What the tolerance left of it: what is emitted.
         row.extend(admitted.then(|| cell(&function.counts)));
         rows.push(row);

@@ -16,7 +16,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::plan::{self, Plan};
 use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::{SceneKey, Setting, input_hash};
+use dalembert_codegen::scene::{SceneKey, SceneRobot, input_hash};
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};
@@ -61,10 +61,11 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let compiler = args.measure.then(measure::Compiler::find).transpose()?;
     // Its own tolerance is one of many here.
     let bare = scene.map(Scene::without_tolerance);
-    let setting = Setting::of(&reading.robot, bare.as_ref()).map_err(GenerateError::Scene)?;
+    let scene_robot =
+        SceneRobot::of(&reading.robot, bare.as_ref()).map_err(GenerateError::Scene)?;
     let exact = exact(args, &reading, scene, bare.as_ref())?;
     let relative_to = relative_to(args, scene);
-    let frame = ErrorBudget::new(&setting, &exact, relative_to).map_err(|refusal| {
+    let frame = ErrorBudget::new(&scene_robot, &exact, relative_to).map_err(|refusal| {
         Failure::Input(format!(
             "error: {}: {refusal}\n  = help: give the limits in the robot file, or the box of a scene",
             args.robot.display()

@@ -63,9 +63,9 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     // What cannot be proved is not generated: this ends with the reason.
     let generated = input::generated(&args.robot, &robot, &request)?;
     drop(session);
-    let setting = request.setting(&robot).map_err(GenerateError::Scene)?;
-    let states = setting.states(STATES, SEED);
-    let runtime = Runtime::in_setting(setting);
+    let scene_robot = request.scene_robot(&robot).map_err(GenerateError::Scene)?;
+    let states = scene_robot.states(STATES, SEED);
+    let runtime = Runtime::in_scene(scene_robot);
     let mut checks = Vec::new();
     let claims = claims(&generated)?;
     for emitted in &generated.emitted {

@@ -12,7 +12,7 @@ use dalembert_model::scene::{Scale, Tolerance};
 
 use crate::approximate::admitted::{Admitted, Claim, within};
 use crate::approximate::error::{NoPolynomials, ToleranceError, Unbounded};
-use crate::approximate::prune::{self, Settings};
+use crate::approximate::prune::{self, PruneSettings};
 use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::bound::definite::{Indefinite, least_eigenvalue};
@@ -26,14 +26,14 @@ use crate::certificate::subject::Subject;
 use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::Stage;
 use crate::program::{Library, Program, ScalarType, has_inertia};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::watch::{FunctionWatch, Part};
 
 /// What errors of a function are bounded in and relative to.
 #[derive(Clone, Debug)]
 pub struct ErrorBudget<'a> {
     /// The full model.
-    pub setting: &'a Setting,
+    pub scene_robot: &'a SceneRobot,
     /// The exact program.
     pub exact: &'a Program,
     /// Where bounds hold.
@@ -54,25 +54,26 @@ pub struct ErrorBudget<'a> {
 const KEPT: usize = 3;
 
 impl<'a> ErrorBudget<'a> {
-    /// The box of a setting, and T over it.
+    /// The box of a robot in its scene, and T over it.
     ///
     /// # Errors
     /// [`ToleranceError::Missing`] limits, or a program that cannot be read back.
     pub fn new(
-        setting: &'a Setting,
+        scene_robot: &'a SceneRobot,
         exact: &'a Program,
         relative_to: Scale,
     ) -> Result<ErrorBudget<'a>, ToleranceError> {
         Unbounded::find(exact).map_or(Ok(()), |why| Err(ToleranceError::Function(why)))?;
-        let limits = InputBox::within(setting, exact.function).map_err(ToleranceError::Missing)?;
+        let limits =
+            InputBox::within(scene_robot, exact.function).map_err(ToleranceError::Missing)?;
         let scales = match relative_to {
             Scale::Actuator => {
-                scale::actuator(setting.robot(), exact).map_err(ToleranceError::Scale)?
+                scale::actuator(scene_robot.robot(), exact).map_err(ToleranceError::Scale)?
             }
             Scale::Range => scale::range(exact, &limits),
         };
         Ok(ErrorBudget {
-            setting,
+            scene_robot,
             exact,
             limits,
             scales,
@@ -145,7 +146,7 @@ impl<'a> ErrorBudget<'a> {
     /// What is claimed of a variant.
     fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
         Subject {
-            setting: self.setting,
+            scene_robot: self.scene_robot,
             stages,
             emitted,
             limits: &self.limits,
@@ -212,7 +213,7 @@ impl<'a> ErrorBudget<'a> {
                 lambda_min: claim.lambda_min,
                 ..subject.claim(claim.scalar, claim.bounds.clone())
             };
-            certificate.check_programs(self.setting)?;
+            certificate.check_programs(self.scene_robot)?;
             certificates.push(certificate);
         }
         Ok(Admitted::of(stages, emitted, certificates))
@@ -241,14 +242,14 @@ impl<'a> ErrorBudget<'a> {
         &self,
         tolerances: &[f64],
         scalars: &[ScalarType],
-        settings: &Settings,
+        settings: &PruneSettings,
         bound_effort: BoundEffort,
     ) -> Result<Admitted, ToleranceError> {
         let meter = Meter::new(settings.work);
         let spent = || match settings.work {
             Some(limit) if meter.is_over() => Err(ToleranceError::Work {
                 limit,
-                scene: (self.setting.scene()).map_or(String::new(), |scene| scene.name.clone()),
+                scene: (self.scene_robot.scene()).map_or(String::new(), |scene| scene.name.clone()),
             }),
             _ => Ok(()),
         };
@@ -263,7 +264,14 @@ impl<'a> ErrorBudget<'a> {
             };
             let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
             let start = start.get_or_insert_with(|| {
-                regrouping::descend(self.setting, exact, limits, &allowances, settings, watch)
+                regrouping::descend(
+                    self.scene_robot,
+                    exact,
+                    limits,
+                    &allowances,
+                    settings,
+                    watch,
+                )
             });
             let start = start.as_ref();
             let pruned = prune::watched(exact, start, limits, &allowances, settings, watch);
@@ -307,13 +315,13 @@ impl<'a> ErrorBudget<'a> {
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let positions = sine_positions(self.setting.robot(), emitted, *scalar, &self.limits);
+        let positions = sine_positions(self.scene_robot.robot(), emitted, *scalar, &self.limits);
         // A tolerance may admit more than D bears.
         for part in [1.0, 0.1, 0.01] {
             let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
             let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity);
             let sines = sines.map_err(NoPolynomials::TooAccurate)?;
-            let found = certificate.with_sines(self.setting, &sines, &sensitivity);
+            let found = certificate.with_sines(self.scene_robot, &sines, &sensitivity);
             within(&found, tolerances).map_err(NoPolynomials::Above)?;
             if found.lambda_min.is_some() || !has_inertia(emitted) {
                 return Ok(found);
@@ -335,7 +343,7 @@ impl<'a> ErrorBudget<'a> {
         bound_effort: BoundEffort,
     ) -> Result<Certificate, ToleranceError> {
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let found = certificate.with_emitted(self.setting, emitted.clone(), &sensitivity);
+        let found = certificate.with_emitted(self.scene_robot, emitted.clone(), &sensitivity);
         within(&found, tolerances)?;
         Ok(found)
     }
@@ -355,7 +363,7 @@ impl<'a> ErrorBudget<'a> {
             return Ok(certificate.clone());
         }
         let sensitivity = self.sensitivity(&certificate.emitted, bound_effort);
-        let found = certificate.calling(self.setting, library, &sensitivity);
+        let found = certificate.calling(self.scene_robot, library, &sensitivity);
         within(&found, tolerances)?;
         Ok(found)
     }

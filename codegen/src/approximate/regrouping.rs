@@ -14,11 +14,11 @@ use std::thread;
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use crate::approximate::prune::{Settings, appraise};
+use crate::approximate::prune::{PruneSettings, appraise};
 use crate::bound::input_box::InputBox;
 use crate::portfolio;
 use crate::program::Program;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::simplify::{Effort, simplify};
 use crate::watch::{FunctionWatch, Part};
 
@@ -33,15 +33,15 @@ const CLOSER: usize = 12;
 /// An exact program that pruning is about to leave less of than of the given
 /// one; `None` if none was found.
 pub(super) fn descend(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     program: &Program,
     limits: &InputBox,
     allowances: &[f64],
-    settings: &Settings,
+    settings: &PruneSettings,
     watch: Option<FunctionWatch<'_>>,
 ) -> Option<Program> {
     let (function, effort) = (program.function, Effort::Thorough);
-    if settings.sweeps == 0 || portfolio::skeleton(setting).links.is_empty() {
+    if settings.sweeps == 0 || portfolio::skeleton(scene_robot).links.is_empty() {
         return None;
     }
     let descent = Descent {
@@ -50,7 +50,7 @@ pub(super) fn descend(
         settings,
         watch,
     };
-    let tuned = portfolio::tuned(setting, function, effort, None, &[], watch);
+    let tuned = portfolio::tuned(scene_robot, function, effort, None, &[], watch);
     let mut best: Option<(Regrouping<Exact>, Program)> = None;
     let mut price = descent.price(program, LOOKS[1]);
     for round in 0..settings.sweeps {
@@ -61,7 +61,7 @@ pub(super) fn descend(
         let from = best
             .as_ref()
             .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
-        let mut regroupings = portfolio::regroupings(setting, function, from);
+        let mut regroupings = portfolio::regroupings(scene_robot, function, from);
         if round == 0 {
             regroupings.insert(0, from.clone());
         }
@@ -69,7 +69,7 @@ pub(super) fn descend(
             if descent.is_over() {
                 return None;
             }
-            let graph = portfolio::in_regrouping(setting, function, regrouping, tuned.form);
+            let graph = portfolio::in_regrouping(scene_robot, function, regrouping, tuned.form);
             let graph = simplify(&[graph], &[], Effort::Quick, &|_| true)?.graph;
             let program = program.with_graph(&graph);
             Some((descent.price(&program, LOOKS[0]), regrouping, program))
@@ -94,7 +94,7 @@ pub(super) fn descend(
 struct Descent<'a> {
     limits: &'a InputBox,
     allowances: &'a [f64],
-    settings: &'a Settings,
+    settings: &'a PruneSettings,
     watch: Option<FunctionWatch<'a>>,
 }
 
@@ -108,7 +108,7 @@ impl Descent<'_> {
             return u32::MAX;
         }
         let allowances: Vec<f64> = self.allowances.iter().map(|a| share * a).collect();
-        let settings = Settings {
+        let settings = PruneSettings {
             samples,
             alike: 0,
             ..*self.settings

@@ -4,7 +4,7 @@
 //! - [`entries`]: more ways to call it, which share its arithmetic
 //! - `statement`: one operation as one line
 //! - [`result`]: the array or the struct that it ends with
-//! - `place`: what a line calls values, in a state or in a lane
+//! - `scope`: what a line calls values, in a state or in a lane
 //! - `trig`: sines and cosines that are called
 //! - `sines`: sines and cosines as polynomials
 //! - `speed`: what Coulomb friction reads of speeds
@@ -14,9 +14,9 @@
 pub mod entries;
 pub mod function;
 pub mod parts;
-mod place;
 pub mod read;
 pub mod result;
+mod scope;
 mod sines;
 mod speed;
 mod statement;

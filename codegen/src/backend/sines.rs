@@ -10,7 +10,7 @@
 
 use std::fmt::Write;
 
-use crate::backend::place::Place;
+use crate::backend::scope::Scope;
 use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, Term, Value};
 
@@ -18,7 +18,7 @@ use crate::program::kernel::{Kernel, Term, Value};
 /// code names the angle.
 pub(super) fn write(
     text: &mut String,
-    place: Place,
+    scope: Scope,
     names: &str,
     argument: &str,
     kernel: &Kernel,
@@ -33,9 +33,9 @@ pub(super) fn write(
         let sign = if value.negative { "-" } else { "" };
         format!("{sign}{}", term(value.value))
     };
-    let Place {
+    let Scope {
         indent, binding, ..
-    } = place;
+    } = scope;
     // Writing to a string cannot fail.
     let _ = writeln!(text, "{indent}{binding}{names} = {{");
     for (index, step) in kernel.steps.iter().enumerate() {

@@ -10,24 +10,24 @@
 
 use std::fmt::Write;
 
-use crate::backend::place::Place;
+use crate::backend::scope::Scope;
 use crate::backend::sines;
 use crate::program::{Library, Lowered, LoweredTrig};
 
 /// Prints them; `path` is where those are that are called.
 pub(super) fn write(text: &mut String, code: &Lowered, path: &str) {
     for trig in &code.trig {
-        let place = Place::STATE;
+        let scope = Scope::STATE;
         if trig.angle.additions() > 0 {
-            let sum = place.sum(trig.angle);
+            let sum = scope.sum(trig.angle);
             // Writing to a string cannot fail.
             let _ = writeln!(text, "    let a{} = {sum};", trig.angle);
         }
         if !is_together(trig, code) {
-            alone(text, trig, place, code, path);
+            alone(text, trig, scope, code, path);
         }
     }
-    let angle = |trig: &LoweredTrig| Place::STATE.angle(trig.angle);
+    let angle = |trig: &LoweredTrig| Scope::STATE.angle(trig.angle);
     together(text, code, path, "", angle);
 }
 
@@ -40,13 +40,13 @@ pub(super) fn is_together(trig: &LoweredTrig, code: &Lowered) -> bool {
 pub(super) fn alone(
     text: &mut String,
     trig: &LoweredTrig,
-    place: Place,
+    scope: Scope,
     code: &Lowered,
     path: &str,
 ) {
-    let (pair, angle) = (place.pair(trig), place.angle(trig.angle));
+    let (pair, angle) = (scope.pair(trig), scope.angle(trig.angle));
     if let Some(kernel) = &trig.kernel {
-        return sines::write(text, place, &pair, &angle, kernel, code.scalar);
+        return sines::write(text, scope, &pair, &angle, kernel, code.scalar);
     }
     let call = match (trig.sin, trig.cos) {
         (true, false) => "sin",
@@ -54,9 +54,9 @@ pub(super) fn alone(
         _ => "sincos",
     };
     let suffix = code.scalar.math_suffix();
-    let Place {
+    let Scope {
         indent, binding, ..
-    } = place;
+    } = scope;
     let _ = writeln!(
         text,
         "{indent}{binding}{pair} = {path}::{call}{suffix}({angle});"

@@ -38,7 +38,7 @@ impl Distinct {
     }
 
     /// What was found of each value, for every output.
-    pub(super) fn spread<T: Clone>(&self, found: &[T]) -> Vec<T> {
+    pub(super) fn scatter<T: Clone>(&self, found: &[T]) -> Vec<T> {
         debug_assert_eq!(found.len(), self.firsts.len());
         let places = self.places.iter();
         places
@@ -59,6 +59,6 @@ mod tests {
             distinct.pick(&["a", "b", "c", "d", "e", "f"]),
             ["a", "b", "c", "e"]
         );
-        assert_eq!(distinct.spread(&[1, 2, 3, 4]), [1, 2, 3, 1, 4, 3]);
+        assert_eq!(distinct.scatter(&[1, 2, 3, 4]), [1, 2, 3, 1, 4, 3]);
     }
 }

@@ -8,7 +8,7 @@ use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
 use crate::function::{Argument, Function};
 use crate::interval::Interval;
 use crate::program::{AngleSum, Input};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// Intervals of joint positions, velocities and accelerations, one a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,34 +60,34 @@ impl InputBox {
     /// A limit of motion that the robot does not have.
     pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
         InputBox::reading(
-            &Setting::whole(robot),
+            &SceneRobot::whole(robot),
             &Function::InverseDynamics.arguments(),
         )
     }
 
-    /// The states of a setting that a function reads: its box, or the robot's
+    /// The states of a robot in its scene that a function reads: its box, or the robot's
     /// limits. Locked joints stand still where they are, and a rate that is
     /// zero, or not an argument, is zero.
     ///
     /// # Errors
     /// As [`InputBox::of`].
-    pub fn within(setting: &Setting, function: Function) -> Result<InputBox, MissingLimit> {
-        InputBox::reading(setting, &setting.arguments(function))
+    pub fn within(scene_robot: &SceneRobot, function: Function) -> Result<InputBox, MissingLimit> {
+        InputBox::reading(scene_robot, &scene_robot.arguments(function))
     }
 
-    fn reading(setting: &Setting, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
+    fn reading(scene_robot: &SceneRobot, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
         let mut limits = InputBox {
             position: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
         };
-        for (joint, row) in setting.robot().joints.iter().enumerate() {
+        for (joint, row) in scene_robot.robot().joints.iter().enumerate() {
             let missing = |limit| MissingLimit {
                 joint,
                 limit,
                 zero: false,
             };
-            if let Some(at) = setting.scene().and_then(|scene| scene.locked(joint)) {
+            if let Some(at) = scene_robot.scene().and_then(|scene| scene.locked(joint)) {
                 limits.position.push(around(at));
                 limits.velocity.push(Interval::ZERO);
                 limits.acceleration.push(Interval::ZERO);

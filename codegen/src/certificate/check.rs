@@ -12,7 +12,7 @@ use crate::bound::ranges::{RANGE_BOXES, ranges};
 use crate::bound::scale;
 use crate::graph::Folding;
 use crate::program::Trig;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
 use crate::sincos;
 use crate::sincos::proof;
@@ -25,9 +25,11 @@ impl Certificate {
     ///
     /// # Errors
     /// The first part that is not so.
-    pub fn check(&self, setting: &Setting) -> Result<Checked, Refuted> {
-        let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
-        self.check_within(setting, tolerance)
+    pub fn check(&self, scene_robot: &SceneRobot) -> Result<Checked, Refuted> {
+        let tolerance = scene_robot
+            .scene()
+            .and_then(|scene| scene.tolerance.as_ref());
+        self.check_within(scene_robot, tolerance)
     }
 
     /// The same with another tolerance than the scene's, or with none.
@@ -36,17 +38,17 @@ impl Certificate {
     /// As [`Certificate::check`].
     pub fn check_within(
         &self,
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         tolerance: Option<&Tolerance>,
     ) -> Result<Checked, Refuted> {
-        self.check_subject(setting)?;
+        self.check_subject(scene_robot)?;
         work::check(self).map_err(Refuted::Work)?;
-        shape::check(self, setting)?;
-        self.check_box(setting)?;
+        shape::check(self, scene_robot)?;
+        self.check_box(scene_robot)?;
         self.check_text()?;
-        self.check_scales(setting)?;
+        self.check_scales(scene_robot)?;
         self.check_tolerance(tolerance)?;
-        let equal = prove(setting, &self.stages[0].program).map_err(Refuted::Exact)?;
+        let equal = prove(scene_robot, &self.stages[0].program).map_err(Refuted::Exact)?;
         self.check_edits()?;
         self.check_sines()?;
         let table = ranges(
@@ -61,27 +63,27 @@ impl Certificate {
             return Err(Refuted::Range(finding));
         }
         let sines = [(self.scalar, self.sines.clone())];
-        let subject = self.subject(setting, &sines);
+        let subject = self.subject(scene_robot, &sines);
         let sensitivity = |bound_effort| Rc::new(subject.sensitivity(bound_effort));
         let found = self.check_claims(&Shared::new(subject, &sensitivity))?;
         Ok(Checked {
             proof: equal,
             bounds: found,
-            ran: run::check(self, setting)?,
+            ran: run::check(self, scene_robot)?,
             findings,
         })
     }
 
     /// The robot and the scene, which may have had no tolerance: a claim about
     /// that scene is one about this, as far as it goes.
-    fn check_subject(&self, setting: &Setting) -> Result<(), Refuted> {
-        let scene = setting.scene();
+    fn check_subject(&self, scene_robot: &SceneRobot) -> Result<(), Refuted> {
+        let scene = scene_robot.scene();
         let own = scene.map(SceneKey::of);
         let bare = scene.map(|scene| SceneKey::of(&scene.without_tolerance()));
         if self.scene != own && self.scene != bare {
             return Err(Refuted::Scene);
         }
-        if self.input != input_hash(setting.robot()) || self.robot != setting.robot().name {
+        if self.input != input_hash(scene_robot.robot()) || self.robot != scene_robot.robot().name {
             return Err(Refuted::Robot);
         }
         Ok(())
@@ -91,17 +93,17 @@ impl Certificate {
     ///
     /// # Errors
     /// [`Refuted::Ran`] where it errs more than is claimed.
-    pub fn run(&self, setting: &Setting, states: usize) -> Result<Ran, Refuted> {
+    pub fn run(&self, scene_robot: &SceneRobot, states: usize) -> Result<Ran, Refuted> {
         work::check(self).map_err(Refuted::Work)?;
-        shape::check(self, setting)?;
-        run::check_at(self, setting, states)
+        shape::check(self, scene_robot)?;
+        run::check_at(self, scene_robot, states)
     }
 
-    /// Before anything is proved of it: what a plan keeps is of this setting,
+    /// Before anything is proved of it: what a plan keeps is of this robot and scene,
     /// and its edits give its programs.
-    pub(crate) fn check_programs(&self, setting: &Setting) -> Result<(), Refuted> {
+    pub(crate) fn check_programs(&self, scene_robot: &SceneRobot) -> Result<(), Refuted> {
         work::check(self).map_err(Refuted::Work)?;
-        shape::check(self, setting)?;
+        shape::check(self, scene_robot)?;
         self.check_edits()
     }
 
@@ -169,11 +171,11 @@ impl Certificate {
     }
 
     /// A claim about a scene is one about all of its box.
-    fn check_box(&self, setting: &Setting) -> Result<(), Refuted> {
-        if setting.scene().is_none() {
+    fn check_box(&self, scene_robot: &SceneRobot) -> Result<(), Refuted> {
+        if scene_robot.scene().is_none() {
             return Ok(());
         }
-        let whole = InputBox::within(setting, self.emitted.function);
+        let whole = InputBox::within(scene_robot, self.emitted.function);
         match whole {
             Ok(whole) if self.limits.holds(&whole) => Ok(()),
             _ => Err(Refuted::Box),
@@ -201,11 +203,11 @@ impl Certificate {
     }
 
     /// A larger T would make E smaller.
-    fn check_scales(&self, setting: &Setting) -> Result<(), Refuted> {
+    fn check_scales(&self, scene_robot: &SceneRobot) -> Result<(), Refuted> {
         let exact = &self.stages[0].program;
         let found = match self.relative_to {
             None => return Ok(()),
-            Some(Scale::Actuator) => scale::actuator(setting.robot(), exact).ok(),
+            Some(Scale::Actuator) => scale::actuator(scene_robot.robot(), exact).ok(),
             Some(Scale::Range) => Some(scale::range(exact, &self.limits)),
         };
         let found = found.ok_or(Refuted::Shape)?;

@@ -61,7 +61,7 @@ use crate::edits::Stage;
 use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType};
 use crate::scene::SceneKey;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::sincos::{AngleKernel, Sines};
 use crate::split::Split;
 use crate::verify::exact::Proof;
@@ -170,7 +170,7 @@ impl Certificate {
         scales: &[f64],
     ) -> Certificate {
         let subject = Subject {
-            setting: &Setting::whole(robot),
+            scene_robot: &SceneRobot::whole(robot),
             stages,
             emitted,
             limits,
@@ -208,12 +208,12 @@ impl Certificate {
     #[must_use]
     pub fn with_sines(
         &self,
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         sines: &Sines,
         sensitivity: &Sensitivity,
     ) -> Certificate {
         let sines = [(self.scalar, sines.clone())];
-        let subject = self.subject(setting, &sines);
+        let subject = self.subject(scene_robot, &sines);
         let scaled = self.bounds.iter().map(|bound| bound.model);
         let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], sensitivity);
         for (bound, model) in bounds.iter_mut().zip(scaled) {
@@ -231,7 +231,7 @@ impl Certificate {
     #[must_use]
     pub fn with_emitted(
         &self,
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         emitted: Program,
         sensitivity: &Sensitivity,
     ) -> Certificate {
@@ -239,7 +239,7 @@ impl Certificate {
             emitted,
             ..self.clone()
         };
-        other.with_sines(setting, &self.sines, sensitivity)
+        other.with_sines(scene_robot, &self.sines, sensitivity)
     }
 
     /// The claim about the text that calls this library, with what is known of its
@@ -248,7 +248,7 @@ impl Certificate {
     #[must_use]
     pub fn calling(
         &self,
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         library: Library,
         sensitivity: &Sensitivity,
     ) -> Certificate {
@@ -261,7 +261,7 @@ impl Certificate {
             ..self.clone()
         };
         let found = other
-            .subject(setting, &[])
+            .subject(scene_robot, &[])
             .rounding(self.scalar, sensitivity);
         for (bound, found) in other.bounds.iter_mut().zip(found) {
             *bound = Split {
@@ -288,11 +288,11 @@ impl Certificate {
 
     fn subject<'a>(
         &'a self,
-        setting: &'a Setting,
+        scene_robot: &'a SceneRobot,
         sines: &'a [(ScalarType, Sines)],
     ) -> Subject<'a> {
         Subject {
-            setting,
+            scene_robot,
             stages: &self.stages,
             emitted: &self.emitted,
             limits: &self.limits,

@@ -17,7 +17,7 @@ use crate::function::Argument;
 use crate::interval::Interval;
 use crate::program::{Lowered, ScalarType};
 use crate::random::Random;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::sincos::stated;
 use crate::states::JointState;
 use crate::verify::reference::{Reference, recursions};
@@ -41,22 +41,22 @@ pub struct Ran {
 }
 
 /// Runs the text at a modest number of states.
-pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<Ran, Refuted> {
-    let all = recursions(certificate.emitted.function, setting.joints().len());
+pub(super) fn check(certificate: &Certificate, scene_robot: &SceneRobot) -> Result<Ran, Refuted> {
+    let all = recursions(certificate.emitted.function, scene_robot.joints().len());
     let states = (MAX_STATES / all.max(1)).clamp(MIN_STATES, MAX_STATES);
-    check_at(certificate, setting, states)
+    check_at(certificate, scene_robot, states)
 }
 
 /// The same at so many states.
 pub(super) fn check_at(
     certificate: &Certificate,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     states: usize,
 ) -> Result<Ran, Refuted> {
     let function = certificate.emitted.function;
     let text = Lowered::parse(&certificate.text, function, certificate.scalar)
         .map_err(|error| Refuted::Unreadable(Box::new(error)))?;
-    let reference = Reference::new(setting);
+    let reference = Reference::new(scene_robot);
     let mut random = Random::new(seed(certificate));
     let bounds = certificate.bounds.iter().zip(&certificate.scales);
     // Up: the product of two doubles is one of the two next to it.
@@ -67,16 +67,16 @@ pub(super) fn check_at(
         states: 0,
         observed: vec![0.0; bounds.len()],
     };
-    let limits = reached(certificate, setting);
+    let limits = reached(certificate, scene_robot);
     for index in 0..states {
         let drawn = match index {
             0..MAX_CORNERS => corner(&limits, index, &mut random),
             _ => draw(&limits, &mut random),
         };
-        let Some(state) = held(&drawn, &limits, certificate.scalar, setting) else {
+        let Some(state) = held(&drawn, &limits, certificate.scalar, scene_robot) else {
             continue;
         };
-        let unread = with_garbage(&state, certificate, setting, &mut random);
+        let unread = with_garbage(&state, certificate, scene_robot, &mut random);
         let results = text.run_at(&unread);
         let truth = reference.run(function, &state);
         ran.states += 1;
@@ -100,12 +100,12 @@ pub(super) fn check_at(
 }
 
 /// The box, and for joints that turn freely the angles that it reaches to.
-fn reached(certificate: &Certificate, setting: &Setting) -> InputBox {
+fn reached(certificate: &Certificate, scene_robot: &SceneRobot) -> InputBox {
     let mut limits = certificate.limits.clone();
     let every = Interval::symmetric(stated(certificate.scalar));
     for (joint, range) in limits.position.iter_mut().enumerate() {
-        if setting.lock(joint).is_none() {
-            let held = certificate.positions(setting.robot(), joint);
+        if scene_robot.lock(joint).is_none() {
+            let held = certificate.positions(scene_robot.robot(), joint);
             *range = held.unwrap_or(every);
         }
     }
@@ -152,14 +152,14 @@ fn held(
     state: &JointState,
     limits: &InputBox,
     scalar: ScalarType,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
 ) -> Option<JointState> {
     let hold = |values: &[f64], ranges: &[Interval]| {
         let pairs = values.iter().zip(ranges).enumerate();
         let one = |(joint, (&x, range)): (usize, (&f64, &Interval))| {
             let inside = |x: f64| range.low() <= x && x <= range.high();
             match scalar {
-                _ if setting.lock(joint).is_some() => Some(x),
+                _ if scene_robot.lock(joint).is_some() => Some(x),
                 ScalarType::F64 => inside(x).then_some(x),
                 ScalarType::F32 => {
                     let near = x as f32;
@@ -183,7 +183,7 @@ fn held(
 fn with_garbage(
     state: &JointState,
     certificate: &Certificate,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     random: &mut Random,
 ) -> JointState {
     let mut garbage = || 1e3 * (random.unit() - 0.5);
@@ -196,7 +196,7 @@ fn with_garbage(
     for (argument, entries) in arguments {
         let is_read = certificate.emitted.arguments.contains(&argument);
         for (joint, entry) in entries.iter_mut().enumerate() {
-            if !is_read || setting.lock(joint).is_some() {
+            if !is_read || scene_robot.lock(joint).is_some() {
                 *entry = garbage();
             }
         }

@@ -1,4 +1,4 @@
-//! What a claim is about: the function, arguments and results of the setting,
+//! What a claim is about: the function, arguments and results of the robot in its scene,
 //! and nothing read that they do not have.
 //!
 //! Everything after this may take for granted that lists are as long as they
@@ -14,14 +14,14 @@ use crate::program::Input;
 use crate::program::kernel::{Kernel, Term};
 use crate::program::text::input_name;
 use crate::program::{Operand, Program};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
-/// Whether all parts of a claim fit the setting and each other.
-pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<(), Refuted> {
+/// Whether all parts of a claim fit the scene and each other.
+pub(super) fn check(certificate: &Certificate, scene_robot: &SceneRobot) -> Result<(), Refuted> {
     let Certificate {
         emitted, limits, ..
     } = certificate;
-    let (n, outputs) = (setting.joints().len(), emitted.outputs.len());
+    let (n, outputs) = (scene_robot.joints().len(), emitted.outputs.len());
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];
     let fits = !certificate.stages.is_empty()
         && lists.iter().all(|list| list.len() == n)
@@ -30,7 +30,10 @@ pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<(), 
     if !fits {
         return Err(Refuted::Shape);
     }
-    let checker = Checker { setting, emitted };
+    let checker = Checker {
+        scene_robot,
+        emitted,
+    };
     for (index, stage) in certificate.stages.iter().enumerate() {
         let name = format!("the program of stage {}", index + 1);
         checker.program(&name, &stage.program)?;
@@ -57,28 +60,28 @@ pub(super) fn check(certificate: &Certificate, setting: &Setting) -> Result<(), 
 }
 
 struct Checker<'a> {
-    setting: &'a Setting,
+    scene_robot: &'a SceneRobot,
     emitted: &'a Program,
 }
 
 impl Checker<'_> {
     fn program(&self, name: &str, program: &Program) -> Result<(), Refuted> {
         let function = self.emitted.function;
-        let rows = self.setting.rows();
+        let rows = self.scene_robot.rows();
         let signature = [
             ("function", program.function == function),
             (
                 "number of joints",
-                program.joints == self.setting.joints().len(),
+                program.joints == self.scene_robot.joints().len(),
             ),
             ("list of rows", program.rows == rows),
             (
                 "list of arguments",
-                program.arguments == self.setting.arguments(function),
+                program.arguments == self.scene_robot.arguments(function),
             ),
             (
                 "number of results",
-                program.outputs.len() == function.outputs(self.setting.sizes(function)),
+                program.outputs.len() == function.outputs(self.scene_robot.sizes(function)),
             ),
         ];
         if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
@@ -122,10 +125,10 @@ impl Checker<'_> {
     }
 
     fn wrong(&self, input: Input) -> Option<WrongInput> {
-        let joints = &self.setting.robot().joints;
+        let joints = &self.scene_robot.robot().joints;
         let of = |joint: usize, kind: Option<JointKind>| match joints.get(joint) {
             None => Some(WrongInput::NoJoint),
-            Some(_) if self.setting.lock(joint).is_some() => Some(WrongInput::Locked),
+            Some(_) if self.scene_robot.lock(joint).is_some() => Some(WrongInput::Locked),
             Some(row) => match (kind, row.kind) {
                 (Some(JointKind::Revolute), JointKind::Prismatic) => Some(WrongInput::Slides),
                 (Some(JointKind::Prismatic), JointKind::Revolute) => Some(WrongInput::Turns),

@@ -11,7 +11,7 @@ use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::bound::turns::turns_freely;
 use crate::edits::{Stage, difference, has_edits};
 use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
 use crate::sincos::called::Called;
 use crate::sincos::{self, AngleKernel, Sines};
@@ -21,7 +21,7 @@ use crate::split::Split;
 #[derive(Clone, Copy, Debug)]
 pub struct Subject<'a> {
     /// The full model.
-    pub setting: &'a Setting,
+    pub scene_robot: &'a SceneRobot,
     /// What was edited; none for an exact program.
     pub stages: &'a [Stage],
     /// The program that is emitted, with exact constants.
@@ -95,7 +95,7 @@ impl Subject<'_> {
         let reach = |angle: AngleSum| {
             let joints = angle.terms().map(|(joint, _)| joint);
             joints.fold(0.0, |sum, joint| {
-                match turns_freely(self.setting.robot(), trig, joint) {
+                match turns_freely(self.scene_robot.robot(), trig, joint) {
                     true => f64::INFINITY,
                     false => sum + self.limits.position[joint].magnitude(),
                 }
@@ -127,9 +127,9 @@ impl Subject<'_> {
     /// nothing is claimed of the least eigenvalue.
     pub fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
         Certificate {
-            robot: self.setting.robot().name.clone(),
-            input: input_hash(self.setting.robot()),
-            scene: self.setting.scene().map(SceneKey::of),
+            robot: self.scene_robot.robot().name.clone(),
+            input: input_hash(self.scene_robot.robot()),
+            scene: self.scene_robot.scene().map(SceneKey::of),
             scalar,
             limits: self.limits.clone(),
             scales: self.scales.to_vec(),

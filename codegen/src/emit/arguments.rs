@@ -10,13 +10,13 @@ use super::figures::{decimal, placed};
 use crate::backend::function::{LOAD, PAYLOAD};
 use crate::function::{Argument, Function};
 use crate::program::ScalarType;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// What gravity is, for the header.
-pub(super) fn gravity(robot: &Robot, setting: &Setting) -> String {
+pub(super) fn gravity(robot: &Robot, scene_robot: &SceneRobot) -> String {
     let components: Vec<String> = robot.gravity.iter().map(decimal).collect();
     let file = components.join(", ");
-    match setting.has(RuntimeParameter::Gravity) {
+    match scene_robot.has(RuntimeParameter::Gravity) {
         false => format!("gravity ({file}) m/s² in base axes."),
         true => {
             format!("gravity is the argument `g` in m/s² and base axes ({file} in the robot file).")
@@ -25,15 +25,15 @@ pub(super) fn gravity(robot: &Robot, setting: &Setting) -> String {
 }
 
 /// The types of a payload and of its load; nothing where there is none.
-pub(super) fn types(setting: &Setting, scalar: ScalarType) -> String {
+pub(super) fn types(scene_robot: &SceneRobot, scalar: ScalarType) -> String {
     let mut text = String::new();
-    if !setting.has(RuntimeParameter::Payload) {
+    if !scene_robot.has(RuntimeParameter::Payload) {
         return text;
     }
-    let sizes = setting.sizes(Function::Load);
+    let sizes = scene_robot.sizes(Function::Load);
     let [payload, load] = [Argument::Payload, Argument::Load].map(|a| a.length(sizes));
-    let n = setting.joints().len();
-    let frame = match setting.robot().payload_frame.as_ref() {
+    let n = scene_robot.joints().len();
+    let frame = match scene_robot.robot().payload_frame.as_ref() {
         None => format!("that of joint {n} in the table"),
         Some(frame) => {
             let at = placed(frame);
@@ -57,16 +57,16 @@ pub(super) fn types(setting: &Setting, scalar: ScalarType) -> String {
 }
 
 /// What a function's arguments are that are no joint vectors.
-pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
+pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
     let mut lines = Vec::new();
-    if setting.takes(function, RuntimeParameter::Gravity) {
+    if scene_robot.takes(function, RuntimeParameter::Gravity) {
         lines.extend([
             String::new(),
             "`g` is the acceleration of gravity in base axes, m/s². Where the base is tilted, turn it into".into(),
             "the base's axes; where it moves without turning, subtract its acceleration.".into(),
         ]);
     }
-    if setting.takes(function, RuntimeParameter::Payload) {
+    if scene_robot.takes(function, RuntimeParameter::Payload) {
         lines.extend([
             String::new(),
             "`load` is what [`load`] returns of what the hand carries. Proved with all ten numbers of".into(),

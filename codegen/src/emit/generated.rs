@@ -5,7 +5,7 @@ use crate::function::Function;
 use crate::portfolio::Source;
 use crate::program::{Counts, Library, Lowered, Program, ScalarType};
 use crate::scene::ParametersKey;
-use crate::simplify::Stage;
+use crate::simplify::Pass;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::verify::accuracy::Refused;
 use crate::verify::exact::Proof;
@@ -33,7 +33,7 @@ pub struct GeneratedFunction {
     /// The polynomials of its sines in each scalar, if they are not libm's.
     pub sines: Vec<(ScalarType, Sines)>,
     /// Counts of the formula as executed, then after each step.
-    pub stages: Vec<Stage>,
+    pub passes: Vec<Pass>,
     /// The proof of the exact program. With a tolerance, `program` is another one that was made from
     /// it; this proof is not about that.
     pub proof: Proof,

@@ -15,7 +15,7 @@ use crate::backend::entries::{self, Around};
 use crate::backend::{Entries, Printed, function, result};
 use crate::emit::GeneratedFunction;
 use crate::program::{Lowered, ScalarType};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// How a robot's modules are printed.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +76,7 @@ pub fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
 /// The whole file; `codes` are the functions' programs in each scalar.
 pub fn write(
     robot: &Robot,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
     codes: &[Vec<Lowered>],
     options: &ModuleOptions<'_>,
@@ -89,14 +89,21 @@ pub fn write(
     );
     for (&scalar, codes) in options.scalars.iter().zip(codes) {
         text.push('\n');
-        text.push_str(&module(robot, setting, functions, codes, scalar, options));
+        text.push_str(&module(
+            robot,
+            scene_robot,
+            functions,
+            codes,
+            scalar,
+            options,
+        ));
     }
     text
 }
 
 fn module(
     robot: &Robot,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
     codes: &[Lowered],
     scalar: ScalarType,
@@ -108,7 +115,7 @@ fn module(
         Layout::Modules => "///",
         Layout::Contents => "//!",
     };
-    for line in header(robot, setting, functions, scalar) {
+    for line in header(robot, scene_robot, functions, scalar) {
         let space = if line.is_empty() { "" } else { " " };
         let _ = writeln!(text, "{mark}{space}{line}");
     }
@@ -126,8 +133,8 @@ fn module(
         ),
     };
     let _ = writeln!(text, "/// The number of joints.\npub const N: usize = {n};");
-    let rows = setting.rows();
-    if setting.scene().is_some() {
+    let rows = scene_robot.rows();
+    if scene_robot.scene().is_some() {
         let _ = writeln!(
             text,
             "/// The joints that results are over, in their order, from zero.\n\
@@ -135,8 +142,8 @@ fn module(
             rows.len()
         );
     }
-    text.push_str(&arguments::types(setting, scalar));
-    if let Some(state_box) = StateBox::of(functions, setting, scalar) {
+    text.push_str(&arguments::types(scene_robot, scalar));
+    if let Some(state_box) = StateBox::of(functions, scene_robot, scalar) {
         state_box.write(&mut text, scalar);
     }
     let angles = angles(n, functions);
@@ -154,9 +161,13 @@ fn module(
         let columns = generated.function.columns();
         let mut earlier = functions[..index].iter();
         if !earlier.any(|other| other.function.columns() == columns) {
-            text.push_str(&parameters::constant(generated.function, setting, scalar));
+            text.push_str(&parameters::constant(
+                generated.function,
+                scene_robot,
+                scalar,
+            ));
         }
-        let doc = function_doc(generated, setting, scalar);
+        let doc = function_doc(generated, scene_robot, scalar);
         let printed = Printed::of(&generated.program, code);
         text.push_str(&match options.entries {
             Entries::Single => function::write(&printed, options.path, &doc),
@@ -187,7 +198,7 @@ pub fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
 /// Robot, conventions, DH table, counts and proof.
 fn header(
     robot: &Robot,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
     scalar: ScalarType,
 ) -> Vec<String> {
@@ -205,7 +216,7 @@ fn header(
         String::new(),
         format!(
             "SI units, radians; {convention} DH; {}",
-            arguments::gravity(robot, setting)
+            arguments::gravity(robot, scene_robot)
         ),
     ];
     if let Some(base) = &robot.base {
@@ -261,7 +272,7 @@ fn header(
             tilted.join(", joint ")
         ));
     }
-    if let Some(scene) = setting.scene() {
+    if let Some(scene) = scene_robot.scene() {
         lines.push(String::new());
         lines.extend(describe(scene, robot));
     }
@@ -335,7 +346,7 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
 /// A placement as a header has it.
 fn function_doc(
     generated: &GeneratedFunction,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     scalar: ScalarType,
 ) -> Vec<String> {
     let mut lines = vec![
@@ -363,12 +374,12 @@ fn function_doc(
             "joint moves no inertia a pivot is zero, and results are infinite or NaN.".into(),
         );
     }
-    lines.extend(friction::doc(generated, setting));
-    lines.extend(arguments::doc(generated.function, setting));
-    lines.extend(parameters::doc(generated.function, setting));
+    lines.extend(friction::doc(generated, scene_robot));
+    lines.extend(arguments::doc(generated.function, scene_robot));
+    lines.extend(parameters::doc(generated.function, scene_robot));
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
-        lines.extend(variant::describe(admitted, setting, scalar));
+        lines.extend(variant::describe(admitted, scene_robot, scalar));
     }
     lines
 }

@@ -10,11 +10,11 @@ use num_traits::{One, Signed};
 use super::figures::decimal;
 use crate::function::{Columns, Function};
 use crate::program::{Literal, ScalarType};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::scene::base::{BaseParameters, Parameter};
 
 /// What the columns of a function's regressor are; nothing of other functions.
-pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
+pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
     let mut lines = match function.columns() {
         Columns::None => return Vec::new(),
         Columns::Links | Columns::Base(_) => vec![String::new()],
@@ -23,7 +23,7 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
         "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to",
         "Ixz2 the entries of its tensor, all about the origin and in the axes of its DH frame.",
     ];
-    match over_base(function, setting) {
+    match over_base(function, scene_robot) {
         Some(((sum, constant), base)) => {
             lines.push(format!(
                 "{sum} = Y π, and `{constant}` is this robot's π. No fewer columns give all"
@@ -49,7 +49,7 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of"
                     .into(),
             );
-            let friction = match setting.has_coulomb() {
+            let friction = match scene_robot.has_coulomb() {
                 true => "friction, viscous and Coulomb,",
                 false => "viscous friction",
             };
@@ -61,12 +61,12 @@ pub(super) fn doc(function: Function, setting: &Setting) -> Vec<String> {
 }
 
 /// The constant π; nothing of functions that are over no base parameters.
-pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType) -> String {
+pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: ScalarType) -> String {
     let mut text = String::new();
-    let Some(((_, name), base)) = over_base(function, setting) else {
+    let Some(((_, name), base)) = over_base(function, scene_robot) else {
         return text;
     };
-    let arm = Arm::from_robot(setting.robot(), &mut Exact::clone);
+    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
     let values = base.values(&arm);
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -86,12 +86,12 @@ pub(super) fn constant(function: Function, setting: &Setting, scalar: ScalarType
 /// for their values, and what they are.
 fn over_base(
     function: Function,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
 ) -> Option<((&'static str, &'static str), &BaseParameters)> {
     let Columns::Base(quantity) = function.columns() else {
         return None;
     };
-    Some((quantity.linear()?, setting.base(quantity).ok()?))
+    Some((quantity.linear()?, scene_robot.base(quantity).ok()?))
 }
 
 fn has_drives(base: &BaseParameters) -> bool {

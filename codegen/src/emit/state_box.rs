@@ -11,7 +11,7 @@ use super::variant::held;
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::program::ScalarType;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::sincos;
 
 /// The ranges of each argument's entries; none for those that nothing bounds.
@@ -23,14 +23,14 @@ impl StateBox {
     /// Where all of the functions hold; `None` if that is everywhere.
     pub(super) fn of(
         functions: &[GeneratedFunction],
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         scalar: ScalarType,
     ) -> Option<StateBox> {
-        let joints = setting.robot().joints.len();
+        let joints = scene_robot.robot().joints.len();
         let columns = Argument::STATE.into_iter().map(|argument| {
             let mut column = vec![None; joints];
             for generated in functions {
-                bound(&mut column, argument, generated, setting, scalar);
+                bound(&mut column, argument, generated, scene_robot, scalar);
             }
             (argument, column)
         });
@@ -104,7 +104,7 @@ fn bound(
     column: &mut [Option<Interval>],
     argument: Argument,
     generated: &GeneratedFunction,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     scalar: ScalarType,
 ) {
     if let Some(admitted) = &generated.admitted {
@@ -116,14 +116,14 @@ fn bound(
             return;
         }
         for (joint, place) in column.iter_mut().enumerate() {
-            if setting.lock(joint).is_none()
-                && let Some(range) = held(certificate, setting, argument, joint)
+            if scene_robot.lock(joint).is_none()
+                && let Some(range) = held(certificate, scene_robot, argument, joint)
             {
                 *place = Some(narrower(*place, range));
             }
         }
     } else if argument == Argument::Position {
-        let positions = sincos::positions(setting.robot(), scalar);
+        let positions = sincos::positions(scene_robot.robot(), scalar);
         let sines = generated.sines(scalar).iter();
         for (joint, _) in sines.flat_map(|sine| sine.angle.terms()) {
             if let (Some(place), Some(range)) = (column.get_mut(joint), positions.get(joint)) {

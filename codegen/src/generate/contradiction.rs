@@ -9,7 +9,7 @@ use super::reason::Contradiction;
 use crate::certificate::Refuted;
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::states::JointState;
 use crate::verify::floating::Emitted;
 use crate::verify::reference::Reference;
@@ -23,28 +23,30 @@ const SEED: u64 = 0x0074_7269_616c;
 
 /// Runs every emitted function.
 pub(super) fn check(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
     emitted: &[Emitted],
 ) -> Result<(), GenerateError> {
     // Limits may reach beyond f32, and the reference is of finite numbers.
-    let states: Vec<JointState> = setting
+    let states: Vec<JointState> = scene_robot
         .states(STATES, SEED)
         .iter()
         .map(JointState::in_finite_single)
         .collect();
-    let reference = Reference::new(setting);
+    let reference = Reference::new(scene_robot);
     for generated in functions {
         if let Some(admitted) = &generated.admitted {
             for certificate in &admitted.certificates {
-                certificate.run(setting, STATES).map_err(|why| match why {
-                    Refuted::Ran { .. } => GenerateError::Contradicted {
-                        function: generated.function,
-                        scalar: certificate.scalar,
-                        why: Contradiction::Certificate(Box::new(why)),
-                    },
-                    other => GenerateError::Edited(generated.function, other),
-                })?;
+                certificate
+                    .run(scene_robot, STATES)
+                    .map_err(|why| match why {
+                        Refuted::Ran { .. } => GenerateError::Contradicted {
+                            function: generated.function,
+                            scalar: certificate.scalar,
+                            why: Contradiction::Certificate(Box::new(why)),
+                        },
+                        other => GenerateError::Edited(generated.function, other),
+                    })?;
             }
             continue;
         }

@@ -5,13 +5,13 @@
 
 use super::{GeneratedFunction, Request, all};
 use crate::program::{Operation, Program, ScalarType};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::simplify::{CostModel, Effort};
 use crate::watch::Watch;
 
 /// Puts the quick search's functions in the place of dearer ones.
 pub(super) fn no_dearer_than_quick(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     request: &Request,
     functions: &mut [GeneratedFunction],
     scalars: &[ScalarType],
@@ -22,7 +22,7 @@ pub(super) fn no_dearer_than_quick(
         ..request.clone()
     };
     // Where it finds nothing, what is there already stays.
-    let Ok((quick, theirs)) = all(setting, &quick) else {
+    let Ok((quick, theirs)) = all(scene_robot, &quick) else {
         return;
     };
     if theirs != scalars {

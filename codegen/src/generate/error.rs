@@ -8,7 +8,7 @@ use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
 use crate::function::Function;
 use crate::program::ScalarType;
-use crate::scene::SettingError;
+use crate::scene::SceneError;
 use crate::scene::base::NoBase;
 use crate::verify::exact::Disproof;
 
@@ -37,7 +37,7 @@ pub enum GenerateError {
         scene: String,
     },
     /// The scene is none of this robot.
-    Scene(SettingError),
+    Scene(SceneError),
     /// A constant is beyond the scalar's range, or rounds to zero.
     Constant {
         /// The function that needs it.

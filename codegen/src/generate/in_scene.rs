@@ -90,8 +90,8 @@ impl Request {
             if let Some(scalar) = scene.scalar {
                 self.scalars = vec![scalar.into()];
             }
-            self.any_scalar = scalars.is_none() && scene.scalar.is_none();
-            if self.any_scalar && scene.tolerance.is_some() {
+            self.cheapest_scalar = scalars.is_none() && scene.scalar.is_none();
+            if self.cheapest_scalar && scene.tolerance.is_some() {
                 self.scalars = ScalarType::ALL.to_vec();
             }
             self.scene = Some(scene.clone());

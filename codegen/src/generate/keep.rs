@@ -58,7 +58,7 @@ fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) ->
         start: request.start,
         scalar,
         source: function.source,
-        stages: function.stages.clone(),
+        passes: function.passes.clone(),
         scene: request.scene.as_ref().map(SceneKey::of),
         parameters: function.parameters.clone(),
         program: exact(function).clone(),

@@ -34,7 +34,7 @@ use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::{Columns, Function};
 use crate::program::{Lowered, ScalarType};
-use crate::scene::{ParametersKey, Setting, input_hash};
+use crate::scene::{ParametersKey, SceneRobot, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
 use crate::trace::feels_coulomb;
@@ -82,7 +82,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             return Err(GenerateError::Namesakes(other, function));
         }
     }
-    if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.any_scalar {
+    if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.cheapest_scalar {
         return Err(GenerateError::Contents);
     }
     if let Some(plan) = &request.plan
@@ -103,30 +103,35 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             ));
         }
     }
-    let setting = request.setting(robot).map_err(GenerateError::Scene)?;
+    let scene_robot = request.scene_robot(robot).map_err(GenerateError::Scene)?;
     if tolerance.is_some() {
         let mut functions = request.functions.iter();
-        if let Some(&function) = functions.find(|&&f| feels_coulomb(&setting, f)) {
+        if let Some(&function) = functions.find(|&&f| feels_coulomb(&scene_robot, f)) {
             let why = ToleranceError::Function(Unbounded::Friction);
             return Err(GenerateError::Tolerance(function, why));
         }
     }
-    parameters::check(request, &setting).map_err(GenerateError::Parameter)?;
-    let (mut functions, scalars) = all(&setting, request)?;
+    parameters::check(request, &scene_robot).map_err(GenerateError::Parameter)?;
+    let (mut functions, scalars) = all(&scene_robot, request)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
-        early::no_dearer_than_quick(&setting, request, &mut functions, &scalars);
+        early::no_dearer_than_quick(&scene_robot, request, &mut functions, &scalars);
     }
     for generated in &mut functions {
         if generated.sines.is_empty() {
-            generated.sines = sines(&setting, generated, &scalars, request)?;
+            generated.sines = sines(&scene_robot, generated, &scalars, request)?;
         }
     }
     let mut warnings = Vec::new();
     for generated in &functions {
         for &scalar in &scalars {
             check_constants(&generated.program, scalar, &mut warnings)?;
-            warn_of_overflow(setting.robot(), &generated.program, scalar, &mut warnings);
+            warn_of_overflow(
+                scene_robot.robot(),
+                &generated.program,
+                scalar,
+                &mut warnings,
+            );
         }
     }
     // What is printed, and what the text is compared with once it is read back.
@@ -139,7 +144,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let name = request.module_name(robot);
     let text = module::write(
         robot,
-        &setting,
+        &scene_robot,
         &functions,
         &codes,
         &ModuleOptions {
@@ -164,7 +169,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             emitted.push(read_back(section, generated, code, request, &angles)?);
         }
     }
-    contradiction::check(&setting, &functions, &emitted)?;
+    contradiction::check(&scene_robot, &functions, &emitted)?;
     Ok(Generated {
         functions,
         text,
@@ -180,68 +185,72 @@ type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 /// scalars to emit. With a tolerance the certificate says what rounding may
 /// cost, and the cheapest exact programs are what to start from; those that
 /// cost fewer digits have their turn if it refuses these.
-fn all(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
-    let tolerance = setting.scene().and_then(|scene| scene.tolerance.as_ref());
+fn all(scene_robot: &SceneRobot, request: &Request) -> Result<Found, GenerateError> {
+    let tolerance = scene_robot
+        .scene()
+        .and_then(|scene| scene.tolerance.as_ref());
     if tolerance.is_none() || request.prefer != Prefer::Accuracy {
-        return attempt(setting, request);
+        return attempt(scene_robot, request);
     }
     let cheapest = Request {
         prefer: Prefer::Operations,
         ..request.clone()
     };
-    match attempt(setting, &cheapest) {
-        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => attempt(setting, request),
+    match attempt(scene_robot, &cheapest) {
+        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => {
+            attempt(scene_robot, request)
+        }
         found => found,
     }
 }
 
-fn attempt(setting: &Setting, request: &Request) -> Result<Found, GenerateError> {
+fn attempt(scene_robot: &SceneRobot, request: &Request) -> Result<Found, GenerateError> {
     let mut functions = Vec::new();
-    if setting.has(RuntimeParameter::Payload) {
-        functions.push(one(setting, Function::Load, request)?);
+    if scene_robot.has(RuntimeParameter::Payload) {
+        functions.push(one(scene_robot, Function::Load, request)?);
     }
     for function in Function::in_order(&request.functions) {
-        functions.push(one(setting, function, request)?);
+        functions.push(one(scene_robot, function, request)?);
     }
-    let scalars = tolerate(setting, &mut functions, request)?;
+    let scalars = tolerate(scene_robot, &mut functions, request)?;
     Ok((functions, scalars))
 }
 
 fn one(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &Request,
 ) -> Result<GeneratedFunction, GenerateError> {
     let base = match function.columns() {
-        Columns::Base(quantity) => Some(setting.base(quantity)),
+        Columns::Base(quantity) => Some(scene_robot.base(quantity)),
         Columns::Links | Columns::None => None,
     };
     let base = base.transpose();
     let base = base.map_err(|why| GenerateError::Base(function, why))?;
-    let outputs = function.outputs(setting.sizes(function));
+    let outputs = function.outputs(scene_robot.sizes(function));
     if outputs > MAX_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
     if let Some(base) = base {
-        prove_base(setting, function, base)
+        prove_base(scene_robot, function, base)
             .map_err(|why| GenerateError::Disproved(function, why))?;
     }
     if function.inverts_inertia()
-        && let Some(joint) = without_inertia(setting, function)
+        && let Some(joint) = without_inertia(scene_robot, function)
     {
-        let joint = setting.robot().joint_label(joint);
+        let joint = scene_robot.robot().joint_label(joint);
         return Err(GenerateError::Singular { function, joint });
     }
-    let entry = replay(setting, function, request)?;
-    let (source, stages, program, refused) = match entry {
+    let entry = replay(scene_robot, function, request)?;
+    let (source, passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.
-            let program = entry.program.clone().with_speeds(setting.speeds());
-            (entry.source, entry.stages.clone(), program, None)
+            let program = entry.program.clone().with_speeds(scene_robot.speeds());
+            (entry.source, entry.passes.clone(), program, None)
         }
-        None => found(setting, function, request)?,
+        None => found(scene_robot, function, request)?,
     };
-    let finished = match tolerates(setting) {
+    let finished = match tolerates(scene_robot) {
         // Errors are bounded, and parts left out of it, first.
         true => program.clone(),
         false => request.finished(&program),
@@ -250,21 +259,21 @@ fn one(
         true => (program, None),
         false => (finished, Some(program)),
     };
-    let proof = prove(setting, &program).map_err(|disproof| match vanishing(setting) {
+    let proof = prove(scene_robot, &program).map_err(|disproof| match vanishing(scene_robot) {
         Some(value) => GenerateError::Vanishing(function, value.to_string()),
         None => GenerateError::Disproved(function, disproof),
     })?;
     Ok(GeneratedFunction {
         function,
         source,
-        parameters: ParametersKey::of(setting, function),
+        parameters: ParametersKey::of(scene_robot, function),
         planned: entry.is_some(),
         counts: program.counts(),
         sines: Vec::new(),
         depth: (request.prefer == Prefer::Latency).then(|| program.depth()),
         program,
         found,
-        stages,
+        passes,
         proof,
         refused,
         admitted: None,
@@ -272,15 +281,15 @@ fn one(
 }
 
 /// Whether the scene has a tolerance.
-fn tolerates(setting: &Setting) -> bool {
-    setting
+fn tolerates(scene_robot: &SceneRobot) -> bool {
+    scene_robot
         .scene()
         .is_some_and(|scene| scene.tolerance.is_some())
 }
 
 /// The polynomials of a program's sines in each scalar.
 fn sines(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     generated: &GeneratedFunction,
     scalars: &[ScalarType],
     request: &Request,
@@ -295,7 +304,7 @@ fn sines(
     let error = error.unwrap_or(SinCos::ERROR);
     let fail = |why| GenerateError::SinCos(generated.function, NoSines::TooAccurate(Box::new(why)));
     let all = scalars.iter().map(|&scalar| {
-        let positions = sincos::positions(setting.robot(), scalar);
+        let positions = sincos::positions(scene_robot.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
         Ok((scalar, sines.map_err(fail)?))
     });

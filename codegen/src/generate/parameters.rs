@@ -9,7 +9,7 @@ use crate::approximate::error::Unbounded;
 use crate::backend::Entries;
 use crate::function::{Argument, Function};
 use crate::portfolio::Start;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// Why a parameter cannot be an argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl fmt::Display for ParameterError {
 }
 
 /// Refuses, before anything is searched for, what cannot be.
-pub(super) fn check(request: &Request, setting: &Setting) -> Result<(), ParameterError> {
+pub(super) fn check(request: &Request, scene_robot: &SceneRobot) -> Result<(), ParameterError> {
     let Some(&first) = request.parameters.first() else {
         return Ok(());
     };
@@ -88,11 +88,11 @@ pub(super) fn check(request: &Request, setting: &Setting) -> Result<(), Paramete
         return Err(ParameterError::Batch(first));
     }
     let given = scene.filter(|scene| scene.gravity.is_some());
-    if let (true, Some(scene)) = (setting.has(RuntimeParameter::Gravity), given) {
+    if let (true, Some(scene)) = (scene_robot.has(RuntimeParameter::Gravity), given) {
         let scene = scene.name.clone();
         return Err(ParameterError::Gravity { scene });
     }
-    if !setting.has(RuntimeParameter::Payload) {
+    if !scene_robot.has(RuntimeParameter::Payload) {
         return Ok(());
     }
     if !request.start.has_chain() {
@@ -102,7 +102,7 @@ pub(super) fn check(request: &Request, setting: &Setting) -> Result<(), Paramete
     if let Some(&function) = functions.find(|function| function.burden() == Burden::More) {
         return Err(ParameterError::Unregrouped(function));
     }
-    match setting.load().is_some_and(|load| !load.rows.is_empty()) {
+    match scene_robot.load().is_some_and(|load| !load.rows.is_empty()) {
         true => Ok(()),
         false => Err(ParameterError::Unfelt),
     }

@@ -12,10 +12,10 @@ use crate::bound::ranges::{Finding, ranges};
 use crate::function::Argument;
 use crate::graph::Points;
 use crate::program::{Operand, Program, ScalarType};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// A parameter that the search cannot tell from zero.
-pub(super) fn vanishing(setting: &Setting) -> Option<Exact> {
+pub(super) fn vanishing(scene_robot: &SceneRobot) -> Option<Exact> {
     let mut lost = None;
     let mut constant = |value: &Exact| {
         if Points::lose(value) {
@@ -23,8 +23,8 @@ pub(super) fn vanishing(setting: &Setting) -> Option<Exact> {
         }
         value.clone()
     };
-    Arm::from_robot(setting.robot(), &mut constant);
-    setting.motion(|_| Exact::zero(), constant);
+    Arm::from_robot(scene_robot.robot(), &mut constant);
+    scene_robot.motion(|_| Exact::zero(), constant);
     lost
 }
 

@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::portfolio::{Start, load};
 use crate::program::shallow::Cycles;
 use crate::program::{Program, ScalarType};
-use crate::scene::{Setting, SettingError};
+use crate::scene::{SceneError, SceneRobot};
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
@@ -119,7 +119,7 @@ pub struct Request {
     pub scene: Option<Scene>,
     /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
     /// that it admits.
-    pub any_scalar: bool,
+    pub cheapest_scalar: bool,
     /// Units of work that the search for what a tolerance allows may take; it
     /// is refused where that is not enough. They are counted, never timed: the
     /// same everywhere. No limit if `None`.
@@ -141,9 +141,9 @@ impl Request {
     ///
     /// # Errors
     /// The scene is none of this robot.
-    pub fn setting(&self, robot: &Robot) -> Result<Setting, SettingError> {
-        let setting = Setting::of(robot, self.scene.as_ref())?;
-        Ok(load::chosen(setting.taking(&self.parameters)))
+    pub fn scene_robot(&self, robot: &Robot) -> Result<SceneRobot, SceneError> {
+        let scene_robot = SceneRobot::of(robot, self.scene.as_ref())?;
+        Ok(load::chosen(scene_robot.taking(&self.parameters)))
     }
 
     /// What is emitted of a program that was found: in another order, or with its
@@ -190,7 +190,7 @@ impl Default for Request {
             layout: Layout::default(),
             parameters: Vec::new(),
             scene: None,
-            any_scalar: false,
+            cheapest_scalar: false,
             work: None,
         }
     }

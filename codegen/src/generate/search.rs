@@ -11,14 +11,14 @@ use crate::portfolio::start::Problem;
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Limit, Source, Variant};
 use crate::program::{Counts, Program, ScalarType};
-use crate::scene::{ParametersKey, SceneKey, Setting};
-use crate::simplify::{self, Effort, Simplified, Stage};
+use crate::scene::{ParametersKey, SceneKey, SceneRobot};
+use crate::simplify::{self, Effort, Pass, Simplified};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
 
 /// The plan's program, the first requested scalar's that it has.
 pub fn replay<'r>(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &'r Request,
 ) -> Result<Option<&'r Entry>, GenerateError> {
@@ -29,8 +29,8 @@ pub fn replay<'r>(
     if function == Function::Load {
         return Ok(None);
     }
-    let scene = setting.scene();
-    let parameters = ParametersKey::of(setting, function);
+    let scene = scene_robot.scene();
+    let parameters = ParametersKey::of(scene_robot, function);
     let find = |scene| {
         let mut scalars = request.scalars.iter();
         let found = |&scalar: &ScalarType| {
@@ -42,7 +42,7 @@ pub fn replay<'r>(
     };
     let found = find(scene);
     // A box or a tolerance by itself leaves the equations as they are.
-    if found.is_none() && setting.has_whole_model() {
+    if found.is_none() && scene_robot.has_whole_model() {
         return Ok(find(None));
     }
     match (found, scene) {
@@ -58,23 +58,23 @@ pub fn replay<'r>(
 
 /// Searches for a program.
 pub(super) fn found(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &Request,
-) -> Result<(Source, Vec<Stage>, Program, Option<Refused>), GenerateError> {
-    let found = search(setting, function, request)?;
+) -> Result<(Source, Vec<Pass>, Program, Option<Refused>), GenerateError> {
+    let found = search(scene_robot, function, request)?;
     let (seed, simplified) = (&found.variants[found.simplified.seed], &found.simplified);
-    let mut stages = vec![Stage {
+    let mut passes = vec![Pass {
         name: "traced",
         counts: seed.traced,
     }];
-    stages.extend(simplified.stages.iter().cloned());
-    let program = Program::in_setting(setting, function, &simplified.graph);
-    stages.push(Stage {
+    passes.extend(simplified.passes.iter().cloned());
+    let program = Program::in_scene(scene_robot, function, &simplified.graph);
+    passes.push(Pass {
         name: "final",
         counts: program.counts(),
     });
-    Ok((seed.source, stages, program, found.refused))
+    Ok((seed.source, passes, program, found.refused))
 }
 
 /// What a search found, and from what.
@@ -93,17 +93,17 @@ pub struct Found {
 ///
 /// A thorough search contains the quick one: it is never dearer.
 pub fn search(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &Request,
 ) -> Result<Found, GenerateError> {
     let search = Search {
-        setting,
+        scene_robot,
         function,
         request,
         judge: match request.prefer {
-            Prefer::Accuracy | Prefer::Latency => AccuracyFilter::new(setting, function),
-            Prefer::Operations => AccuracyFilter::lenient(setting, function),
+            Prefer::Accuracy | Prefer::Latency => AccuracyFilter::new(scene_robot, function),
+            Prefer::Operations => AccuracyFilter::lenient(scene_robot, function),
         },
     };
     let watch = request.watch.over(function);
@@ -134,7 +134,7 @@ pub fn search(
 }
 
 struct Search<'a> {
-    setting: &'a Setting,
+    scene_robot: &'a SceneRobot,
     function: Function,
     request: &'a Request,
     judge: AccuracyFilter<'a>,
@@ -175,11 +175,11 @@ impl Search<'_> {
         from: &[Regrouping<Exact>],
         watch: Option<FunctionWatch<'_>>,
     ) -> Result<Found, GenerateError> {
-        let (setting, function, start) = (self.setting, self.function, self.request.start);
+        let (scene_robot, function, start) = (self.scene_robot, self.function, self.request.start);
         let excess = |graph: &Graph| self.judge.excess(graph);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let (tuned, variants) = start.variants(&Problem {
-            setting,
+            scene_robot,
             function,
             effort,
             limit,
@@ -187,11 +187,11 @@ impl Search<'_> {
             watch,
         });
         let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
-        let mut helpers = start.helpers(setting);
+        let mut helpers = start.helpers(scene_robot);
         if let Some(tuned) = &tuned
             && effort == Effort::Thorough
         {
-            helpers.extend(portfolio::neighbours(setting, function, tuned));
+            helpers.extend(portfolio::neighbours(scene_robot, function, tuned));
         }
         let accept = |graph: &Graph| !limited || self.judge.accepts(graph);
         let simplified = simplify::watched(&graphs, &helpers, effort, &accept, watch);

@@ -9,7 +9,7 @@ use dalembert_model::scene::Tolerance;
 use crate::approximate::admitted::{Admitted, Claim};
 use crate::approximate::choose::ErrorBudget;
 use crate::approximate::error::{NoPolynomials, ToleranceError};
-use crate::approximate::prune::Settings;
+use crate::approximate::prune::PruneSettings;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
@@ -18,19 +18,19 @@ use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request};
 use crate::plan::Edited;
 use crate::program::{Program, ScalarType};
 use crate::scene::SceneKey;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
 pub(super) fn tolerate(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     functions: &mut [GeneratedFunction],
     request: &Request,
 ) -> Result<Vec<ScalarType>, GenerateError> {
     let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
-    let Some(all) = admitted(setting, &programs, request)? else {
+    let Some(all) = admitted(scene_robot, &programs, request)? else {
         return Ok(request.scalars.clone());
     };
     // One a certificate, the same of every function.
@@ -54,16 +54,16 @@ pub(super) fn tolerate(
 /// What the scene's tolerance admits in place of each exact program; `None` if
 /// it has none.
 pub fn admitted<'p>(
-    setting: &'p Setting,
+    scene_robot: &'p SceneRobot,
     programs: &[&'p Program],
     request: &Request,
 ) -> Result<Option<Vec<Admitted>>, GenerateError> {
-    let scene = setting.scene();
+    let scene = scene_robot.scene();
     let Some(tolerance) = scene.and_then(|scene| scene.tolerance.as_ref()) else {
         return Ok(None);
     };
     let mut choices = vec![request.scalars.clone()];
-    if request.any_scalar && request.scalars.len() > 1 {
+    if request.cheapest_scalar && request.scalars.len() > 1 {
         // The narrow one first: it is the cheaper, in time if not in counts.
         choices = vec![vec![ScalarType::F32], vec![ScalarType::F64]];
     }
@@ -74,7 +74,7 @@ pub fn admitted<'p>(
         return Err(GenerateError::SinCos(program.function, why));
     }
     let budget = |program: &&'p Program| {
-        let budget = ErrorBudget::new(setting, program, tolerance.relative_to);
+        let budget = ErrorBudget::new(scene_robot, program, tolerance.relative_to);
         budget.map_err(|refusal| GenerateError::Tolerance(program.function, refusal))
     };
     let budgets: Result<Vec<ErrorBudget<'_>>, GenerateError> =
@@ -178,7 +178,7 @@ fn one(
         Effort::Thorough if !over => thorough(request),
         _ => QUICK,
     };
-    let settings = Settings {
+    let settings = PruneSettings {
         work: request.work.map(|work| work.saturating_sub(meter.done())),
         ..settings
     };
@@ -243,26 +243,26 @@ fn one(
 /// of one that a plan kept. The scalars share both.
 fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
     let programs = found.certificates.first();
-    match programs.map(|certificate| certificate.check_programs(budget.setting)) {
+    match programs.map(|certificate| certificate.check_programs(budget.scene_robot)) {
         Some(Err(why)) => Err(GenerateError::Edited(budget.exact.function, why)),
         _ => Ok(found),
     }
 }
 
 /// Another regrouping may be looked for only where the start may be any.
-fn thorough(request: &Request) -> Settings {
+fn thorough(request: &Request) -> PruneSettings {
     let sweeps = match request.start.may_regroup() {
-        true => Settings::THOROUGH.sweeps,
+        true => PruneSettings::THOROUGH.sweeps,
         false => 0,
     };
-    Settings {
+    PruneSettings {
         sweeps,
-        ..Settings::THOROUGH
+        ..PruneSettings::THOROUGH
     }
 }
 
 /// For who waits: seconds for a six-joint arm.
-const QUICK: Settings = Settings {
+const QUICK: PruneSettings = PruneSettings {
     samples: 24,
     guesses: 4,
     retries: 0,
@@ -282,7 +282,7 @@ fn kept(
     scalars: &[ScalarType],
     request: &Request,
 ) -> Result<Option<Admitted>, GenerateError> {
-    let (Some(plan), Some(scene)) = (&request.plan, budget.setting.scene()) else {
+    let (Some(plan), Some(scene)) = (&request.plan, budget.scene_robot.scene()) else {
         return Ok(None);
     };
     let scene_key = Some(SceneKey::of(scene));

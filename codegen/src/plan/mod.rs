@@ -25,7 +25,7 @@ use crate::function::Function;
 use crate::portfolio::{Source, Start};
 use crate::program::{Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
-use crate::simplify::Stage;
+use crate::simplify::Pass;
 use crate::split::Split;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
@@ -52,7 +52,7 @@ pub struct Entry {
     /// Where the search started.
     pub source: Source,
     /// Counts after each step of the search.
-    pub stages: Vec<Stage>,
+    pub passes: Vec<Pass>,
     /// The scene that it is for, unless it is for the whole robot.
     pub scene: Option<SceneKey>,
     /// The robot's parameters that it takes as arguments, if it does.

@@ -12,7 +12,7 @@ use crate::portfolio::{Source, Start};
 use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
-use crate::simplify::Stage;
+use crate::simplify::Pass;
 
 /// The longest plan that is read.
 pub const MAX_BYTES: usize = 64 << 20;
@@ -87,7 +87,7 @@ impl Reader {
             ("program", None) => self.open = Some(program(&words[1..])?),
             ("scene", Some(entry)) => scene(&words[1..], entry)?,
             ("parameters", Some(entry)) => parameters(&words[1..], entry)?,
-            ("stage", Some(entry)) => entry.stages.push(stage(&words[1..])?),
+            ("stage", Some(entry)) => entry.passes.push(pass(&words[1..])?),
             ("return", Some(entry)) => {
                 read_results(&words[1..], &mut entry.program)?;
                 self.entries.extend(self.open.take());
@@ -140,7 +140,7 @@ fn program(words: &[&str]) -> Result<Entry, PlanFault> {
         start: Start::from_name(start).ok_or_else(|| unknown("formulation", start))?,
         scalar: ScalarType::from_name(scalar).ok_or_else(|| unknown("scalar", scalar))?,
         source: Source::from_name(source).ok_or_else(|| unknown("source", source))?,
-        stages: Vec::new(),
+        passes: Vec::new(),
         program: Program {
             function,
             joints,
@@ -219,17 +219,17 @@ fn parameters(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
 /// A load has no more numbers: ten of each link, and differences of two of them.
 const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
 
-fn stage(words: &[&str]) -> Result<Stage, PlanFault> {
+fn pass(words: &[&str]) -> Result<Pass, PlanFault> {
     let (name, counts) = words.split_first().ok_or(PlanFault::Stage)?;
     let counts: Vec<usize> = counts.iter().filter_map(|word| word.parse().ok()).collect();
     let &[mul, add, div, sincos] = counts.as_slice() else {
         return Err(PlanFault::Stage);
     };
-    let name = Stage::NAMES
+    let name = Pass::NAMES
         .into_iter()
         .find(|known| known == name)
         .ok_or_else(|| PlanFault::NoStage((*name).to_owned()))?;
-    Ok(Stage {
+    Ok(Pass {
         name,
         counts: Counts {
             mul,

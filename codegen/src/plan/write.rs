@@ -44,7 +44,7 @@ impl Plan {
                 let (load, hash) = (parameters.load, &parameters.hash);
                 let _ = writeln!(text, "parameters {} {load} {hash}", taken.join(","));
             }
-            for stage in &entry.stages {
+            for stage in &entry.passes {
                 let c = stage.counts;
                 let name = stage.name;
                 let _ = writeln!(

@@ -18,31 +18,31 @@ use crate::function::{Argument, Function, Quantity};
 use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Folding, Graph};
 use crate::program::{Counts, Input};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::trace::symbols;
 
 /// Traces a function by the chain formulas; also the operations as executed.
 pub fn trace_chain(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     chain: &Chain<Exact>,
     form: Form,
     folding: Folding,
 ) -> (Graph, Counts) {
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let mut numbers = Numbers::of(setting, function, &builder);
+    let mut numbers = Numbers::of(scene_robot, function, &builder);
     let mut chain = chain.map(|constant| numbers.symbol(constant));
     let mut gravity = None;
-    if setting.takes(function, RuntimeParameter::Gravity) {
+    if scene_robot.takes(function, RuntimeParameter::Gravity) {
         let taken: Vector<Symbol> = core::array::from_fn(|axis| {
             Symbol::input(&builder, Input::Entry(Argument::Gravity, axis))
         });
-        chain.gravity = scaled(&chain.per_unit, &in_frame_0(setting, &taken));
+        chain.gravity = scaled(&chain.per_unit, &in_frame_0(scene_robot, &taken));
         gravity = Some(taken);
     }
     drop(numbers);
-    let whole = symbols(setting, &function.arguments(), &builder);
-    let motion = &whole.of_joints(setting.chained());
+    let whole = symbols(scene_robot, &function.arguments(), &builder);
+    let motion = &whole.of_joints(scene_robot.chained());
     let chain = chain.at_speeds(&motion.per_speed);
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
@@ -56,11 +56,11 @@ pub fn trace_chain(
     let mut outputs = Vec::new();
     for &quantity in function.quantities() {
         let selected = match quantity.regrouped(&regrouped) {
-            Some(values) => setting.select_of(quantity, setting.chained(), values),
-            None => setting.select_of(
+            Some(values) => scene_robot.select_of(quantity, scene_robot.chained(), values),
+            None => scene_robot.select_of(
                 quantity,
-                setting.joints(),
-                written(setting, quantity, &whole, gravity.as_ref()),
+                scene_robot.joints(),
+                written(scene_robot, quantity, &whole, gravity.as_ref()),
             ),
         };
         let mut builder = builder.borrow_mut();
@@ -74,12 +74,14 @@ pub fn trace_chain(
 /// A quantity that the chain formulas do not give, by the recursion in link
 /// axes.
 fn written(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     quantity: Quantity,
     motion: &Motion<Symbol>,
     gravity: Option<&Vector<Symbol>>,
 ) -> Vec<Symbol> {
-    let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
+        Symbol::from(x.clone())
+    });
     let arm = match gravity {
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
@@ -96,33 +98,35 @@ fn written(
 }
 
 /// What moves, with exact parameters, the base folded.
-pub fn skeleton(setting: &Setting) -> Skeleton<Exact> {
-    with_columns(setting, &[])
+pub fn skeleton(scene_robot: &SceneRobot) -> Skeleton<Exact> {
+    with_columns(scene_robot, &[])
 }
 
 /// A vector of base axes in those of frame 0.
-fn in_frame_0(setting: &Setting, vector: &Vector<Symbol>) -> Vector<Symbol> {
-    let arm = Arm::from_robot(setting.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+fn in_frame_0(scene_robot: &SceneRobot, vector: &Vector<Symbol>) -> Vector<Symbol> {
+    let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
+        Symbol::from(x.clone())
+    });
     arm.with_gravity(vector).gravity
 }
 
 /// The same for a function: if it is a regressor, with its columns; if it takes a
 /// load, with a payload whose parameters are unknown.
-pub fn skeleton_for(setting: &Setting, function: Function) -> Skeleton<Exact> {
-    if !setting.takes(function, RuntimeParameter::Payload) {
-        return with_columns(setting, &setting.columns(function, Exact::clone));
+pub fn skeleton_for(scene_robot: &SceneRobot, function: Function) -> Skeleton<Exact> {
+    if !scene_robot.takes(function, RuntimeParameter::Payload) {
+        return with_columns(scene_robot, &scene_robot.columns(function, Exact::clone));
     }
-    let last = setting.joints().len().saturating_sub(1);
+    let last = scene_robot.joints().len().saturating_sub(1);
     let columns = LinkParameter::ALL.map(|parameter| Column::Body {
         joint: last,
         body: parameter.unit(),
     });
-    with_columns(setting, &columns).with_values(&setting.unknowns().values())
+    with_columns(scene_robot, &columns).with_values(&scene_robot.unknowns().values())
 }
 
-fn with_columns(setting: &Setting, columns: &[Column<Exact>]) -> Skeleton<Exact> {
-    let arm = Arm::from_robot(setting.robot(), &mut Exact::clone).fold_base();
-    Skeleton::with_columns(&arm, &setting.merged(), columns)
+fn with_columns(scene_robot: &SceneRobot, columns: &[Column<Exact>]) -> Skeleton<Exact> {
+    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone).fold_base();
+    Skeleton::with_columns(&arm, &scene_robot.merged(), columns)
 }
 
 /// The most choices of axes that the search is offered at once.
@@ -132,18 +136,19 @@ const MAX_AXES: usize = 16;
 /// others: what is dear in one choice of axes may be cheap in another, and
 /// the search mixes them.
 pub fn regrouped(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     regrouping: &Regrouping<Exact>,
 ) -> Vec<Variant> {
-    let mut chain = Chain::new(&skeleton_for(setting, function), regrouping);
+    let mut chain = Chain::new(&skeleton_for(scene_robot, function), regrouping);
     let mut variants = Vec::new();
     for axes in axes(&chain) {
         for (link, axes) in chain.links.iter_mut().zip(axes) {
             link.axes = axes;
         }
         for form in function.forms() {
-            let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
+            let (graph, traced) =
+                trace_chain(scene_robot, function, &chain, form, Folding::Syntactic);
             variants.push(Variant {
                 source: Source::Regrouped,
                 graph,
@@ -156,20 +161,20 @@ pub fn regrouped(
 
 /// A function in the regroupings that differ from a tuned one in one link, in its
 /// form.
-pub fn neighbours(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Graph> {
-    let regroupings = regroupings(setting, function, &tuned.regrouping);
-    let graph = |regrouping| in_regrouping(setting, function, regrouping, tuned.form);
+pub fn neighbours(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -> Vec<Graph> {
+    let regroupings = regroupings(scene_robot, function, &tuned.regrouping);
+    let graph = |regrouping| in_regrouping(scene_robot, function, regrouping, tuned.form);
     regroupings.iter().map(graph).collect()
 }
 
 /// The regroupings that differ from one in one link; none of chains too long to
 /// look at each.
 pub fn regroupings(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     regrouping: &Regrouping<Exact>,
 ) -> Vec<Regrouping<Exact>> {
-    let arm = skeleton_for(setting, function);
+    let arm = skeleton_for(scene_robot, function);
     match arm.links.len() <= MAX_QUICK_LINKS {
         true => tune::neighbours(&arm, regrouping),
         false => Vec::new(),
@@ -178,26 +183,26 @@ pub fn regroupings(
 
 /// A function in a regrouping and a form, merged by fingerprint.
 pub fn in_regrouping(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     regrouping: &Regrouping<Exact>,
     form: Form,
 ) -> Graph {
     merged(
-        setting,
+        scene_robot,
         function,
-        &Chain::new(&skeleton_for(setting, function), regrouping),
+        &Chain::new(&skeleton_for(scene_robot, function), regrouping),
         form,
     )
 }
 
 pub(super) fn merged(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     chain: &Chain<Exact>,
     form: Form,
 ) -> Graph {
-    trace_chain(setting, function, chain, form, Folding::Semantic).0
+    trace_chain(scene_robot, function, chain, form, Folding::Semantic).0
 }
 
 /// The chain's own axes, each link's, those before each group of parallel

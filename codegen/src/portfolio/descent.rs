@@ -12,12 +12,12 @@ use super::tune::{self, Tuned};
 use super::{Form, MAX_QUICK_LINKS};
 use crate::function::Function;
 use crate::graph::Graph;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::simplify::{self, Effort};
 use crate::watch::{FunctionWatch, Part};
 
 /// The starts of longer chains are compared without a round of the search.
-const MAX_GLANCED: usize = 3;
+const MAX_TRIED: usize = 3;
 
 /// How far a program is above the error that is allowed: at most one where it
 /// is admitted.
@@ -43,14 +43,14 @@ fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
 /// the best so far where the watch is over. `from` are regroupings to start from,
 /// besides those that every robot has.
 pub fn tuned(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     effort: Effort,
     limit: Option<Limit<'_>>,
     from: &[Regrouping<Exact>],
     watch: Option<FunctionWatch<'_>>,
 ) -> Tuned {
-    let arm = skeleton_for(setting, function);
+    let arm = skeleton_for(scene_robot, function);
     let forms = function.forms();
     let tried = Cell::new(0);
     let is_over = || {
@@ -60,18 +60,18 @@ pub fn tuned(
             watch.is_over()
         })
     };
-    let merged = |chain: &Chain<Exact>, form| merged(setting, function, chain, form);
-    let helpers = [angle_sums(setting, Sums::Products)];
+    let merged = |chain: &Chain<Exact>, form| merged(scene_robot, function, chain, form);
+    let helpers = [angle_sums(scene_robot, Sums::Products)];
     // What the search makes of a regrouping is not what the regrouping costs at first.
-    let glance = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
+    let quick = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
         false => {
-            let graph = simplify::search::glance(&merged(chain, form), &helpers);
+            let graph = simplify::search::quick_round(&merged(chain, form), &helpers);
             price(&graph, limit, below)
         }
     };
-    if setting.takes(function, RuntimeParameter::Payload)
-        && let Some(load) = setting.load()
+    if scene_robot.takes(function, RuntimeParameter::Payload)
+        && let Some(load) = scene_robot.load()
     {
         // The numbers of the load are those of one regrouping, for all functions.
         return tune::form(
@@ -98,8 +98,8 @@ pub fn tuned(
         // a round of the search is cheap, and tells more than the folded formula.
         starts.sort_by_cached_key(|from| {
             let chain = Chain::new(&arm, from);
-            match arm.links.len() <= MAX_GLANCED {
-                true => glance(&chain, forms[0], u64::MAX),
+            match arm.links.len() <= MAX_TRIED {
+                true => quick(&chain, forms[0], u64::MAX),
                 false => price(&merged(&chain, forms[0]), limit, u64::MAX),
             }
         });
@@ -119,7 +119,7 @@ pub fn tuned(
             },
         );
         if arm.links.len() <= MAX_QUICK_LINKS {
-            found.price = glance(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
+            found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
         }
         if tuned.as_ref().is_none_or(|best| found.price < best.price) {
             tuned = Some(found);
@@ -131,7 +131,7 @@ pub fn tuned(
         price: u64::MAX,
     });
     if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
-        tuned = tune::tune(&arm, tuned.regrouping, &[tuned.form], 2, glance);
+        tuned = tune::tune(&arm, tuned.regrouping, &[tuned.form], 2, quick);
     }
     tuned
 }

@@ -13,20 +13,20 @@ use super::numbers::Numbers;
 use crate::function::{Argument, Function};
 use crate::graph::{Builder, Folding, Node};
 use crate::program::Input;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::scene::load::LoadParameters;
 use crate::simplify::Effort;
 
-/// The setting with the load's numbers, if a payload is an argument: those of the
+/// The robot in its scene with the load's numbers, if a payload is an argument: those of the
 /// regrouping in which torques cost least, as far as torques depend on them. No
 /// other quantity that takes a load depends on more. The same for every request, so
 /// that whoever has the parameters has the load.
 #[must_use]
-pub fn chosen(setting: Setting) -> Setting {
-    if !setting.has(RuntimeParameter::Payload) {
-        return setting;
+pub fn chosen(scene_robot: SceneRobot) -> SceneRobot {
+    if !scene_robot.has(RuntimeParameter::Payload) {
+        return scene_robot;
     }
-    let (full, function) = (setting.in_full_motion(), Function::InverseDynamics);
+    let (full, function) = (scene_robot.in_full_motion(), Function::InverseDynamics);
     let best = tuned(&full, function, Effort::Quick, None, &[], None);
     let chain = Chain::new(&skeleton_for(&full, function), &best.regrouping);
     let (graph, _) = trace_chain(&full, function, &chain, best.form, Folding::Semantic);
@@ -45,6 +45,6 @@ pub fn chosen(setting: Setting) -> Setting {
         .enumerate()
         .filter(|(index, _)| is_read(*index));
     let read: Vec<Exact> = read.map(|(_, number)| number).collect();
-    let load = LoadParameters::new(&setting, read, best.regrouping);
-    setting.with_load(load)
+    let load = LoadParameters::new(&scene_robot, read, best.regrouping);
+    scene_robot.with_load(load)
 }

@@ -11,7 +11,7 @@ use crate::function::{Argument, Function};
 use crate::graph::Builder;
 use crate::graph::symbol::Symbol;
 use crate::program::Input;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::scene::load::{LoadParameters, Unknowns, place};
 
 /// The numbers of a chain as symbols: those that depend on a payload are entries of
@@ -26,15 +26,15 @@ pub(super) struct Numbers<'a> {
 
 impl<'a> Numbers<'a> {
     pub(super) fn of(
-        setting: &'a Setting,
+        scene_robot: &'a SceneRobot,
         function: Function,
         builder: &'a Rc<RefCell<Builder>>,
     ) -> Numbers<'a> {
-        let is_loaded = setting.takes(function, RuntimeParameter::Payload);
+        let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
         Numbers {
             builder,
-            unknowns: is_loaded.then(|| setting.unknowns()),
-            chosen: setting.load(),
+            unknowns: is_loaded.then(|| scene_robot.unknowns()),
+            chosen: scene_robot.load(),
             met: Vec::new(),
         }
     }

@@ -11,7 +11,7 @@ use super::chain::skeleton;
 use crate::graph::symbol::Symbol;
 use crate::graph::{Builder, Folding, Graph};
 use crate::program::{AngleSum, Input};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::trace::symbols;
 
 /// How the sine and cosine of a sum of angles come about.
@@ -26,13 +26,13 @@ pub enum Sums {
 
 /// Values that no recursion forms but that shorten it: the sines and cosines
 /// of the angle sums of parallel joints.
-pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
+pub fn angle_sums(scene_robot: &SceneRobot, sums: Sums) -> Graph {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-    let arm = skeleton(setting);
+    let arm = skeleton(scene_robot);
     let chain = Chain::new(&arm, &Regrouping::base(&arm));
     let groups = chain.parallel();
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let motion = symbols(setting, &[], &builder).of_joints(setting.chained());
+    let motion = symbols(scene_robot, &[], &builder).of_joints(scene_robot.chained());
     let (_, at) = chain.posed(&motion.q);
     let mut outputs = Vec::new();
     for group in &groups {
@@ -52,7 +52,7 @@ pub fn angle_sums(setting: &Setting, sums: Sums) -> Graph {
                     },
                     cos: pair.cos.clone(),
                 };
-                let joint = setting.chained()[link];
+                let joint = scene_robot.chained()[link];
                 input = match input {
                     None => Some(AngleSum::joint(joint)),
                     Some(sum) => sum.with(joint, opposite != group[first].1),

@@ -4,12 +4,12 @@ use dalembert_model::equations::Formulation;
 
 use super::{Source, Variant};
 use crate::function::Function;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::trace::trace;
 
 /// A textbook formulation.
-pub fn textbook(setting: &Setting, function: Function, formulation: Formulation) -> Variant {
-    let trace = trace(setting, function, formulation);
+pub fn textbook(scene_robot: &SceneRobot, function: Function, formulation: Formulation) -> Variant {
+    let trace = trace(scene_robot, function, formulation);
     Variant {
         source: Source::Textbook(formulation),
         graph: trace.graph,

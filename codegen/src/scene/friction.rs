@@ -1,13 +1,13 @@
-//! Coulomb friction of a setting: what programs read of speeds, and who reads it.
+//! Coulomb friction of a robot in its scene: what programs read of speeds, and who reads it.
 
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Divide;
 
-use super::Setting;
+use super::SceneRobot;
 use crate::program::Speed;
 
-impl Setting {
+impl SceneRobot {
     /// The width of a joint's friction; none of a joint without.
     fn width(&self, joint: usize) -> Option<&Rational> {
         let joint = self.robot().joints.get(joint)?;

@@ -5,7 +5,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use hmac_sha256::Hash;
 
-use super::Setting;
+use super::SceneRobot;
 use crate::function::Function;
 
 /// Which scene a plan's entry or a claim is about. The hash of a plan is the
@@ -42,14 +42,14 @@ pub struct ParametersKey {
 
 impl ParametersKey {
     /// Of a function that takes some.
-    pub fn of(setting: &Setting, function: Function) -> Option<ParametersKey> {
+    pub fn of(scene_robot: &SceneRobot, function: Function) -> Option<ParametersKey> {
         let all = RuntimeParameter::ALL.into_iter();
-        let taken = all.filter(|&parameter| setting.takes(function, parameter));
+        let taken = all.filter(|&parameter| scene_robot.takes(function, parameter));
         let taken: Vec<RuntimeParameter> = taken.collect();
         if taken.is_empty() {
             return None;
         }
-        let load = setting
+        let load = scene_robot
             .load()
             .filter(|_| taken.contains(&RuntimeParameter::Payload));
         let numbers = load.map_or(&[][..], |load| &load.numbers);

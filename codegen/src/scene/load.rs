@@ -15,7 +15,7 @@ use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::robot::{Placement, Position};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
-use super::Setting;
+use super::SceneRobot;
 
 /// The numbers of a regrouped chain that a payload changes.
 #[derive(Clone, Debug)]
@@ -29,13 +29,13 @@ pub struct LoadParameters {
 }
 
 impl LoadParameters {
-    /// Of a setting's chain in a regrouping, which has these numbers.
+    /// Of a chain in a regrouping, which has these numbers.
     pub fn new(
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         numbers: Vec<Exact>,
         regrouping: Regrouping<Exact>,
     ) -> LoadParameters {
-        let unknowns = setting.unknowns();
+        let unknowns = scene_robot.unknowns();
         let rows = numbers.iter().map(|number| unknowns.row(number));
         LoadParameters {
             rows: rows.collect(),
@@ -70,7 +70,7 @@ pub struct Unknowns {
     angles: Vec<Angle>,
 }
 
-impl Setting {
+impl SceneRobot {
     /// The parameters of a payload.
     pub fn unknowns(&self) -> Unknowns {
         let taken = self.constant_angles();

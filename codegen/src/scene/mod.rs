@@ -1,22 +1,22 @@
-//! A robot in its setting: what a scene fixes, and what it asks for.
+//! A robot in its scene: what that fixes, and what it asks for.
 //!
-//! Every stage works on a [`Setting`]; without a scene it is the whole robot.
+//! Every stage works on a [`SceneRobot`]; without a scene it is the whole robot.
 //! Three things a scene changes, each in its own place:
 //!
-//! - payload and gravity are parameters: the setting's [`robot`](Setting::robot)
+//! - payload and gravity are parameters: the scene's [`robot`](SceneRobot::robot)
 //!   has them, exactly, before anything is traced;
 //! - locked joints and zero rates are inputs that are constants:
-//!   [`Setting::motion`] puts them in the place of the state's;
+//!   [`SceneRobot::motion`] puts them in the place of the state's;
 //! - joints that nobody asks for are results that are left out
-//!   ([`Setting::select`]), and what only they needed is dead.
+//!   ([`SceneRobot::select`]), and what only they needed is dead.
 //!
-//! Gravity and a payload may also be arguments ([`Setting::taking`]): then
-//! [`Setting::posed`] has the arm with them, and [`load`] the parameters that a
+//! Gravity and a payload may also be arguments ([`SceneRobot::taking`]): then
+//! [`SceneRobot::posed`] has the arm with them, and [`load`] the parameters that a
 //! payload changes.
 //!
 //! Arguments keep an entry for every joint, so that callers need not repack
 //! their state; entries of locked joints are not read. Results are over the
-//! [`rows`](Setting::rows), in the order of the scene: τ, h and c have an
+//! [`rows`](SceneRobot::rows), in the order of the scene: τ, h and c have an
 //! entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
@@ -50,7 +50,7 @@ use crate::program::Input;
 
 /// A robot, whole or in a scene.
 #[derive(Clone, Debug)]
-pub struct Setting {
+pub struct SceneRobot {
     robot: Robot,
     scene: Option<Scene>,
     /// 0 to n − 1.
@@ -70,16 +70,16 @@ pub struct Setting {
 /// The base parameters, an entry a quantity: there where one is over them.
 type Bases = [OnceLock<Result<BaseParameters, NoBase>>; Quantity::ALL.len()];
 
-/// Why there is no such setting.
+/// Why a robot is not to be had in a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SettingError {
+pub struct SceneError {
     /// The scene's name.
     pub scene: String,
     /// What is wrong with it; never empty.
     pub findings: Vec<SceneFinding>,
 }
 
-impl fmt::Display for SettingError {
+impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "scene `{}`: ", self.scene)?;
         for (index, finding) in self.findings.iter().enumerate() {
@@ -90,14 +90,14 @@ impl fmt::Display for SettingError {
     }
 }
 
-impl std::error::Error for SettingError {}
+impl std::error::Error for SceneError {}
 
-impl Setting {
+impl SceneRobot {
     /// The whole robot.
-    pub fn whole(robot: &Robot) -> Setting {
+    pub fn whole(robot: &Robot) -> SceneRobot {
         let n = robot.joints.len();
         let joints: Vec<usize> = (0..n).collect();
-        Setting {
+        SceneRobot {
             robot: robot.clone(),
             scene: None,
             rows: joints.clone(),
@@ -114,17 +114,17 @@ impl Setting {
     ///
     /// # Errors
     /// What [`Scene::validate`] finds, but for warnings.
-    pub fn new(robot: &Robot, scene: &Scene) -> Result<Setting, SettingError> {
+    pub fn new(robot: &Robot, scene: &Scene) -> Result<SceneRobot, SceneError> {
         let mut findings = scene.validate(robot);
         findings.retain(|finding| finding.severity == Severity::Error);
         if !findings.is_empty() {
             let scene = scene.name.clone();
-            return Err(SettingError { scene, findings });
+            return Err(SceneError { scene, findings });
         }
         let n = robot.joints.len();
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
         let rows = scene.rows(n);
-        Ok(Setting {
+        Ok(SceneRobot {
             robot: scene.apply(robot),
             scene: Some(scene.clone()),
             joints: (0..n).collect(),
@@ -142,18 +142,18 @@ impl Setting {
     /// A robot in a scene, if there is one.
     ///
     /// # Errors
-    /// As [`Setting::new`].
-    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Result<Setting, SettingError> {
+    /// As [`SceneRobot::new`].
+    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Result<SceneRobot, SceneError> {
         scene.map_or_else(
-            || Ok(Setting::whole(robot)),
-            |scene| Setting::new(robot, scene),
+            || Ok(SceneRobot::whole(robot)),
+            |scene| SceneRobot::new(robot, scene),
         )
     }
 
-    /// The same setting where functions take these parameters as arguments.
+    /// The same where functions take these parameters as arguments.
     #[must_use]
-    pub fn taking(self, parameters: &[RuntimeParameter]) -> Setting {
-        Setting {
+    pub fn taking(self, parameters: &[RuntimeParameter]) -> SceneRobot {
+        SceneRobot {
             parameters: parameters.to_vec(),
             base: no_bases(),
             load: None,
@@ -164,7 +164,7 @@ impl Setting {
     /// The same joints at any velocities and accelerations, with the torques of
     /// all that move: what any function may depend on.
     #[must_use]
-    pub fn in_full_motion(&self) -> Setting {
+    pub fn in_full_motion(&self) -> SceneRobot {
         let mut full = self.clone().taking(&self.parameters);
         full.rows = full.chained.clone();
         if let Some(scene) = &mut full.scene {
@@ -261,7 +261,7 @@ impl Setting {
     }
 
     /// The motion of all joints from the values of a program's inputs, with
-    /// the setting's constants in their places.
+    /// the scene's constants in their places.
     pub fn motion<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -309,10 +309,10 @@ impl Setting {
         found.as_ref().map_err(|why| *why)
     }
 
-    /// The same setting with the numbers of the chain that a payload changes.
+    /// The same with the numbers of the chain that a payload changes.
     #[must_use]
-    pub fn with_load(self, load: LoadParameters) -> Setting {
-        Setting {
+    pub fn with_load(self, load: LoadParameters) -> SceneRobot {
+        SceneRobot {
             load: Some(load),
             ..self
         }

@@ -1,4 +1,4 @@
-//! An arm and its motion as a function of a setting takes them, in the scalar of
+//! An arm and its motion as a function takes them, in the scalar of
 //! a computation; and a formula over them, recorded once for all scalars.
 
 use dalembert_model::equations::load::{Loading, carried};
@@ -10,7 +10,7 @@ use dalembert_model::outputs::{Motion, RuntimeParameter};
 use dalembert_model::scalar::record::{Recorded, Recorder, Recording};
 use dalembert_model::scalar::{Divide, Scalar};
 
-use super::Setting;
+use super::SceneRobot;
 use crate::function::{Argument, Function};
 use crate::program::Input;
 
@@ -32,8 +32,8 @@ pub struct Posed<S> {
 /// A value of a formula that is recorded: over a program's inputs and exact numbers.
 pub type Value = Recorded<Input, Exact>;
 
-impl Setting {
-    /// A formula over the setting's arm and motion as a function takes them, as it is
+impl SceneRobot {
+    /// A formula over the scene's arm and motion as a function takes them, as it is
     /// executed.
     pub fn record(
         &self,
@@ -60,7 +60,7 @@ impl Setting {
         recorder.finish(&outputs)
     }
 
-    /// The setting's arm, given in the scalar, and its motion from the values of a
+    /// The scene's arm, given in the scalar, and its motion from the values of a
     /// program's inputs and of constants.
     pub fn posed<S: Scalar>(
         &self,
@@ -138,18 +138,18 @@ impl<S: Divide> Posed<S> {
         function.evaluate(formulation, &self.arm, &self.motion, &self.columns)
     }
 
-    /// The results over the setting's rows, from those over all.
-    pub fn select(&self, setting: &Setting, function: Function, all: Vec<S>) -> Vec<S> {
-        setting.select(function, &self.joints, all)
+    /// The results over the scene's rows, from those over all.
+    pub fn select(&self, scene_robot: &SceneRobot, function: Function, all: Vec<S>) -> Vec<S> {
+        scene_robot.select(function, &self.joints, all)
     }
 
-    /// The results over the setting's rows.
+    /// The results over the scene's rows.
     pub fn results(
         &self,
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         function: Function,
         formulation: Formulation,
     ) -> Vec<S> {
-        self.select(setting, function, self.all(function, formulation))
+        self.select(scene_robot, function, self.all(function, formulation))
     }
 }

@@ -1,11 +1,11 @@
-//! Seeded states of a setting: those of its robot, and the parameters that are
+//! Seeded states of a robot in its scene: those of its robot, and the parameters that are
 //! arguments.
 
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::outputs::RuntimeParameter;
 use num_traits::Zero;
 
-use super::Setting;
+use super::SceneRobot;
 use crate::function::Argument;
 use crate::program::Input;
 use crate::random::Random;
@@ -14,8 +14,8 @@ use crate::states::{JointState, seeded};
 /// What the seed of the parameters differs by: they do not move the states.
 const PARAMETERS: u64 = 0x7061_7261;
 
-impl Setting {
-    /// States inside the limits of the setting's robot, the same on every machine;
+impl SceneRobot {
+    /// States inside the limits of the scene's robot, the same on every machine;
     /// with gravity in any direction and a body in the hand where these are
     /// arguments.
     pub fn states(&self, count: usize, seed: u64) -> Vec<JointState> {

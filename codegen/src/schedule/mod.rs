@@ -4,7 +4,7 @@
 use crate::function::Function;
 use crate::graph::{Edge, Graph, Node, NodeId};
 use crate::program::{Operand, Operation, Output, Program, Step};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 impl Program {
     /// Straight-line code for the graph of a function of a whole robot.
@@ -23,16 +23,16 @@ impl Program {
         empty.with_graph(graph)
     }
 
-    /// Straight-line code for the graph of a function in a setting.
-    pub fn in_setting(setting: &Setting, function: Function, graph: &Graph) -> Program {
+    /// Straight-line code for the graph of a function in a scene.
+    pub fn in_scene(scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Program {
         let empty = Program {
             function,
-            joints: setting.joints().len(),
-            rows: setting.rows().to_vec(),
-            arguments: setting.arguments(function),
-            load: setting.sizes(function).load,
+            joints: scene_robot.joints().len(),
+            rows: scene_robot.rows().to_vec(),
+            arguments: scene_robot.arguments(function),
+            load: scene_robot.sizes(function).load,
             trig: Vec::new(),
-            speeds: setting.speeds(),
+            speeds: scene_robot.speeds(),
             steps: Vec::new(),
             outputs: Vec::new(),
         };

@@ -3,7 +3,7 @@
 
 use super::egraph::SaturationLimits;
 use super::extract::Schedule;
-use super::search::Settings;
+use super::search::SearchLimits;
 
 /// A program of at most so many operations is a small one.
 const SMALL: usize = 100;
@@ -72,9 +72,9 @@ impl Effort {
     /// The rounds for a program of so many operations. A small one gets many short
     /// rounds: a SCARA's torques need some without any gain to come from 71 to 62,
     /// and a long round finds no more in them.
-    pub(super) fn search(self, operations: usize) -> Settings {
+    pub(super) fn search(self, operations: usize) -> SearchLimits {
         match self {
-            Effort::Quick if operations <= SMALL => Settings {
+            Effort::Quick if operations <= SMALL => SearchLimits {
                 rounds: 30,
                 patience: 8,
                 pairs: 500,
@@ -84,7 +84,7 @@ impl Effort {
                     ..Schedule::COOLING
                 },
             },
-            Effort::Quick => Settings {
+            Effort::Quick => SearchLimits {
                 rounds: 3,
                 patience: 1,
                 pairs: 500,
@@ -94,7 +94,7 @@ impl Effort {
                     ..Schedule::COOLING
                 },
             },
-            Effort::Thorough => Settings {
+            Effort::Thorough => SearchLimits {
                 rounds: 30,
                 patience: 8,
                 pairs: 2_500,

@@ -29,14 +29,14 @@ pub use extract::{CostModel, Extraction, Schedule};
 
 /// What one step left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stage {
+pub struct Pass {
     /// The step.
     pub name: &'static str,
     /// The counts after it.
     pub counts: Counts,
 }
 
-impl Stage {
+impl Pass {
     /// Every step's name, in order.
     pub const NAMES: [&'static str; 6] = [
         "traced",
@@ -48,14 +48,14 @@ impl Stage {
     ];
 
     fn of(name: &'static str, graph: &Graph) -> Self {
-        Stage {
+        Pass {
             name,
             counts: graph.counts(),
         }
     }
 }
 
-impl fmt::Display for Stage {
+impl fmt::Display for Pass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.name, self.counts)
     }
@@ -69,7 +69,7 @@ pub struct Simplified {
     /// The index of the variant that the search started from.
     pub seed: usize,
     /// Counts after each step.
-    pub stages: Vec<Stage>,
+    pub passes: Vec<Pass>,
     /// What the search started from: the seed merged by fingerprint.
     pub start: Graph,
     /// What the e-graph left.
@@ -115,9 +115,9 @@ pub fn watched(
         Some((seed, start)) => (*seed, start, true),
         None => merged.first().map(|(seed, start)| (*seed, start, false))?,
     };
-    let mut stages = vec![
-        Stage::of("folded", &variants[seed]),
-        Stage::of("fingerprints", start),
+    let mut passes = vec![
+        Pass::of("folded", &variants[seed]),
+        Pass::of("fingerprints", start),
     ];
     let take = |found: Graph, best: &Graph| {
         let better = cost(&found) <= cost(best) && (!strict || accept(&found));
@@ -131,7 +131,7 @@ pub fn watched(
     egraph::saturate(&mut classes, &program, effort.budget());
     let found = search::extract(&classes, &program, effort.first_schedule(), &mut random);
     let mut best = take(found, start);
-    stages.push(Stage::of("e-graph", &best));
+    passes.push(Pass::of("e-graph", &best));
     let saturated = best.clone();
 
     let settings = effort.search(best.counts().operations());
@@ -149,11 +149,11 @@ pub fn watched(
             break;
         }
     }
-    stages.push(Stage::of("search", &best));
+    passes.push(Pass::of("search", &best));
     Some(Simplified {
         graph: best,
         seed,
-        stages,
+        passes,
         start: start.clone(),
         saturated,
     })

@@ -9,7 +9,7 @@ use crate::random::Random;
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct SearchLimits {
     /// Rounds at most.
     pub rounds: usize,
     /// Rounds without a gain before it stops.
@@ -32,7 +32,7 @@ pub fn round(
     program: &Graph,
     variants: &[Graph],
     helpers: &[Graph],
-    settings: &Settings,
+    limits: &SearchLimits,
     random: &mut Random,
 ) -> Graph {
     let mut classes = Classes::new(program);
@@ -43,13 +43,13 @@ pub fn round(
     }
     discover::multiples(&mut classes, &own, &choice);
     // The program's own classes come first, then the other graphs' in turn.
-    let most = settings.pairs.max(own.len().min(MAX_OWN));
+    let most = limits.pairs.max(own.len().min(MAX_OWN));
     let pool: Vec<ClassId> = (0..classes.len().min(most) as ClassId).collect();
     discover::pairs(&mut classes, &pool);
-    if own.len() <= settings.substitutes {
+    if own.len() <= limits.substitutes {
         discover::resubstitute(&mut classes, &own, &own);
     }
-    let found = extract(&classes, &choice, settings.schedule, random);
+    let found = extract(&classes, &choice, limits.schedule, random);
     if cost(&found) <= cost(program) {
         found
     } else {
@@ -58,15 +58,15 @@ pub fn round(
 }
 
 /// A round without annealing: what a program is about worth.
-pub fn glance(program: &Graph, helpers: &[Graph]) -> Graph {
-    let settings = Settings {
+pub fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
+    let limits = SearchLimits {
         rounds: 1,
         patience: 0,
         pairs: 500,
         substitutes: 1_000,
         schedule: Schedule::COOLING,
     };
-    round(program, &[], helpers, &settings, &mut Random::new(1))
+    round(program, &[], helpers, &limits, &mut Random::new(1))
 }
 
 /// Climbs, anneals and climbs again from a choice.

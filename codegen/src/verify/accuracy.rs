@@ -8,7 +8,7 @@ use crate::function::Function;
 use crate::graph::Graph;
 use crate::portfolio;
 use crate::program::{Counts, Program};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// An error of this many u is nothing to mend.
 const FLOOR: f64 = 4.0;
@@ -38,7 +38,7 @@ pub struct Refused {
 /// the error of a textbook form.
 #[derive(Clone, Debug)]
 pub struct AccuracyFilter<'a> {
-    setting: &'a Setting,
+    scene_robot: &'a SceneRobot,
     function: Function,
     yardstick: Option<Rounding>,
 }
@@ -46,8 +46,8 @@ pub struct AccuracyFilter<'a> {
 impl<'a> AccuracyFilter<'a> {
     /// Measures the textbook form: the link-frame recursion; for h_ikm, which
     /// it gives only by differences, Lagrange–Euler.
-    pub fn new(setting: &'a Setting, function: Function) -> Self {
-        let n = setting.joints().len();
+    pub fn new(scene_robot: &'a SceneRobot, function: Function) -> Self {
+        let n = scene_robot.joints().len();
         let mut quantities = function.quantities().iter();
         let formulation = if quantities.any(|quantity| quantity.by_differences()) {
             (n <= MAX_WRITTEN).then_some(Formulation::LagrangeEuler)
@@ -55,20 +55,20 @@ impl<'a> AccuracyFilter<'a> {
             (n <= MAX_MEASURED).then_some(Formulation::NewtonEulerLink)
         };
         let yardstick = formulation.map(|formulation| {
-            let textbook = portfolio::textbook(setting, function, formulation).graph;
-            estimate(setting, function, &textbook)
+            let textbook = portfolio::textbook(scene_robot, function, formulation).graph;
+            estimate(scene_robot, function, &textbook)
         });
         AccuracyFilter {
-            setting,
+            scene_robot,
             function,
             yardstick,
         }
     }
 
     /// Whatever it costs.
-    pub fn lenient(setting: &'a Setting, function: Function) -> Self {
+    pub fn lenient(scene_robot: &'a SceneRobot, function: Function) -> Self {
         AccuracyFilter {
-            setting,
+            scene_robot,
             function,
             yardstick: None,
         }
@@ -85,17 +85,17 @@ impl<'a> AccuracyFilter<'a> {
         let Some(yardstick) = &self.yardstick else {
             return 0.0;
         };
-        let own = estimate(self.setting, self.function, graph);
+        let own = estimate(self.scene_robot, self.function, graph);
         own.factor(yardstick, FLOOR) / WORSE
     }
 
     /// The program's largest normwise error, in units of u.
     pub fn error(&self, graph: &Graph) -> f64 {
-        estimate(self.setting, self.function, graph).worst()
+        estimate(self.scene_robot, self.function, graph).worst()
     }
 }
 
-fn estimate(setting: &Setting, function: Function, graph: &Graph) -> Rounding {
-    let program = Program::in_setting(setting, function, graph);
-    Rounding::estimate(setting, &program)
+fn estimate(scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Rounding {
+    let program = Program::in_scene(scene_robot, function, graph);
+    Rounding::estimate(scene_robot, &program)
 }

@@ -19,7 +19,7 @@ use dalembert_model::scalar::residue::Residue;
 use dalembert_model::scene::write as write_scene;
 
 use crate::program::{Input, Operand, Program};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// What a hash of this crate's proofs begins with; another way to draw is
 /// another version.
@@ -58,13 +58,13 @@ impl Transcript {
     }
 
     /// The robot with its payload and gravity, what is locked, the results.
-    pub fn setting(&mut self, setting: &Setting) {
-        self.text(&write_robot(setting.robot()));
-        self.text(&setting.scene().map(write_scene).unwrap_or_default());
-        self.numbers(setting.rows());
+    pub fn scene_robot(&mut self, scene_robot: &SceneRobot) {
+        self.text(&write_robot(scene_robot.robot()));
+        self.text(&scene_robot.scene().map(write_scene).unwrap_or_default());
+        self.numbers(scene_robot.rows());
         // Of settings without any nothing is added: their points stay.
         for parameter in RuntimeParameter::ALL {
-            if setting.has(parameter) {
+            if scene_robot.has(parameter) {
                 self.text("argument");
                 self.text(parameter.name());
             }

@@ -38,7 +38,7 @@ use super::ratio::Ratio;
 use super::size::Denominators;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// The most joints for which Lagrange–Euler itself is the yardstick: its cost
 /// grows with n⁴ to n⁵.
@@ -157,24 +157,27 @@ impl fmt::Display for Disproof {
 
 impl std::error::Error for Disproof {}
 
-/// Proves a program of a setting: against the full arm's formula with
-/// constants in place of what the setting fixes, whatever was merged.
-pub fn prove(setting: &Setting, program: &Program) -> Result<Proof, Disproof> {
+/// Proves a program of a robot in its scene: against the full arm's formula with
+/// constants in place of what the scene fixes, whatever was merged.
+pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Disproof> {
     // What is read of speeds is of the robot's widths, and no other.
-    let of_robot = program.clone().with_speeds(setting.speeds());
-    if program.rows != setting.rows() || program.speeds != of_robot.speeds {
+    let of_robot = program.clone().with_speeds(scene_robot.speeds());
+    if program.rows != scene_robot.rows() || program.speeds != of_robot.speeds {
         return Err(Disproof::Shape);
     }
-    let yardstick = if setting.robot().joints.len() <= WRITTEN_LIMIT {
+    let yardstick = if scene_robot.robot().joints.len() <= WRITTEN_LIMIT {
         Formulation::LagrangeEuler
     } else {
         Formulation::NewtonEulerLink
     };
     let mut transcript = Transcript::new("program");
-    transcript.setting(setting);
+    transcript.scene_robot(scene_robot);
     transcript.program(program);
-    let inputs = Inputs { setting, program };
-    let formula = Formula::new(setting, program.function, yardstick);
+    let inputs = Inputs {
+        scene_robot,
+        program,
+    };
+    let formula = Formula::new(scene_robot, program.function, yardstick);
     let own = |point: &Point| inputs.run(point);
     compare(transcript, program, own, |point| formula.at(point))?;
     let denominators = RefCell::default();
@@ -216,7 +219,7 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
 /// A formula over the whole arm at a motion, recorded once and run at every point: a
 /// locked joint is one whose pair or position is constant and whose rates are zero.
 struct Formula {
-    /// The results over the setting's rows.
+    /// The results over the scene's rows.
     results: Recording<Input, Exact>,
     /// These, and what vanishes if the results over all joints solve the equations
     /// that they are to solve: D q̈ + h + c + b∘q̇ = τ, D D⁻¹ = 1, or their slopes,
@@ -227,16 +230,16 @@ struct Formula {
 }
 
 impl Formula {
-    fn new(setting: &Setting, function: Function, yardstick: Formulation) -> Self {
+    fn new(scene_robot: &SceneRobot, function: Function, yardstick: Formulation) -> Self {
         let (length, residuals) = (Cell::new(0), Cell::new(0));
         let record = |with_residual: bool| {
-            setting.record(function, |posed, _| {
+            scene_robot.record(function, |posed, _| {
                 let all = posed.all(function, yardstick);
                 let residual = match with_residual {
                     true => function.residual(yardstick, &posed.arm, &posed.motion, &all),
                     false => Vec::new(),
                 };
-                let mut values = posed.select(setting, function, all);
+                let mut values = posed.select(scene_robot, function, all);
                 length.set(values.len());
                 residuals.set(residual.len());
                 values.extend(residual);
@@ -342,7 +345,7 @@ fn bounded(
 /// A program whose load, if it takes one, is that of a payload of any ten
 /// numbers: these are the variables of the proof.
 struct Inputs<'a> {
-    setting: &'a Setting,
+    scene_robot: &'a SceneRobot,
     program: &'a Program,
 }
 
@@ -357,7 +360,7 @@ impl Inputs<'_> {
             return Some(Vec::new());
         }
         let mut is_whole = true;
-        let load = self.setting.load_of(input, |value| {
+        let load = self.scene_robot.load_of(input, |value| {
             constant(value).unwrap_or_else(|| {
                 is_whole = false;
                 S::zero()

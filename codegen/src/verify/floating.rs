@@ -10,7 +10,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use dalembert_model::equations::factor::among;
+use dalembert_model::equations::factor::submatrix;
 use dalembert_model::equations::forward::free;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
@@ -23,7 +23,7 @@ use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
 use crate::program::{AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, ScalarType};
-use crate::scene::{Posed, Setting, Value};
+use crate::scene::{Posed, SceneRobot, Value};
 use crate::states::JointState;
 
 /// The bound on the normwise error against the runtime, in units of u.
@@ -92,7 +92,7 @@ pub struct Runtime {
     arm: Arm<Exact>,
     /// With them.
     whole: Arm<Exact>,
-    setting: Setting,
+    scene_robot: SceneRobot,
     results: Formulas,
     /// D over the joints that move, as functions take the arm.
     inertias: Formulas,
@@ -104,17 +104,17 @@ type Formulas = RefCell<BTreeMap<Function, Rc<Recording<Input, f64>>>>;
 impl Runtime {
     /// Of a robot; lengths without effect are folded away while exact.
     pub fn new(robot: &Robot) -> Runtime {
-        Runtime::in_setting(Setting::whole(robot))
+        Runtime::in_scene(SceneRobot::whole(robot))
     }
 
-    /// Of a robot in a setting: the same recursion over all its joints, with
-    /// the setting's constants in place of the state's.
-    pub fn in_setting(setting: Setting) -> Runtime {
-        let whole = Arm::from_robot(setting.robot(), &mut Exact::clone);
+    /// Of a robot in a scene: the same recursion over all its joints, with
+    /// the scene's constants in place of the state's.
+    pub fn in_scene(scene_robot: SceneRobot) -> Runtime {
+        let whole = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
         Runtime {
             arm: whole.clone().fold_base(),
             whole,
-            setting,
+            scene_robot,
             results: Formulas::default(),
             inertias: Formulas::default(),
         }
@@ -128,7 +128,7 @@ impl Runtime {
         let inertia = |posed: &Posed<Value>| {
             let (arm, motion) = (&posed.arm, &posed.motion);
             let d = Formulation::NewtonEulerLink.inertia(arm, &arm.at(&motion.q));
-            among(&d, &free(&motion.moves)).concat()
+            submatrix(&d, &free(&motion.moves)).concat()
         };
         let recording = self.recorded(&self.inertias, function, &self.arm, inertia);
         let d = self.run_at(&recording, state);
@@ -147,7 +147,7 @@ impl Runtime {
         let recording = known.entry(function).or_insert_with(|| {
             let arm = |recorder: &Recorder<Input, Exact>| arm.map(|x| recorder.constant(x));
             let formula = |posed: &Posed<Value>, _: &Recorder<Input, Exact>| formula(posed);
-            let recording = self.setting.record_of(function, arm, formula);
+            let recording = self.scene_robot.record_of(function, arm, formula);
             Rc::new(recording.with_constants(f64::nearest))
         });
         recording.clone()
@@ -162,7 +162,7 @@ impl Runtime {
                 Input::PerSpeed(joint) => {
                     let qd = state.entry(Argument::Velocity, joint);
                     let sqrt = |x: &f64| libm::sqrt(*x);
-                    self.setting.per_speed(joint, &qd, f64::nearest, sqrt)
+                    self.scene_robot.per_speed(joint, &qd, f64::nearest, sqrt)
                 }
                 Input::Sin(sum) => libm::sincos(angle(sum)).0,
                 Input::Cos(sum) => libm::sincos(angle(sum)).1,
@@ -182,7 +182,8 @@ impl Runtime {
             false => &self.arm,
         };
         let formulation = Formulation::NewtonEulerLink;
-        let results = |posed: &Posed<Value>| posed.results(&self.setting, function, formulation);
+        let results =
+            |posed: &Posed<Value>| posed.results(&self.scene_robot, function, formulation);
         let recording = self.recorded(&self.results, function, arm, results);
         self.run_at(&recording, state)
     }

@@ -27,23 +27,23 @@ use super::size::Denominators;
 use crate::function::Function;
 use crate::program::Input;
 use crate::scene::base::{BaseParameters, Parameter};
-use crate::scene::{Setting, Value};
+use crate::scene::{SceneRobot, Value};
 
-/// Proves the base parameters of a setting that a function is over.
+/// Proves the base parameters of a robot in its scene that a function is over.
 ///
 /// # Errors
 /// A parameter whose torques they do not give, or too large a chance of a miss.
 pub fn prove_base(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     base: &BaseParameters,
 ) -> Result<(), Disproof> {
-    let formulation = match setting.joints().len() <= WRITTEN_LIMIT {
+    let formulation = match scene_robot.joints().len() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
         false => Formulation::NewtonEulerLink,
     };
     let statement = Statement {
-        setting,
+        scene_robot,
         function,
         base,
         formulation,
@@ -72,7 +72,7 @@ pub fn prove_base(
 }
 
 struct Statement<'a> {
-    setting: &'a Setting,
+    scene_robot: &'a SceneRobot,
     function: Function,
     base: &'a BaseParameters,
     formulation: Formulation,
@@ -81,7 +81,7 @@ struct Statement<'a> {
 impl Statement<'_> {
     fn transcript(&self) -> Transcript {
         let mut transcript = Transcript::new("base parameters");
-        transcript.setting(self.setting);
+        transcript.scene_robot(self.scene_robot);
         transcript.text(self.function.name());
         transcript.number(self.base.columns.len());
         for (column, terms) in self.base.columns.iter().zip(&self.base.combinations) {
@@ -105,12 +105,12 @@ impl Statement<'_> {
     /// All parameters of the robot file, in the order of the full columns.
     fn parameters(&self) -> Vec<Parameter> {
         use dalembert_model::equations::regressor::LinkParameter;
-        let joints = self.setting.joints().iter();
+        let joints = self.scene_robot.joints().iter();
         let links = joints.flat_map(|&joint| {
             let all = LinkParameter::ALL.into_iter();
             all.map(move |own| Parameter::Link(joint, own))
         });
-        let drives = of_drives::<Exact>(self.setting.robot()).into_iter();
+        let drives = of_drives::<Exact>(self.scene_robot.robot()).into_iter();
         let drives = drives.map(|column| match column {
             Column::Viscous(joint) => Parameter::Viscous(joint),
             Column::Armature(joint) | Column::Body { joint, .. } => Parameter::Armature(joint),
@@ -136,8 +136,8 @@ impl Statement<'_> {
     /// Y_full − Y B over the rows, row by row, as a formula.
     fn differences(&self) -> Option<Recording<Input, Exact>> {
         let combinations = self.combinations()?;
-        let setting = self.setting;
-        let recording = setting.record(self.function, |posed, recorder| {
+        let scene_robot = self.scene_robot;
+        let recording = scene_robot.record(self.function, |posed, recorder| {
             let (arm, motion) = (&posed.arm, &posed.motion);
             let by = |columns: &[Column<Value>]| {
                 let entries = self
@@ -146,14 +146,14 @@ impl Statement<'_> {
                 let rows = entries.chunks(columns.len().max(1));
                 rows.map(<[Value]>::to_vec).collect::<Vec<_>>()
             };
-            let mut all = of_links(setting.joints().len());
-            all.extend(of_drives(setting.robot()));
+            let mut all = of_links(scene_robot.joints().len());
+            all.extend(of_drives(scene_robot.robot()));
             let whole = by(&all);
             let constant = |x: &Exact| recorder.constant(x);
             let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
             let own = by(&own);
             let mut found = Vec::new();
-            for &row in setting.rows() {
+            for &row in scene_robot.rows() {
                 let mut differences = whole[row].clone();
                 for (entry, terms) in own[row].iter().zip(&combinations) {
                     for (place, factor) in terms {

@@ -16,7 +16,7 @@ use num_traits::Zero;
 
 use crate::function::{Argument, Columns, Function, Quantity};
 use crate::program::{AngleSum, Input};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::states::JointState;
 
 /// 2⁻²⁰⁰: what 256 bits lose, times how often, is far below this part of the
@@ -26,7 +26,7 @@ const LOST: f64 = 6.3e-61;
 /// A robot, or a robot in a scene.
 #[derive(Clone, Debug)]
 pub struct Reference<'s> {
-    setting: &'s Setting,
+    scene_robot: &'s SceneRobot,
     arm: Arm<Known>,
 }
 
@@ -62,21 +62,21 @@ impl TrueValue {
 }
 
 impl<'s> Reference<'s> {
-    /// Of a setting.
-    pub fn new(setting: &'s Setting) -> Reference<'s> {
-        let robot = setting.robot();
+    /// Of a robot in its scene.
+    pub fn new(scene_robot: &'s SceneRobot) -> Reference<'s> {
+        let robot = scene_robot.robot();
         Reference {
-            setting,
+            scene_robot,
             arm: Arm::from_robot(robot, &mut Known::of),
         }
     }
 
     /// What it is about.
-    pub fn setting(&self) -> &'s Setting {
-        self.setting
+    pub fn scene_robot(&self) -> &'s SceneRobot {
+        self.scene_robot
     }
 
-    /// The results of a function over the setting's rows at a state of finite
+    /// The results of a function over the scene's rows at a state of finite
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let finite = |x: f64| Wide::from_f64(x).unwrap_or_else(Wide::zero);
@@ -90,7 +90,8 @@ impl<'s> Reference<'s> {
             Input::PerSpeed(joint) => {
                 let x = state.entry(Argument::Velocity, joint);
                 let qd = Known::sized(finite(x), x.abs());
-                self.setting.per_speed(joint, &qd, Known::of, Known::sqrt)
+                self.scene_robot
+                    .per_speed(joint, &qd, Known::of, Known::sqrt)
             }
             Input::Entry(argument, joint) => {
                 let x = state.entry(argument, joint);
@@ -98,8 +99,8 @@ impl<'s> Reference<'s> {
             }
         };
         let arm = self.arm.clone();
-        let posed = self.setting.posed(function, arm, input, Known::of);
-        let results = posed.results(self.setting, function, Formulation::NewtonEulerLink);
+        let posed = self.scene_robot.posed(function, arm, input, Known::of);
+        let results = posed.results(self.scene_robot, function, Formulation::NewtonEulerLink);
         let known = |Known { value, size }: Known| TrueValue {
             value,
             lost: size * LOST,

@@ -18,7 +18,7 @@ use num_traits::Signed;
 use super::lanes::{LANES, Lanes};
 use crate::program::adjoint::{Leaf, backward};
 use crate::program::{Input, Operand, Operation, Program};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::states::JointState;
 
 /// How many states are looked at.
@@ -37,10 +37,10 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Of a program inside the limits of the setting's robot.
-    pub fn estimate(setting: &Setting, program: &Program) -> Rounding {
+    /// Of a program inside the limits of the scene's robot.
+    pub fn estimate(scene_robot: &SceneRobot, program: &Program) -> Rounding {
         let network = Network::new(program);
-        let states = setting.states(STATES, SEED);
+        let states = scene_robot.states(STATES, SEED);
         let runs = network.errors(&states);
         let mut rounding = Rounding {
             normwise: Vec::new(),

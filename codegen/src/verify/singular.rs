@@ -6,7 +6,7 @@
 //! moves no inertia while the joints beyond it are free.
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::equations::factor::{Factor, among};
+use dalembert_model::equations::factor::{Factor, submatrix};
 use dalembert_model::equations::forward::free;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::record::Recording;
@@ -15,15 +15,15 @@ use super::challenge::{Point, Transcript};
 use super::exact::{MAX_DRAWS, PRIMES, WRITTEN_LIMIT};
 use crate::function::Function;
 use crate::program::Input;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// The joint nearest to the hand that moves no inertia in any state; none if
 /// D has an inverse almost everywhere.
-pub fn without_inertia(setting: &Setting, function: Function) -> Option<usize> {
+pub fn without_inertia(scene_robot: &SceneRobot, function: Function) -> Option<usize> {
     let mut transcript = Transcript::new("inertia");
-    transcript.setting(setting);
+    transcript.scene_robot(scene_robot);
     let challenge = transcript.seal();
-    let pivots = pivots(setting, function);
+    let pivots = pivots(scene_robot, function);
     let mut drawn = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
     let mut found = None;
     let mut seen = 0;
@@ -45,9 +45,9 @@ struct Pivots {
     values: Recording<Input, Exact>,
 }
 
-fn pivots(setting: &Setting, function: Function) -> Pivots {
+fn pivots(scene_robot: &SceneRobot, function: Function) -> Pivots {
     let mut joints = Vec::new();
-    let values = setting.record(function, |posed, _| {
+    let values = scene_robot.record(function, |posed, _| {
         let (arm, motion) = (&posed.arm, &posed.motion);
         let formulation = match arm.links.len() <= WRITTEN_LIMIT {
             true => Formulation::LagrangeEuler,
@@ -55,7 +55,7 @@ fn pivots(setting: &Setting, function: Function) -> Pivots {
         };
         let free = free(&motion.moves);
         let d = formulation.inertia(arm, &arm.at(&motion.q));
-        let factor = Factor::new(&among(&d, &free));
+        let factor = Factor::new(&submatrix(&d, &free));
         joints = free.into_iter().rev().collect();
         factor.pivots().iter().rev().cloned().collect()
     });

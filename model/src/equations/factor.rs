@@ -111,13 +111,13 @@ impl<S: Divide> Factor<S> {
 }
 
 /// A matrix over these joints alone.
-pub fn among<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Vec<Vec<S>> {
+pub fn submatrix<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Vec<Vec<S>> {
     let row = |&i: &usize| joints.iter().map(|&k| matrix[i][k].clone()).collect();
     joints.iter().map(row).collect()
 }
 
 /// A vector of n entries that has these at these joints, and zeros elsewhere.
-pub fn spread<S: Scalar>(values: &[S], joints: &[usize], n: usize) -> Vec<S> {
+pub fn scatter<S: Scalar>(values: &[S], joints: &[usize], n: usize) -> Vec<S> {
     let mut all = alloc::vec![S::zero(); n];
     for (value, &joint) in values.iter().zip(joints) {
         all[joint] = value.clone();

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::articulated;
 use super::derivatives::columns;
 use super::energy::moving;
-use super::factor::{Factor, among, spread};
+use super::factor::{Factor, scatter, submatrix};
 use super::from_torques::weightless;
 use super::matrix::{minus, negative, times, total, zeros};
 use super::{Arm, DhVariables, Formulation};
@@ -24,15 +24,15 @@ pub fn solved<S: Divide>(d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) ->
     let free = free(moves);
     let load = free.iter().map(|&i| minus(&tau[i], &bias[i]));
     let load: Vec<S> = load.collect();
-    let accelerations = Factor::new(&among(d, &free)).solve(&load);
-    spread(&accelerations, &free, moves.len())
+    let accelerations = Factor::new(&submatrix(d, &free)).solve(&load);
+    scatter(&accelerations, &free, moves.len())
 }
 
 /// D⁻¹ over the joints that move; zero in the rows and columns of the others.
 pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
     let (free, n) = (free(moves), moves.len());
-    let inverse = Factor::new(&among(d, &free)).inverse();
-    let rows = inverse.iter().map(|row| spread(row, &free, n));
+    let inverse = Factor::new(&submatrix(d, &free)).inverse();
+    let rows = inverse.iter().map(|row| scatter(row, &free, n));
     let mut all: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
     for (row, &joint) in rows.zip(&free) {
         all[joint] = row;

@@ -8,7 +8,7 @@ use super::run::Runner;
 use super::steps::Code;
 use dalembert_codegen::function::{Argument, Function, Sizes};
 use dalembert_codegen::program::{Input, Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::states::JointState;
 use dalembert_codegen::verify::reference::{Reference, TrueValue};
 
@@ -31,17 +31,17 @@ pub struct Errors {
 /// robot, or of its scene; those of what is emitted in f32 are rounded to it
 /// first.
 pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
-    let (setting, function) = (&explanation.setting, explanation.function);
-    let robot = setting.robot();
-    let drawn = setting.states(states.min(MAX_STATES), SEED);
-    let reference = Reference::new(setting);
+    let (scene_robot, function) = (&explanation.scene_robot, explanation.function);
+    let robot = scene_robot.robot();
+    let drawn = scene_robot.states(states.min(MAX_STATES), SEED);
+    let reference = Reference::new(scene_robot);
     let runs = at(&reference, function, drawn.iter().cloned());
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
-    let sizes = setting.sizes(function);
+    let sizes = scene_robot.sizes(function);
     let errors = |code: &Code| match code {
         Code::Formula(formulation) => worst(function, sizes, &runs, ScalarType::F64, |state| {
-            formula(setting, &arm, *formulation, function, state)
+            formula(scene_robot, &arm, *formulation, function, state)
         }),
         Code::Program(program) => {
             let runner = Runner::<f64>::new(program, ScalarType::F64);
@@ -67,7 +67,7 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
 }
 
 /// The errors of a program in each scalar, inside the limits of the robot, or
-/// of its scene; states of f32 are rounded to it first. Programs of one setting are
+/// of its scene; states of f32 are rounded to it first. Programs of one robot and scene are
 /// compared at the same states: one reference for all is quickest.
 pub fn of_program(
     reference: &Reference<'_>,
@@ -76,9 +76,9 @@ pub fn of_program(
     states: usize,
 ) -> Vec<Errors> {
     let function = program.function;
-    let setting = reference.setting();
-    let drawn = setting.states(states.min(MAX_STATES), SEED);
-    let sizes = setting.sizes(function);
+    let scene_robot = reference.scene_robot();
+    let drawn = scene_robot.states(states.min(MAX_STATES), SEED);
+    let sizes = scene_robot.sizes(function);
     let errors = |&scalar: &ScalarType| match scalar {
         ScalarType::F64 => {
             let runner = Runner::<f64>::new(program, scalar);
@@ -123,7 +123,7 @@ fn at(
 
 /// A formulation over f64, its constants rounded once.
 fn formula(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     arm: &Arm<f64>,
     formulation: Formulation,
     function: Function,
@@ -138,12 +138,12 @@ fn formula(
         Input::Cos(angle) => pair(angle).1,
         Input::PerSpeed(joint) => {
             let qd = state.entry(Argument::Velocity, joint);
-            setting.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+            scene_robot.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
         }
         Input::Entry(argument, joint) => state.entry(argument, joint),
     };
-    let posed = setting.posed(function, arm.clone(), input, f64::nearest);
-    posed.results(setting, function, formulation)
+    let posed = scene_robot.posed(function, arm.clone(), input, f64::nearest);
+    posed.results(scene_robot, function, formulation)
 }
 
 fn worst(

@@ -21,7 +21,7 @@ use dalembert_codegen::generate::{GenerateError, Request, tolerate};
 use dalembert_codegen::graph::Graph;
 use dalembert_codegen::portfolio;
 use dalembert_codegen::program::Program;
-use dalembert_codegen::scene::{Setting, input_hash};
+use dalembert_codegen::scene::{SceneRobot, input_hash};
 use dalembert_codegen::trace::trace;
 use merged::Merged;
 use parameters::Parameters;
@@ -35,7 +35,7 @@ pub const MAX_WRITTEN: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Explanation {
     /// Of which robot, in which scene.
-    pub setting: Setting,
+    pub scene_robot: SceneRobot,
     /// Which function.
     pub function: Function,
     /// The steps, in their order; the last is what is generated.
@@ -80,15 +80,16 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });
     }
-    let setting = Setting::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let scene_robot =
+        SceneRobot::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let mut explained = Vec::new();
     for (index, &function) in request.functions.iter().enumerate() {
         if !request.functions[..index].contains(&function) {
-            explained.push(exact(robot, &setting, function, request)?);
+            explained.push(exact(robot, &scene_robot, function, request)?);
         }
     }
     let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
-    let admitted = tolerate::admitted(&setting, &programs, request)?;
+    let admitted = tolerate::admitted(&scene_robot, &programs, request)?;
     let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
     for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
         explanation.rows.extend(steps::tolerated(admitted)?);
@@ -100,7 +101,7 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
 /// to.
 fn exact(
     robot: &Robot,
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &Request,
 ) -> Result<(Explanation, Program), GenerateError> {
@@ -108,7 +109,7 @@ fn exact(
     if function.columns() != Columns::None {
         return Err(GenerateError::Unexplained(function));
     }
-    let found = steps::search(setting, function, request)?;
+    let found = steps::search(scene_robot, function, request)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
     let mut rows = Vec::new();
@@ -118,22 +119,27 @@ fn exact(
     };
     if robot.joints.len() <= MAX_WRITTEN {
         let formulation = Formulation::LagrangeEuler;
-        let trace = trace(setting, function, formulation);
+        let trace = trace(scene_robot, function, formulation);
         fingerprints(formulation, &trace.graph);
-        rows.extend(steps::lagrange_euler(setting, function, &trace, request));
+        rows.extend(steps::lagrange_euler(
+            scene_robot,
+            function,
+            &trace,
+            request,
+        ));
     }
     let formulation = Formulation::NewtonEulerLink;
-    let trace = trace(setting, function, formulation);
+    let trace = trace(scene_robot, function, formulation);
     fingerprints(formulation, &trace.graph);
-    rows.extend(steps::newton_euler(setting, function, &trace));
-    rows.extend(steps::chain(setting, function, tuned));
-    let (searched, program) = steps::searched(setting, function, request, &found)?;
+    rows.extend(steps::newton_euler(scene_robot, function, &trace));
+    rows.extend(steps::chain(scene_robot, function, tuned));
+    let (searched, program) = steps::searched(scene_robot, function, request, &found)?;
     rows.extend(searched);
     let chain = Chain::new(
-        &portfolio::skeleton_for(setting, function),
+        &portfolio::skeleton_for(scene_robot, function),
         &tuned.regrouping,
     );
-    let couplings = match setting.scene() {
+    let couplings = match scene_robot.scene() {
         None => Couplings::of(robot),
         Some(_) => None,
     };
@@ -141,9 +147,9 @@ fn exact(
         function,
         rows,
         merged,
-        parameters: Parameters::of(setting, function, tuned, &chain),
+        parameters: Parameters::of(scene_robot, function, tuned, &chain),
         couplings,
-        setting: setting.clone(),
+        scene_robot: scene_robot.clone(),
     };
     Ok((explanation, program))
 }

@@ -12,7 +12,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::graph::Folding;
 use dalembert_codegen::portfolio;
 use dalembert_codegen::portfolio::tune::Tuned;
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 
 /// A parameter of a body about the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -139,18 +139,19 @@ impl LinkParameters {
 impl Parameters {
     /// In a tuned regrouping; `chain` is in it.
     pub(super) fn of(
-        setting: &Setting,
+        scene_robot: &SceneRobot,
         function: Function,
         tuned: &Tuned,
         chain: &Chain<Exact>,
     ) -> Parameters {
-        let arm = portfolio::skeleton(setting);
+        let arm = portfolio::skeleton(scene_robot);
         let mut metres = tuned.regrouping.clone();
         (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
         let now = Chain::new(&arm, &metres);
         let results = |chain: &Chain<Exact>| {
             let form = tuned.form;
-            let traced = portfolio::trace_chain(setting, function, chain, form, Folding::Syntactic);
+            let traced =
+                portfolio::trace_chain(scene_robot, function, chain, form, Folding::Syntactic);
             merged::results(&traced.0)
         };
         let expected = results(chain);

@@ -16,7 +16,7 @@ use dalembert_codegen::graph::{Folding, Graph};
 use dalembert_codegen::portfolio::tune::{self, Tuned};
 use dalembert_codegen::portfolio::{self, Start};
 use dalembert_codegen::program::{Counts, Lowered, Program, ScalarType};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::simplify;
 use dalembert_codegen::trace::Trace;
 
@@ -131,22 +131,22 @@ impl Row {
         }
     }
 
-    fn graph(step: SearchStep, setting: &Setting, function: Function, graph: &Graph) -> Row {
-        Row::program(step, Program::in_setting(setting, function, graph))
+    fn graph(step: SearchStep, scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Row {
+        Row::program(step, Program::in_scene(scene_robot, function, graph))
     }
 }
 
 /// Lagrange–Euler: as written, traced, merged; then what the general machinery
 /// makes of it alone.
 pub(super) fn lagrange_euler(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     trace: &Trace,
     request: &Request,
 ) -> Vec<Row> {
-    let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
-    let joints = setting.robot().joints.iter();
-    let moves = |i: &usize| setting.lock(*i).is_none();
+    let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
+    let joints = scene_robot.robot().joints.iter();
+    let moves = |i: &usize| scene_robot.lock(*i).is_none();
     let turning = joints
         .enumerate()
         .filter(|(i, joint)| moves(i) && joint.kind == JointKind::Revolute);
@@ -175,8 +175,12 @@ pub(super) fn lagrange_euler(
 }
 
 /// Newton–Euler in link axes.
-pub(super) fn newton_euler(setting: &Setting, function: Function, trace: &Trace) -> Vec<Row> {
-    let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
+pub(super) fn newton_euler(
+    scene_robot: &SceneRobot,
+    function: Function,
+    trace: &Trace,
+) -> Vec<Row> {
+    let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
     vec![
         row(SearchStep::NewtonFolded, &trace.graph),
         row(
@@ -187,8 +191,8 @@ pub(super) fn newton_euler(setting: &Setting, function: Function, trace: &Trace)
 }
 
 /// The chain form in one regrouping after the other, each in its cheapest form.
-pub(super) fn chain(setting: &Setting, function: Function, tuned: &Tuned) -> Vec<Row> {
-    let arm = portfolio::skeleton(setting);
+pub(super) fn chain(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -> Vec<Row> {
+    let arm = portfolio::skeleton(scene_robot);
     let mut metres = tuned.regrouping.clone();
     (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
     let regroupings = [
@@ -200,10 +204,11 @@ pub(super) fn chain(setting: &Setting, function: Function, tuned: &Tuned) -> Vec
     let row = |(step, regrouping): (SearchStep, Regrouping<Exact>)| {
         let chain = Chain::new(&arm, &regrouping);
         let forms = function.forms().into_iter();
-        let graphs = forms
-            .map(|form| portfolio::trace_chain(setting, function, &chain, form, Folding::Semantic));
+        let graphs = forms.map(|form| {
+            portfolio::trace_chain(scene_robot, function, &chain, form, Folding::Semantic)
+        });
         let cheapest = graphs.map(|(graph, _)| graph).min_by_key(simplify::cost)?;
-        Some(Row::graph(step, setting, function, &cheapest))
+        Some(Row::graph(step, scene_robot, function, &cheapest))
     };
     regroupings.into_iter().filter_map(row).collect()
 }
@@ -227,27 +232,27 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 
 /// The search over all forms, nothing replayed.
 pub(super) fn search(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &Request,
 ) -> Result<Found, GenerateError> {
-    search::search(setting, function, &anew(request))
+    search::search(scene_robot, function, &anew(request))
 }
 
 /// What the search made of all forms, and what the plan keeps; and the last of
 /// them: what is generated, or what a tolerance is applied to.
 pub(super) fn searched(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     function: Function,
     request: &Request,
     found: &Found,
 ) -> Result<(Vec<Row>, Program), GenerateError> {
-    let row = |step, graph: &Graph| Row::graph(step, setting, function, graph);
+    let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
     let simplified = &found.simplified;
     let mut rows = vec![row(SearchStep::EGraph, &simplified.saturated)];
-    let mut last = Program::in_setting(setting, function, &simplified.graph);
+    let mut last = Program::in_scene(scene_robot, function, &simplified.graph);
     rows.push(Row::program(SearchStep::Search, last.clone()));
-    if let Some(entry) = search::replay(setting, function, request)? {
+    if let Some(entry) = search::replay(scene_robot, function, request)? {
         last = entry.program.clone();
         rows.push(Row::program(SearchStep::Plan, last.clone()));
     }

@@ -36,7 +36,7 @@ pub struct Traffic {
 
 /// Where a value is.
 #[derive(Clone, Copy, Default)]
-struct Place {
+struct Location {
     register: bool,
     slot: bool,
     /// Whether it is in a register that calls keep.
@@ -51,7 +51,7 @@ struct Walk<'a> {
     uses: Vec<Vec<usize>>,
     /// For every item the product that becomes one instruction with it.
     merged: Vec<Option<usize>>,
-    places: Vec<Place>,
+    places: Vec<Location>,
     /// What is in registers; short, so that a search is quick.
     held: Vec<usize>,
     on_stack: usize,
@@ -69,7 +69,7 @@ pub fn traffic(flat: &Flat, target: &Target, unit: &Unit) -> Traffic {
             true => merged_products(flat),
             false => vec![None; flat.items.len()],
         },
-        places: vec![Place::default(); flat.values.len()],
+        places: vec![Location::default(); flat.values.len()],
         held: Vec::new(),
         on_stack: 0,
         traffic: Traffic::default(),

@@ -12,13 +12,13 @@ use dalembert_model::scalar::big::Big;
 
 use dalembert_codegen::function::{Argument, Function};
 use dalembert_codegen::program::{AngleSum, Input};
-use dalembert_codegen::scene::Setting;
+use dalembert_codegen::scene::SceneRobot;
 use dalembert_codegen::states::JointState;
 
 /// A robot in the big float, or in a scene.
 #[derive(Clone, Debug)]
 pub struct Truth {
-    setting: Setting,
+    scene_robot: SceneRobot,
     arm: Arm<Big>,
     /// The sines and cosines of the last states' positions, by their bits: most of
     /// the work of a state, and functions are compared at the same states.
@@ -31,15 +31,15 @@ const MAX_SINES: usize = 1 << 14;
 impl Truth {
     /// Of a robot, nothing snapped, each parameter rounded to 448 bits.
     pub fn new(robot: &Robot) -> Truth {
-        Truth::in_setting(&Setting::whole(robot))
+        Truth::in_scene(&SceneRobot::whole(robot))
     }
 
     /// Of a robot in a scene: whatever a state says, locked joints are exactly
     /// where they are locked.
-    pub fn in_setting(setting: &Setting) -> Truth {
+    pub fn in_scene(scene_robot: &SceneRobot) -> Truth {
         Truth {
-            arm: Arm::from_robot(setting.robot(), &mut number),
-            setting: setting.clone(),
+            arm: Arm::from_robot(scene_robot.robot(), &mut number),
+            scene_robot: scene_robot.clone(),
             sines: RefCell::default(),
         }
     }
@@ -54,7 +54,7 @@ impl Truth {
         sines.entry(q.to_bits()).or_insert_with(made).clone()
     }
 
-    /// The results of a function over the setting's rows, flat; `None` at a
+    /// The results of a function over the scene's rows, flat; `None` at a
     /// state that is not finite.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
         if !state.is_finite() {
@@ -69,13 +69,13 @@ impl Truth {
             Input::Cos(sum) => pair(sum).1,
             Input::PerSpeed(joint) => {
                 let qd = finite(state.entry(Argument::Velocity, joint));
-                self.setting.per_speed(joint, &qd, number, Big::sqrt)
+                self.scene_robot.per_speed(joint, &qd, number, Big::sqrt)
             }
             Input::Entry(argument, joint) => finite(state.entry(argument, joint)),
         };
-        let setting = &self.setting;
-        let posed = setting.posed(function, self.arm.clone(), input, number);
-        Some(posed.results(setting, function, Formulation::NewtonEulerLink))
+        let scene_robot = &self.scene_robot;
+        let posed = scene_robot.posed(function, self.arm.clone(), input, number);
+        Some(posed.results(scene_robot, function, Formulation::NewtonEulerLink))
     }
 }
 

@@ -5,7 +5,7 @@
 
 use dalembert_codegen::approximate::admitted::Admitted;
 use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::approximate::prune::Settings;
+use dalembert_codegen::approximate::prune::PruneSettings;
 use dalembert_codegen::bound::sensitivity::BoundEffort;
 use dalembert_codegen::certificate::Certificate;
 use dalembert_codegen::falsify::falsify;
@@ -43,7 +43,7 @@ pub struct Ladder<'a> {
     options: Options,
     frame: &'a ErrorBudget<'a>,
     waiting: &'a dyn Waiting,
-    settings: Settings,
+    settings: PruneSettings,
     /// The exact program in every scalar.
     exact: Admitted,
 }
@@ -60,7 +60,7 @@ impl<'a> Ladder<'a> {
             options,
             frame,
             waiting,
-            settings: Settings::of(options.effort),
+            settings: PruneSettings::of(options.effort),
             exact: frame.unedited(&ScalarType::ALL, BoundEffort::CERTIFY),
         }
     }

@@ -13,7 +13,7 @@ use dalembert_codegen::function::Function;
 use dalembert_codegen::generate::{GenerateError, Request, generate};
 use dalembert_codegen::portfolio::Start;
 use dalembert_codegen::program::{Counts, ScalarType};
-use dalembert_codegen::simplify::Stage;
+use dalembert_codegen::simplify::Pass;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 
@@ -67,7 +67,7 @@ pub struct Comparison {
     /// The formula with the robot's numbers.
     pub written: Pair,
     /// The counts after every stage of the search.
-    pub stages: Vec<Stage>,
+    pub passes: Vec<Pass>,
 }
 
 /// What the paper counts for a formulation.
@@ -82,8 +82,8 @@ pub fn paper(formulation: Formulation, joints: usize) -> Pair {
 pub fn row(n: usize) -> Result<Row, GenerateError> {
     let robot = generic::robot(n);
     let generated = |start: Start| -> Result<Counts, GenerateError> {
-        let stages = stages(&robot, start)?;
-        Ok(stages.last().map(|stage| stage.counts).unwrap_or_default())
+        let passes = passes(&robot, start)?;
+        Ok(passes.last().map(|pass| pass.counts).unwrap_or_default())
     };
     let cell = |(formulation, _): (Formulation, &str)| -> Result<Cell, GenerateError> {
         Ok(Cell {
@@ -108,7 +108,7 @@ pub fn comparison(robot: &Robot, formulation: Formulation) -> Result<Comparison,
     Ok(Comparison {
         paper: paper(formulation, robot.joints.len()),
         written: written::robot(formulation, robot),
-        stages: stages(robot, Start::Only(formulation))?,
+        passes: passes(robot, Start::Only(formulation))?,
     })
 }
 
@@ -116,7 +116,7 @@ pub fn comparison(robot: &Robot, formulation: Formulation) -> Result<Comparison,
 ///
 /// # Errors
 /// As [`generate`].
-pub fn stages(robot: &Robot, start: Start) -> Result<Vec<Stage>, GenerateError> {
+pub fn passes(robot: &Robot, start: Start) -> Result<Vec<Pass>, GenerateError> {
     let request = Request {
         functions: vec![Function::InverseDynamics],
         scalars: vec![ScalarType::F64],
@@ -124,5 +124,5 @@ pub fn stages(robot: &Robot, start: Start) -> Result<Vec<Stage>, GenerateError> 
         ..Request::default()
     };
     let functions = generate(robot, &request)?.functions;
-    Ok(functions.into_iter().flat_map(|f| f.stages).collect())
+    Ok(functions.into_iter().flat_map(|f| f.passes).collect())
 }

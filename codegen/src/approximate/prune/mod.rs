@@ -43,7 +43,7 @@ const SEED: u64 = 0x9121;
 
 /// How hard to search, counted, never timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct PruneSettings {
     /// Sampled positions.
     pub samples: usize,
     /// Guesses of how far sampled and certified errors are apart.
@@ -68,9 +68,9 @@ pub struct Settings {
     pub work: Option<u64>,
 }
 
-impl Default for Settings {
+impl Default for PruneSettings {
     fn default() -> Self {
-        Settings {
+        PruneSettings {
             samples: 40,
             guesses: 4,
             retries: 6,
@@ -96,9 +96,9 @@ pub struct Pruned {
     pub errors: Vec<f64>,
 }
 
-impl Settings {
+impl PruneSettings {
     /// The most that a search may take: minutes for a six-joint arm.
-    pub const THOROUGH: Settings = Settings {
+    pub const THOROUGH: PruneSettings = PruneSettings {
         samples: 40,
         guesses: 4,
         retries: 6,
@@ -112,10 +112,10 @@ impl Settings {
     };
 
     /// For the effort of a command that reports on variants.
-    pub fn of(effort: Effort) -> Settings {
+    pub fn of(effort: Effort) -> PruneSettings {
         match effort {
-            Effort::Quick => Settings::default(),
-            Effort::Thorough => Settings::THOROUGH,
+            Effort::Quick => PruneSettings::default(),
+            Effort::Thorough => PruneSettings::THOROUGH,
         }
     }
 
@@ -159,7 +159,7 @@ pub fn prune(
     program: &Program,
     limits: &InputBox,
     allowances: &[f64],
-    settings: &Settings,
+    settings: &PruneSettings,
 ) -> Pruned {
     watched(program, None, limits, allowances, settings, None)
 }
@@ -172,7 +172,7 @@ pub fn watched(
     start: Option<&Program>,
     limits: &InputBox,
     allowances: &[f64],
-    settings: &Settings,
+    settings: &PruneSettings,
     watch: Option<FunctionWatch<'_>>,
 ) -> Pruned {
     let tally = Tally::new(settings, watch);
@@ -227,7 +227,7 @@ pub fn appraise(
     program: &Program,
     limits: &InputBox,
     allowances: &[f64],
-    settings: &Settings,
+    settings: &PruneSettings,
 ) -> u32 {
     let mut random = Random::new(SEED);
     let motions = Motions::new(program, limits);

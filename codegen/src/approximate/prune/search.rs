@@ -5,7 +5,7 @@ use super::greedy::{Greedy, State};
 use super::motions::Motions;
 use super::price::SINCOS;
 use super::tally::Tally;
-use super::{Pruned, Settings};
+use super::{PruneSettings, Pruned};
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 use crate::bound::{magnitude, sample};
@@ -43,7 +43,7 @@ pub(super) struct Search<'a> {
     pub base: Pruned,
     pub limits: &'a InputBox,
     pub allowances: &'a [f64],
-    pub settings: &'a Settings,
+    pub settings: &'a PruneSettings,
     pub motions: &'a Motions,
     pub tally: &'a Tally<'a>,
     /// Times that a part is taken back and chosen anew.

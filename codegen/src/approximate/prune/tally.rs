@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::Settings;
+use super::PruneSettings;
 use crate::bound::work::Meter;
 use crate::program::Program;
 use crate::watch::{FunctionWatch, Part};
@@ -16,7 +16,7 @@ pub(super) struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    pub(super) fn new(settings: &Settings, watch: Option<FunctionWatch<'a>>) -> Tally<'a> {
+    pub(super) fn new(settings: &PruneSettings, watch: Option<FunctionWatch<'a>>) -> Tally<'a> {
         Tally {
             watch,
             done: Cell::new(0),

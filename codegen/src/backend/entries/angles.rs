@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::backend::place::Place;
+use crate::backend::scope::Scope;
 use crate::program::{AngleSum, LoweredTrig, Program, ScalarType};
 use crate::sincos::angle_name;
 
@@ -59,7 +59,7 @@ impl Angles {
         let joints = (0..n).map(|joint| format!("q[{joint}]"));
         let mut angles: Vec<String> = joints.collect();
         for sum in &self.sums {
-            lines.push(format!("    let a{sum} = {};", Place::STATE.sum(*sum)));
+            lines.push(format!("    let a{sum} = {};", Scope::STATE.sum(*sum)));
             angles.push(format!("a{sum}"));
         }
         lines.push(format!("    [{}]", angles.join(", ")));

@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 use super::Around;
 use super::angles::list;
-use crate::backend::place::Place;
+use crate::backend::scope::Scope;
 use crate::backend::{Printed, function};
 use crate::function::Argument;
 use crate::program::{Input, Literal, Lowered, LoweredTrig, Operand};
@@ -37,7 +37,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
             (false, true) => format!("cos[{at}]"),
             _ => format!("(sin[{at}], cos[{at}])"),
         };
-        let _ = writeln!(text, "    let {} = {value};", Place::STATE.pair(trig));
+        let _ = writeln!(text, "    let {} = {value};", Scope::STATE.pair(trig));
     }
     function::write_body(text, printed, around.path);
     text.push_str("}\n");

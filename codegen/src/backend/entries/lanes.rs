@@ -21,7 +21,7 @@
 use std::fmt::Write;
 
 use super::{Around, places};
-use crate::backend::place::Place;
+use crate::backend::scope::Scope;
 use crate::backend::{Printed, result, trig};
 use crate::program::LoweredTrig;
 
@@ -109,32 +109,32 @@ fn write_sines(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
     let mut array = |name: String| {
         let _ = writeln!(arrays, "    let mut {name} = [0.0; L];");
     };
-    let place = Place::LANE;
+    let scope = Scope::LANE;
     for trig in &code.trig {
         let angle = trig.angle;
         let is_sum = angle.additions() > 0;
         if together(trig) {
             if is_sum {
                 array(format!("a{angle}"));
-                let _ = writeln!(lines, "        a{angle}[l] = {};", place.sum(angle));
+                let _ = writeln!(lines, "        a{angle}[l] = {};", scope.sum(angle));
             }
             continue;
         }
         if is_sum {
-            let _ = writeln!(lines, "        let a{angle} = {};", place.sum(angle));
+            let _ = writeln!(lines, "        let a{angle} = {};", scope.sum(angle));
         }
         for (taken, letter) in [(trig.sin, 's'), (trig.cos, 'c')] {
             if taken {
                 array(format!("{letter}{angle}"));
             }
         }
-        trig::alone(&mut lines, trig, place, code, around.path);
+        trig::alone(&mut lines, trig, scope, code, around.path);
     }
     if !lines.is_empty() {
         let _ = writeln!(text, "{arrays}    for l in 0..L {{\n{lines}    }}");
     }
     // The joints' positions are arrays of lanes already.
-    let angle = |trig: &LoweredTrig| Place::STATE.angle(trig.angle);
+    let angle = |trig: &LoweredTrig| Scope::STATE.angle(trig.angle);
     trig::together(text, code, around.path, "_lanes", angle);
 }
 

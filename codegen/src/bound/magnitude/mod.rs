@@ -45,12 +45,12 @@ pub fn magnitudes(
     goal: f64,
     budget: BoxEffort,
 ) -> Vec<f64> {
-    let (graph, scales, distinct) = once(graph, scales);
+    let (graph, scales, distinct) = distinct_outputs(graph, scales);
     // Close enough to the goal to tell how far from it.
     let aims = scales.iter().map(|scale| Aim::Least(0.85 * goal * scale));
     let most = written_out(&graph, whole, aims, budget);
     let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, goal, budget));
-    distinct.spread(&most)
+    distinct.scatter(&most)
 }
 
 /// The same, if every output is shown to be at most its limit; at a grid, the
@@ -61,18 +61,18 @@ pub fn magnitudes_within(
     limits: &[f64],
     budget: BoxEffort,
 ) -> Option<Vec<f64>> {
-    let (graph, limits, distinct) = once(graph, limits);
+    let (graph, limits, distinct) = distinct_outputs(graph, limits);
     let aims = limits.iter().map(|&limit| Aim::Within(limit));
     let most = written_out(&graph, whole, aims, budget);
     let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
     let within =
         most.len() == limits.len() && most.iter().zip(&limits).all(|(x, limit)| x <= limit);
-    within.then(|| distinct.spread(&most))
+    within.then(|| distinct.scatter(&most))
 }
 
 /// Equal outputs once: a sign does not matter to a magnitude; a scale does to
 /// the search.
-fn once(graph: &Graph, scales: &[f64]) -> (Graph, Vec<f64>, Distinct) {
+fn distinct_outputs(graph: &Graph, scales: &[f64]) -> (Graph, Vec<f64>, Distinct) {
     let pairs = graph.outputs.iter().zip(scales);
     let keys = pairs.map(|(edge, scale)| Some((edge.node(), scale.to_bits())));
     let distinct = Distinct::by(keys);

@@ -172,12 +172,12 @@ impl Sensitivity {
         let boxes = self.bound_effort.boxes;
         let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
         let Some(extremes) = &self.extremes else {
-            return self.distinct.spread(&coarse);
+            return self.distinct.scatter(&coarse);
         };
         let fine = magnitudes::rounding(program, scalar, &constants, limits, extremes);
         let pairs = coarse.into_iter().zip(fine);
         let least: Vec<Rounding> = pairs.map(|(a, b)| a.min(b)).collect();
-        self.distinct.spread(&least)
+        self.distinct.scatter(&least)
     }
 }
 

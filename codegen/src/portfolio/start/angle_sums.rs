@@ -5,7 +5,7 @@ use super::{Beginning, Problem, auto};
 use crate::graph::Graph;
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{Sums, Variant, angle_sums};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// The start `angle_sums`.
 pub(super) struct AngleSums;
@@ -19,8 +19,8 @@ impl Beginning for AngleSums {
         auto::variants(problem)
     }
 
-    fn helpers(&self, setting: &Setting) -> Vec<Graph> {
-        vec![angle_sums(setting, Sums::Inputs)]
+    fn helpers(&self, scene_robot: &SceneRobot) -> Vec<Graph> {
+        vec![angle_sums(scene_robot, Sums::Inputs)]
     }
 
     fn has_chain(&self) -> bool {

@@ -9,7 +9,7 @@ use crate::function::Function;
 use crate::graph::Graph;
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{Source, Sums, Variant, angle_sums, regrouped, textbook, tuned};
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// The start `auto`.
 pub(super) struct Auto;
@@ -23,8 +23,8 @@ impl Beginning for Auto {
         variants(problem)
     }
 
-    fn helpers(&self, setting: &Setting) -> Vec<Graph> {
-        vec![angle_sums(setting, Sums::Products)]
+    fn helpers(&self, scene_robot: &SceneRobot) -> Vec<Graph> {
+        vec![angle_sums(scene_robot, Sums::Products)]
     }
 
     fn has_chain(&self) -> bool {
@@ -38,7 +38,7 @@ impl Beginning for Auto {
 
 pub(super) fn variants(problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
     let Problem {
-        setting,
+        scene_robot,
         function,
         effort,
         limit,
@@ -46,25 +46,29 @@ pub(super) fn variants(problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
         watch,
     } = *problem;
     if function == Function::Load {
-        let mut definition = textbook(setting, function, Formulation::NewtonEulerLink);
+        let mut definition = textbook(scene_robot, function, Formulation::NewtonEulerLink);
         definition.source = Source::Definition;
         return (None, vec![definition]);
     }
     let mut quantities = function.quantities().iter();
     if !quantities.any(|quantity| quantity.is_regrouped()) {
         let forms = [Formulation::NewtonEulerLink, Formulation::LagrangeEuler];
-        let variants = forms.map(|f| textbook(setting, function, f));
+        let variants = forms.map(|f| textbook(scene_robot, function, f));
         return (None, variants.into());
     }
-    let tuned = tuned(setting, function, effort, limit, from, watch);
-    let mut variants = regrouped(setting, function, &tuned.regrouping);
+    let tuned = tuned(scene_robot, function, effort, limit, from, watch);
+    let mut variants = regrouped(scene_robot, function, &tuned.regrouping);
     // The textbook recursion gives D column by column and h_ikm by polarisation, with n²
     // of work a link or more: no match.
     let mut quantities = function.quantities().iter();
     // It has no load, but a body in the hand.
-    let is_loaded = setting.takes(function, RuntimeParameter::Payload);
+    let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
     if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
-        variants.push(textbook(setting, function, Formulation::NewtonEulerLink));
+        variants.push(textbook(
+            scene_robot,
+            function,
+            Formulation::NewtonEulerLink,
+        ));
     }
     (Some(tuned), variants)
 }

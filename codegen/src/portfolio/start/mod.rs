@@ -18,7 +18,7 @@ use dalembert_model::number::Exact;
 use super::{Limit, Variant, tune::Tuned};
 use crate::function::Function;
 use crate::graph::Graph;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 use crate::simplify::Effort;
 use crate::watch::FunctionWatch;
 use only::Only;
@@ -33,7 +33,7 @@ trait Beginning {
     fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>);
 
     /// Values that no formula forms but that may shorten it.
-    fn helpers(&self, _: &Setting) -> Vec<Graph> {
+    fn helpers(&self, _: &SceneRobot) -> Vec<Graph> {
         Vec::new()
     }
 
@@ -111,8 +111,8 @@ impl Start {
     }
 
     /// Values that no formula forms but that may shorten it.
-    pub(crate) fn helpers(self, setting: &Setting) -> Vec<Graph> {
-        self.beginning().helpers(setting)
+    pub(crate) fn helpers(self, scene_robot: &SceneRobot) -> Vec<Graph> {
+        self.beginning().helpers(scene_robot)
     }
 
     /// The graphs to start from, and the regrouping that was chosen, if one was.
@@ -124,7 +124,7 @@ impl Start {
 /// The problem that a search is to solve.
 #[derive(Clone, Copy)]
 pub(crate) struct Problem<'a> {
-    pub setting: &'a Setting,
+    pub scene_robot: &'a SceneRobot,
     pub function: Function,
     pub effort: Effort,
     /// What a program may be off, if there is a limit.

@@ -23,7 +23,7 @@ impl Beginning for Only {
     }
 
     fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
-        let variant = textbook(problem.setting, problem.function, self.0);
+        let variant = textbook(problem.scene_robot, problem.function, self.0);
         (None, vec![variant])
     }
 }

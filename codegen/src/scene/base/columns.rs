@@ -11,7 +11,7 @@ use dalembert_model::scalar::record::{Recorder, Recording};
 
 use crate::function::{Argument, Quantity};
 use crate::program::Input;
-use crate::scene::Setting;
+use crate::scene::SceneRobot;
 
 /// A seed of its own.
 const SEED: u64 = 0x6261_7365;
@@ -19,7 +19,7 @@ const SEED: u64 = 0x6261_7365;
 /// Columns modulo the prime, each over the rows of so many random states that
 /// every dependence that is none shows; `None` if a constant has no value.
 pub(super) fn values(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     quantity: Quantity,
     columns: &[Column<Exact>],
 ) -> Option<Vec<Vec<Field>>> {
@@ -42,11 +42,11 @@ pub(super) fn values(
         };
         value.map(&mut |x: &Rational| Field::from_rational(x), pair)
     };
-    let entries = entries(setting, quantity, columns);
+    let entries = entries(scene_robot, quantity, columns);
     let mut found: Vec<Vec<Field>> = vec![Vec::new(); columns.len()];
-    let states = columns.len() / setting.rows().len().max(1) + 4;
+    let states = columns.len() / scene_robot.rows().len().max(1) + 4;
     for _ in 0..states {
-        let pairs: Vec<SinCosPair<Field>> = setting.joints().iter().map(|_| circle()).collect();
+        let pairs: Vec<SinCosPair<Field>> = scene_robot.joints().iter().map(|_| circle()).collect();
         let input = |input: &Input| match *input {
             Input::Sin(angle) => angle.pair(|joint| pairs[joint].clone()).sin,
             Input::Cos(angle) => angle.pair(|joint| pairs[joint].clone()).cos,
@@ -54,7 +54,7 @@ pub(super) fn values(
         };
         let entries = entries.run(input, constant)?;
         let rows: Vec<&[Field]> = entries.chunks(columns.len().max(1)).collect();
-        for &row in setting.rows() {
+        for &row in scene_robot.rows() {
             for (column, entry) in found.iter_mut().zip(rows[row]) {
                 column.push(*entry);
             }
@@ -65,16 +65,16 @@ pub(super) fn values(
 
 /// Every entry of the regressor, row by row, as a formula.
 fn entries(
-    setting: &Setting,
+    scene_robot: &SceneRobot,
     quantity: Quantity,
     columns: &[Column<Exact>],
 ) -> Recording<Input, Exact> {
     let recorder = Recorder::new();
     let (input, constant) = (|x| recorder.input(x), |x: &Exact| recorder.constant(x));
-    let mut arm = Arm::from_robot(setting.robot(), &mut { constant });
+    let mut arm = Arm::from_robot(scene_robot.robot(), &mut { constant });
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
-    let motion = setting.motion(input, constant);
-    if setting.has(RuntimeParameter::Gravity) {
+    let motion = scene_robot.motion(input, constant);
+    if scene_robot.has(RuntimeParameter::Gravity) {
         let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
         arm = arm.with_gravity(&[0, 1, 2].map(entry));
     }

@@ -1,4 +1,4 @@
-//! The base parameters of a setting: the fewest combinations of inertial
+//! The base parameters of a robot in its scene: the fewest combinations of inertial
 //! parameters, and of what the drives have, that give every torque asked for, be it
 //! that of inverse dynamics or another that is linear in them.
 //!
@@ -32,7 +32,7 @@ use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use super::Setting;
+use super::SceneRobot;
 use crate::function::Quantity;
 use columns::values;
 use elimination::{fraction, reduced};
@@ -59,7 +59,7 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// The base parameters of a setting.
+/// The base parameters of a robot in its scene.
 #[derive(Clone, Debug)]
 pub struct BaseParameters {
     /// What each is a unit of: the columns of the regressor.
@@ -116,15 +116,18 @@ impl fmt::Display for NoBase {
 }
 
 impl BaseParameters {
-    /// Of a setting, for a quantity that is over them.
-    pub(super) fn of(setting: &Setting, quantity: Quantity) -> Result<BaseParameters, NoBase> {
-        let robot = setting.robot();
-        if setting.has_coulomb() {
+    /// Of a robot in its scene, for a quantity that is over them.
+    pub(super) fn of(
+        scene_robot: &SceneRobot,
+        quantity: Quantity,
+    ) -> Result<BaseParameters, NoBase> {
+        let robot = scene_robot.robot();
+        if scene_robot.has_coulomb() {
             return Err(NoBase::Friction);
         }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
-        let skeleton = Skeleton::with_columns(&arm, &setting.merged(), &of_links(n));
+        let skeleton = Skeleton::with_columns(&arm, &scene_robot.merged(), &of_links(n));
         let regrouping = origins::chosen(&skeleton);
         // Without bodies of their own: only the frames matter here.
         let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
@@ -147,7 +150,7 @@ impl BaseParameters {
         let drives: Vec<Column<Exact>> = of_drives(robot);
         candidates.extend(drives.iter().cloned());
 
-        let columns = values(setting, quantity, &candidates).ok_or(NoBase::Unfit)?;
+        let columns = values(scene_robot, quantity, &candidates).ok_or(NoBase::Unfit)?;
         let reduced = reduced(columns);
         let mut base = BaseParameters {
             columns: reduced

@@ -9,7 +9,7 @@ mod measure;
 mod polish;
 mod rank;
 
-use super::Settings;
+use super::PruneSettings;
 use super::columns::{Nodes, Value};
 use super::motions::Motions;
 use super::price::{Scratch, price};
@@ -74,7 +74,7 @@ impl<'a> Greedy<'a> {
         truth: &'a [f64],
         allowances: Vec<f64>,
         prices: Vec<f64>,
-        settings: &Settings,
+        settings: &PruneSettings,
     ) -> Self {
         let m = nodes.samples;
         let weights: Vec<f64> = allowances

@@ -3,9 +3,9 @@
 
 use crate::program::{AngleSum, LoweredTrig};
 
-/// How lines of a place begin and what they call a value.
+/// How lines of a scope begin and what they call a value.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Scope {
     /// Before every line.
     pub(super) indent: &'static str,
     /// How a value gets its name: a lane's is an entry of an array that is there.
@@ -14,22 +14,22 @@ pub(super) struct Place {
     pub(super) lane: &'static str,
 }
 
-impl Place {
+impl Scope {
     /// In a function of one state.
-    pub(super) const STATE: Place = Place {
+    pub(super) const STATE: Scope = Scope {
         indent: "    ",
         binding: "let ",
         lane: "",
     };
 
     /// In a loop over lanes.
-    pub(super) const LANE: Place = Place {
+    pub(super) const LANE: Scope = Scope {
         indent: "        ",
         binding: "",
         lane: "[l]",
     };
 
-    /// How the place names the angle that sines are taken of, whose sum stands
+    /// How the scope names the angle that sines are taken of, whose sum stands
     /// in a line of its own.
     pub(super) fn angle(self, angle: AngleSum) -> String {
         match (angle.additions(), angle.terms().next()) {
