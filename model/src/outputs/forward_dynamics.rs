@@ -8,7 +8,6 @@ use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unspun;
-use crate::equations::forward::solved;
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -33,7 +32,8 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
     }
     let d = at.composite.inertia(at.form.travel);
     let bias = torques(at, &zeros(motion.qd.len()));
-    solved(&d, &bias, &motion.tau, &motion.moves)
+    at.chain
+        .accelerations(&d, &bias, &motion.tau, &motion.moves)
 }
 
 impl Formula for Acceleration {

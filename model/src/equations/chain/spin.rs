@@ -27,7 +27,7 @@ use alloc::vec::Vec;
 use super::composite::{Composite, CompositeOrder};
 use super::{Body, Chain, ChainLink, Displacement, Form};
 use crate::equations::SinCosPair;
-use crate::equations::forward::{inverted, solved};
+use crate::equations::forward::inverted;
 use crate::equations::matrix::{
     Vector, dot, halved, minus, negative, over, plus, symmetric, times, total, twice, zeros,
 };
@@ -163,7 +163,7 @@ impl<'a, S: Divide> Unspun<'a, S> {
             }
         };
         let d = composite.inertia(form.travel);
-        let mut qdd = solved(&d, &bias, &tau[..last], &moves[..last]);
+        let mut qdd = chain.accelerations(&d, &bias, &tau[..last], &moves[..last]);
         let products = self.brought();
         let products = products.iter().zip(&qdd).map(|(x, qdd)| times(x, qdd));
         let still = dot(&link.axis_before(), &motion.omega_dot);
