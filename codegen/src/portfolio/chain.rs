@@ -128,12 +128,13 @@ fn with_columns(setting: &Setting, columns: &[Column<Exact>]) -> Skeleton<Exact>
 /// The most choices of axes that the search is offered at once.
 const MAX_AXES: usize = 16;
 
-/// A function in every chain form, in one regrouping, in the regrouping's axes and in
+/// A function in each of these chain forms, in one regrouping, in its axes and in
 /// others: what is dear in one choice of axes may be cheap in another, and
 /// the search mixes them.
 pub fn regrouped(
     setting: &Setting,
     function: Function,
+    forms: &[Form],
     regrouping: &Regrouping<Exact>,
 ) -> Vec<Variant> {
     let mut chain = Chain::new(&skeleton_for(setting, function), regrouping);
@@ -142,7 +143,7 @@ pub fn regrouped(
         for (link, axes) in chain.links.iter_mut().zip(axes) {
             link.axes = axes;
         }
-        for form in function.forms() {
+        for &form in forms {
             let (graph, traced) = trace_chain(setting, function, &chain, form, Folding::Syntactic);
             variants.push(Variant {
                 source: Source::Regrouped,
