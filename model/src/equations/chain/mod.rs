@@ -43,6 +43,7 @@ use alloc::vec::Vec;
 
 pub use body::Body;
 pub use form::Form;
+pub use parallel::Unknowns;
 pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};

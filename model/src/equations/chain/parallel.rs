@@ -66,10 +66,29 @@ fn solved_in_pairs<S: Divide>(
     accelerations
 }
 
+/// What D q̈ = τ − h − c is solved for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknowns {
+    /// q̈, with factors of D that D⁻¹ has too.
+    Joints,
+    /// u̇ against the base, which is less work by itself.
+    AgainstBase,
+}
+
 impl<S: Divide> Chain<S> {
     /// q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
-    pub fn accelerations(&self, d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) -> Vec<S> {
-        solved_in_pairs(&self.pairs(moves), d, [bias, tau], moves)
+    pub fn accelerations(
+        &self,
+        d: &[Vec<S>],
+        [bias, tau]: [&[S]; 2],
+        moves: &[bool],
+        unknowns: Unknowns,
+    ) -> Vec<S> {
+        let pairs = match unknowns {
+            Unknowns::Joints => Vec::new(),
+            Unknowns::AgainstBase => self.pairs(moves),
+        };
+        solved_in_pairs(&pairs, d, [bias, tau], moves)
     }
 }
 
