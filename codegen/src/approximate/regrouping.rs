@@ -50,7 +50,8 @@ pub(super) fn descend(
         settings,
         watch,
     };
-    let tuned = portfolio::tuned(scene_robot, function, effort, None, &[], watch);
+    let forms = function.forms();
+    let tuned = portfolio::tuned(scene_robot, function, &forms, effort, None, &[], watch);
     let mut best: Option<(Regrouping<Exact>, Program)> = None;
     let mut price = descent.price(program, LOOKS[1]);
     for round in 0..settings.sweeps {

@@ -7,7 +7,7 @@ use super::{GenerateError, Prefer, Request};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::plan::Entry;
-use crate::portfolio::start::Problem;
+use crate::portfolio::start::{Approach, Problem};
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Limit, Source, Variant};
 use crate::program::{Counts, Program, ScalarType};
@@ -178,7 +178,7 @@ impl Search<'_> {
         let (scene_robot, function, start) = (self.scene_robot, self.function, self.request.start);
         let excess = |graph: &Graph| self.judge.excess(graph);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
-        let (tuned, variants) = start.variants(&Problem {
+        let approaches = start.approaches(&Problem {
             scene_robot,
             function,
             effort,
@@ -186,8 +186,32 @@ impl Search<'_> {
             from,
             watch,
         });
+        let found = approaches
+            .into_iter()
+            .filter_map(|approach| self.from(approach, effort, limited, watch));
+        // The first of the cheapest, of those that are accurate enough if there are such.
+        let refused = |found: &Found| limited && !self.judge.accepts(&found.simplified.graph);
+        found
+            .min_by_key(|found| (refused(found), found.cost()))
+            .ok_or(GenerateError::Empty)
+    }
+
+    fn from(
+        &self,
+        approach: Approach,
+        effort: Effort,
+        limited: bool,
+        watch: Option<FunctionWatch<'_>>,
+    ) -> Option<Found> {
+        let (scene_robot, function, start) = (self.scene_robot, self.function, self.request.start);
+        let Approach {
+            tuned,
+            variants,
+            others,
+        } = approach;
         let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
-        let mut helpers = start.helpers(scene_robot);
+        let mut helpers = others;
+        helpers.extend(start.helpers(scene_robot));
         if let Some(tuned) = &tuned
             && effort == Effort::Thorough
         {
@@ -195,10 +219,10 @@ impl Search<'_> {
         }
         let accept = |graph: &Graph| !limited || self.judge.accepts(graph);
         let simplified = simplify::watched(&graphs, &helpers, effort, &accept, watch);
-        Ok(Found {
+        Some(Found {
             tuned,
             variants,
-            simplified: simplified.ok_or(GenerateError::Empty)?,
+            simplified: simplified?,
             refused: None,
         })
     }

@@ -94,7 +94,7 @@ impl Node {
 }
 
 /// A program: nodes in topological order, and what it returns.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Graph {
     /// Operands before users.
     pub nodes: Vec<Node>,

@@ -132,12 +132,13 @@ fn with_columns(scene_robot: &SceneRobot, columns: &[Column<Exact>]) -> Skeleton
 /// The most choices of axes that the search is offered at once.
 const MAX_AXES: usize = 16;
 
-/// A function in every chain form, in one regrouping, in the regrouping's axes and in
+/// A function in each of these chain forms, in one regrouping, in its axes and in
 /// others: what is dear in one choice of axes may be cheap in another, and
 /// the search mixes them.
 pub fn regrouped(
     scene_robot: &SceneRobot,
     function: Function,
+    forms: &[Form],
     regrouping: &Regrouping<Exact>,
 ) -> Vec<Variant> {
     let mut chain = Chain::new(&skeleton_for(scene_robot, function), regrouping);
@@ -146,7 +147,7 @@ pub fn regrouped(
         for (link, axes) in chain.links.iter_mut().zip(axes) {
             link.axes = axes;
         }
-        for form in function.forms() {
+        for &form in forms {
             let (graph, traced) =
                 trace_chain(scene_robot, function, &chain, form, Folding::Syntactic);
             variants.push(Variant {

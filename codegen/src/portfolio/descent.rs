@@ -39,19 +39,19 @@ fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
     }
 }
 
-/// The regrouping that is cheapest for a function within a limit, if there is one;
-/// the best so far where the watch is over. `from` are regroupings to start from,
-/// besides those that every robot has.
+/// The regrouping that is cheapest for a function in one of these forms within a limit,
+/// if there is one; the best so far where the watch is over. `from` are regroupings to
+/// start from, besides those that every robot has.
 pub fn tuned(
     scene_robot: &SceneRobot,
     function: Function,
+    forms: &[Form],
     effort: Effort,
     limit: Option<Limit<'_>>,
     from: &[Regrouping<Exact>],
     watch: Option<FunctionWatch<'_>>,
 ) -> Tuned {
     let arm = skeleton_for(scene_robot, function);
-    let forms = function.forms();
     let tried = Cell::new(0);
     let is_over = || {
         tried.set(tried.get() + 1);
@@ -77,7 +77,7 @@ pub fn tuned(
         return tune::form(
             &arm,
             load.regrouping.clone(),
-            &forms,
+            forms,
             |chain, form, below| price(&merged(chain, form), limit, below),
         );
     }
@@ -111,7 +111,7 @@ pub fn tuned(
         let mut found = tune::tune(
             &arm,
             from,
-            &forms,
+            forms,
             effort.regrouping_rounds(),
             |chain, form, below| match is_over() {
                 true => u64::MAX,

@@ -27,7 +27,8 @@ pub fn chosen(scene_robot: SceneRobot) -> SceneRobot {
         return scene_robot;
     }
     let (full, function) = (scene_robot.in_full_motion(), Function::InverseDynamics);
-    let best = tuned(&full, function, Effort::Quick, None, &[], None);
+    let forms = function.forms();
+    let best = tuned(&full, function, &forms, Effort::Quick, None, &[], None);
     let chain = Chain::new(&skeleton_for(&full, function), &best.regrouping);
     let (graph, _) = trace_chain(&full, function, &chain, best.form, Folding::Semantic);
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));

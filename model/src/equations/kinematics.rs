@@ -61,13 +61,15 @@ fn in_base_axes<S: Scalar>(arm: &Arm<S>, vector: Vector<S>) -> Vector<S> {
 
 impl Formulation {
     /// The pose of the hand, ⁰A_n but for base and tool: the recursions in link
-    /// axes go from the hand inward, which is less work alone; Lagrange–Euler
-    /// multiplies from the base outward; the others add the levers of a Jacobian.
+    /// axes go from the hand inward, which is less work alone, with three axes or with
+    /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
+    /// of a Jacobian.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
         match self {
             Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
-            Self::Dalembert | Self::NewtonEulerBase => hand_by_levers(arm, &levers(arm, at)),
-            Self::NewtonEulerLink | Self::NewtonEulerLinkAsPrinted => hand_inward(arm, at),
+            Self::Dalembert | Self::NewtonEulerBase => hand_by_levers(arm, at, &levers(arm, at)),
+            Self::NewtonEulerLink => hand_inward(arm, at),
+            Self::NewtonEulerLinkAsPrinted => hand_by_two_axes(arm, at),
         }
     }
 
@@ -255,11 +257,53 @@ fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     }
 }
 
-/// The pose of the hand by the levers to it.
-fn hand_by_levers<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>]) -> Columns<S> {
+/// The same, where x and z travel and y is z × x.
+fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+    let Columns {
+        axes: [mut x, _, mut z],
+        mut origin,
+    } = arm.tool.clone().unwrap_or_else(Columns::identity);
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        let step = link.append(arm.convention, at, &Columns::identity());
+        let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
+        (x, z) = (turn(&x), turn(&z));
+        origin = sum(&turn(&origin), &step.origin);
+    }
+    if let Some(base) = &arm.base {
+        (x, z) = (base.rotate(&x), base.rotate(&z));
+        origin = base.apply(&origin, &S::one());
+    }
+    with_axes(x, z, origin)
+}
+
+/// A pose by two of its axes.
+fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Columns<S> {
+    Columns {
+        axes: [x.clone(), cross(&z, &x), z],
+        origin,
+    }
+}
+
+/// The pose of the hand by the levers to it. Of its axes z is that of the last frame's,
+/// and x is seen from the frame two joints before: the one between need not have all of
+/// its axes.
+fn hand_by_levers<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    levers: &[Columns<S>],
+) -> Columns<S> {
     let mut hand = levers.last().cloned().unwrap_or_else(|| frame_0(arm));
     if let Some(tool) = &arm.tool {
         hand = hand.then(tool);
+    }
+    let outer = at.len().saturating_sub(2);
+    if let Some(frame) = levers.get(outer) {
+        let mut x = tool_axis(arm);
+        for (link, at) in arm.links.iter().zip(at).skip(outer).rev() {
+            x = link.to_previous(arm.convention, at, &x);
+        }
+        let [_, _, z] = hand.axes;
+        hand = with_axes(frame.rotate(&x), z, hand.origin);
     }
     let whole = levers
         .first()
@@ -269,6 +313,13 @@ fn hand_by_levers<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>]) -> Columns<S> 
         Some(base) => sum(&base.origin, &whole),
     };
     hand
+}
+
+/// The x axis of the hand in the last frame.
+fn tool_axis<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
+    let tool = arm.tool.clone().unwrap_or_else(Columns::identity);
+    let [x, ..] = tool.axes;
+    x
 }
 
 /// ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last

@@ -7,8 +7,7 @@ use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Unspun;
-use crate::equations::forward::solved;
+use crate::equations::chain::{Unknowns, Unspun};
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -26,14 +25,16 @@ pub(super) const FUNCTION: Definition = Definition {
 pub(super) struct Acceleration;
 
 /// q̈ of a chain: a last joint that nothing depends on first, D of the others.
-pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
+pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns) -> Vec<S> {
     let motion = at.motion;
     if let Some(unspun) = Unspun::new(&at.composite, &motion.moves) {
-        return unspun.forward_dynamics([&motion.qd, &motion.tau], &motion.moves, at.form);
+        let given = [motion.qd.as_slice(), &motion.tau];
+        return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
     let d = at.composite.inertia(at.form.travel);
     let bias = torques(at, &zeros(motion.qd.len()));
-    solved(&d, &bias, &motion.tau, &motion.moves)
+    at.chain
+        .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
 }
 
 impl Formula for Acceleration {
@@ -79,7 +80,7 @@ impl Formula for Acceleration {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(accelerations(at))
+        Some(accelerations(at, Unknowns::AgainstBase))
     }
 
     fn runtime<T: Float>(

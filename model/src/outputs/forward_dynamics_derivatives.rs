@@ -11,6 +11,7 @@ use super::function::Definition;
 use super::inertia_inverse::{InertiaInverse, inverse};
 use super::quantity::{Choices, Facts, Index};
 use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::Unknowns;
 use crate::equations::forward::{against, free};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -48,7 +49,7 @@ pub(super) struct AccelerationByTorque;
 /// By position and by velocity, of the joints that move.
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
     let (motion, form) = (at.motion, at.form);
-    let qdd = accelerations(at);
+    let qdd = accelerations(at, Unknowns::Joints);
     let inverse = inverse(at);
     let slopes = at.composite.slopes(&motion.qd, &qdd, form.travel);
     [&slopes.position, &slopes.velocity].map(|slopes| flat(against(&inverse, slopes)))

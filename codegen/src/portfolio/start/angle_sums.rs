@@ -1,10 +1,9 @@
 //! As the cheapest, where the sines of sums of angles of parallel joints may be
 //! evaluated instead of formed.
 
-use super::{Beginning, Problem, auto};
+use super::{Approach, Beginning, Problem, auto};
 use crate::graph::Graph;
-use crate::portfolio::tune::Tuned;
-use crate::portfolio::{Sums, Variant, angle_sums};
+use crate::portfolio::{Sums, angle_sums};
 use crate::scene::SceneRobot;
 
 /// The start `angle_sums`.
@@ -15,8 +14,8 @@ impl Beginning for AngleSums {
         "angle_sums"
     }
 
-    fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
-        auto::variants(problem)
+    fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach> {
+        auto::approaches(problem)
     }
 
     fn helpers(&self, scene_robot: &SceneRobot) -> Vec<Graph> {

@@ -4,11 +4,11 @@
 use dalembert_model::equations::Formulation;
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::{Beginning, Problem};
+use super::{Approach, Beginning, Problem};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{Source, Sums, Variant, angle_sums, regrouped, textbook, tuned};
+use crate::portfolio::{Form, Source, Sums, angle_sums, regrouped, textbook, tuned};
 use crate::scene::SceneRobot;
 
 /// The start `auto`.
@@ -19,8 +19,8 @@ impl Beginning for Auto {
         "auto"
     }
 
-    fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
-        variants(problem)
+    fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach> {
+        approaches(problem)
     }
 
     fn helpers(&self, scene_robot: &SceneRobot) -> Vec<Graph> {
@@ -36,7 +36,59 @@ impl Beginning for Auto {
     }
 }
 
-pub(super) fn variants(problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
+/// What is dearer than the cheapest by more than one part in so many before any search
+/// is not searched from.
+const NEAR: u64 = 8;
+
+pub(super) fn approaches(problem: &Problem<'_>) -> Vec<Approach> {
+    let Problem {
+        scene_robot,
+        function,
+        ..
+    } = *problem;
+    if function == Function::Load {
+        let mut definition = textbook(scene_robot, function, Formulation::NewtonEulerLink);
+        definition.source = Source::Definition;
+        return vec![Approach::of(definition)];
+    }
+    let mut quantities = function.quantities().iter();
+    match quantities.any(|quantity| quantity.is_regrouped()) {
+        true => by_chain(problem),
+        false => by_textbook(problem),
+    }
+}
+
+/// What the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
+/// is cheaper, and from forms that turn fewer axes or share levers, each with
+/// Lagrange–Euler's values at hand. These are small, and what is dearer by itself often
+/// ends lower: all are searched from.
+fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
+    let textbook = |form| textbook(problem.scene_robot, problem.function, form);
+    let recursion = textbook(Formulation::NewtonEulerLink);
+    let products = textbook(Formulation::LagrangeEuler);
+    let others = [
+        Formulation::NewtonEulerLinkAsPrinted,
+        Formulation::Dalembert,
+    ];
+    let others = others.map(textbook).into_iter();
+    let others = others.filter(|variant| variant.graph != recursion.graph);
+    let others = others.map(|variant| Approach {
+        others: vec![products.graph.clone()],
+        ..Approach::of(variant)
+    });
+    let mut approaches: Vec<Approach> = others.collect();
+    let both = Approach {
+        tuned: None,
+        variants: vec![recursion, products],
+        others: Vec::new(),
+    };
+    approaches.insert(0, both);
+    approaches
+}
+
+/// The chain formulas in all of their forms, and C by the h_ikm alone: that is cheapest
+/// in another regrouping, and a search that starts there may end lower.
+fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     let Problem {
         scene_robot,
         function,
@@ -45,30 +97,43 @@ pub(super) fn variants(problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
         from,
         watch,
     } = *problem;
-    if function == Function::Load {
-        let mut definition = textbook(scene_robot, function, Formulation::NewtonEulerLink);
-        definition.source = Source::Definition;
-        return (None, vec![definition]);
+    let mut families = vec![function.forms()];
+    let symbols = families[0].iter().copied().filter(|form| !form.flows);
+    let symbols: Vec<Form> = symbols.collect();
+    if symbols.len() < families[0].len() {
+        families.push(symbols);
     }
-    let mut quantities = function.quantities().iter();
-    if !quantities.any(|quantity| quantity.is_regrouped()) {
-        let forms = [Formulation::NewtonEulerLink, Formulation::LagrangeEuler];
-        let variants = forms.map(|f| textbook(scene_robot, function, f));
-        return (None, variants.into());
-    }
-    let tuned = tuned(scene_robot, function, effort, limit, from, watch);
-    let mut variants = regrouped(scene_robot, function, &tuned.regrouping);
-    // The textbook recursion gives D column by column and h_ikm by polarisation, with n²
-    // of work a link or more: no match.
-    let mut quantities = function.quantities().iter();
-    // It has no load, but a body in the hand.
-    let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
-    if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
-        variants.push(textbook(
-            scene_robot,
-            function,
-            Formulation::NewtonEulerLink,
-        ));
-    }
-    (Some(tuned), variants)
+    let tuned = families
+        .iter()
+        .map(|forms| tuned(scene_robot, function, forms, effort, limit, from, watch));
+    let near = near(tuned.collect(), |tuned: &Tuned| tuned.price);
+    let approach = |(index, tuned): (usize, Tuned)| {
+        let mut variants = regrouped(scene_robot, function, &families[index], &tuned.regrouping);
+        // The textbook recursion gives D column by column and h_ikm by polarisation, with
+        // n² of work a link or more: no match.
+        let mut quantities = function.quantities().iter();
+        // It has no load, but a body in the hand.
+        let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
+        if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
+            variants.push(textbook(
+                scene_robot,
+                function,
+                Formulation::NewtonEulerLink,
+            ));
+        }
+        Approach {
+            tuned: Some(tuned),
+            variants,
+            others: Vec::new(),
+        }
+    };
+    near.into_iter().map(approach).collect()
+}
+
+/// What is about as cheap as the cheapest, each with its index.
+fn near<T>(all: Vec<T>, price: impl Fn(&T) -> u64) -> Vec<(usize, T)> {
+    let least = all.iter().map(&price).min().unwrap_or(0);
+    let most = least.saturating_add(least / NEAR);
+    let all = all.into_iter().enumerate();
+    all.filter(|(_, one)| price(one) <= most).collect()
 }

@@ -29,8 +29,8 @@ trait Beginning {
     /// Its name on the command line, in the macro and in plans.
     fn name(&self) -> &'static str;
 
-    /// The graphs to start from, and the regrouping that was chosen, if one was.
-    fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>);
+    /// What to search from, each by itself: the cheapest that is found is taken.
+    fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach>;
 
     /// Values that no formula forms but that may shorten it.
     fn helpers(&self, _: &SceneRobot) -> Vec<Graph> {
@@ -115,9 +115,30 @@ impl Start {
         self.beginning().helpers(scene_robot)
     }
 
-    /// The graphs to start from, and the regrouping that was chosen, if one was.
-    pub(crate) fn variants(self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
-        self.beginning().variants(problem)
+    /// What to search from, each by itself: the cheapest that is found is taken.
+    pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
+        self.beginning().approaches(problem)
+    }
+}
+
+/// What one search starts from.
+pub(crate) struct Approach {
+    /// The regrouping that was chosen, if one was.
+    pub tuned: Option<Tuned>,
+    /// The graphs, of which the cheapest is the first program.
+    pub variants: Vec<Variant>,
+    /// Graphs of the function that only offer their values.
+    pub others: Vec<Graph>,
+}
+
+impl Approach {
+    /// A graph alone.
+    fn of(variant: Variant) -> Self {
+        Approach {
+            tuned: None,
+            variants: vec![variant],
+            others: Vec::new(),
+        }
     }
 }
 

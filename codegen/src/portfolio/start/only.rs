@@ -2,9 +2,8 @@
 
 use dalembert_model::equations::Formulation;
 
-use super::{Beginning, Problem};
-use crate::portfolio::tune::Tuned;
-use crate::portfolio::{Source, Variant, textbook};
+use super::{Approach, Beginning, Problem};
+use crate::portfolio::{Source, textbook};
 
 /// The formulations that can be asked for by name. Of the recursion in link axes it is
 /// the one that is cheapest.
@@ -22,8 +21,8 @@ impl Beginning for Only {
         Source::Textbook(self.0).name()
     }
 
-    fn variants(&self, problem: &Problem<'_>) -> (Option<Tuned>, Vec<Variant>) {
+    fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach> {
         let variant = textbook(problem.scene_robot, problem.function, self.0);
-        (None, vec![variant])
+        vec![Approach::of(variant)]
     }
 }

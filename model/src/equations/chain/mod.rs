@@ -13,6 +13,7 @@
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
+//! - `parallel`: D q̈ = τ − h − c in rates against the base, where axes are parallel
 //! - `spin`: forward dynamics where the last joint turns about a principal axis
 //! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
@@ -27,6 +28,7 @@ pub mod derivatives;
 mod form;
 mod load;
 mod momentum;
+mod parallel;
 mod passivity;
 pub mod pose;
 pub mod probe;
@@ -41,6 +43,7 @@ use alloc::vec::Vec;
 
 pub use body::Body;
 pub use form::Form;
+pub use parallel::Unknowns;
 pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};

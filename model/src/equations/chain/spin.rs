@@ -25,9 +25,9 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
-use super::{Body, Chain, ChainLink, Displacement, Form};
+use super::{Body, Chain, ChainLink, Displacement, Form, Unknowns};
 use crate::equations::SinCosPair;
-use crate::equations::forward::{inverted, solved};
+use crate::equations::forward::inverted;
 use crate::equations::matrix::{
     Vector, dot, halved, minus, negative, over, plus, symmetric, times, total, twice, zeros,
 };
@@ -136,7 +136,13 @@ impl<'a, S: Divide> Unspun<'a, S> {
     }
 
     /// q̈ under τ, zero of joints that do not move.
-    pub fn forward_dynamics(&self, [qd, tau]: [&[S]; 2], moves: &[bool], form: Form) -> Vec<S> {
+    pub fn forward_dynamics(
+        &self,
+        [qd, tau]: [&[S]; 2],
+        moves: &[bool],
+        form: Form,
+        unknowns: Unknowns,
+    ) -> Vec<S> {
         let (chain, at, last) = (&self.chain, self.at(), self.chain.links.len());
         let link = &self.whole.chain.links[last];
         let before = &qd[..last];
@@ -163,7 +169,7 @@ impl<'a, S: Divide> Unspun<'a, S> {
             }
         };
         let d = composite.inertia(form.travel);
-        let mut qdd = solved(&d, &bias, &tau[..last], &moves[..last]);
+        let mut qdd = chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns);
         let products = self.brought();
         let products = products.iter().zip(&qdd).map(|(x, qdd)| times(x, qdd));
         let still = dot(&link.axis_before(), &motion.omega_dot);

@@ -1,0 +1,167 @@
+//! D q̈ = τ − h − c in the rates that links with parallel axes have against the base.
+//!
+//! Where joint b turns about an axis parallel to that of joint a before it, a unit rate
+//! of a, taken back by b, turns the links between them and moves all beyond b without a
+//! turn. With u_a = q̇_a and u_b = q̇_b ± q̇_a the twist of u_a is Δ_a ∓ Δ_b, whose angular
+//! part vanishes from b on. So what b to the hand has of Tᵀ D T (a, ·) is forces on a
+//! lever that is fixed to the links between, and of (a, a) it is mass on a lever: where
+//! these are one link, a constant.
+//!
+//! With q̇ = T u the equation becomes Tᵀ D T u̇ = Tᵀ (τ − h − c), positive definite where
+//! D is; u̇ gives q̈ back by a difference a joint. The differences of entries of D are
+//! formed as such and mostly are a number that these entries were the sum of: merged by
+//! value, neither the sum nor the difference is left.
+
+use alloc::vec::Vec;
+
+use super::Chain;
+use crate::equations::forward::solved;
+use crate::equations::matrix::{minus, plus};
+use crate::scalar::{Divide, Scalar};
+
+/// A joint and the next one that moves about a parallel axis.
+struct Pair {
+    before: usize,
+    after: usize,
+    /// Whether they turn opposite ways.
+    opposite: bool,
+}
+
+impl Pair {
+    /// x ∓ y: what is left where the later joint takes the turn back.
+    fn left<S: Scalar>(&self, x: &S, y: &S) -> S {
+        match self.opposite {
+            false => minus(x, y),
+            true => plus(x, y),
+        }
+    }
+}
+
+/// q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
+fn solved_in_pairs<S: Divide>(
+    pairs: &[Pair],
+    d: &[Vec<S>],
+    [bias, tau]: [&[S]; 2],
+    moves: &[bool],
+) -> Vec<S> {
+    let (mut d, mut bias, mut tau) = (d.to_vec(), bias.to_vec(), tau.to_vec());
+    // From the base on, so that each takes the next as it was.
+    for pair in pairs {
+        let (a, b) = (pair.before, pair.after);
+        let rows = d[a].iter().zip(&d[b]);
+        d[a] = rows.map(|(x, y)| pair.left(x, y)).collect();
+        bias[a] = pair.left(&bias[a], &bias[b]);
+        tau[a] = pair.left(&tau[a], &tau[b]);
+    }
+    for pair in pairs {
+        for row in &mut d {
+            row[pair.before] = pair.left(&row[pair.before], &row[pair.after]);
+        }
+    }
+    let rates = solved(&d, &bias, &tau, moves);
+    let mut accelerations = rates.clone();
+    for pair in pairs {
+        accelerations[pair.after] = pair.left(&rates[pair.after], &rates[pair.before]);
+    }
+    accelerations
+}
+
+/// What D q̈ = τ − h − c is solved for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknowns {
+    /// q̈, with factors of D that D⁻¹ has too.
+    Joints,
+    /// u̇ against the base, which is less work by itself.
+    AgainstBase,
+}
+
+impl<S: Divide> Chain<S> {
+    /// q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
+    pub fn accelerations(
+        &self,
+        d: &[Vec<S>],
+        [bias, tau]: [&[S]; 2],
+        moves: &[bool],
+        unknowns: Unknowns,
+    ) -> Vec<S> {
+        let pairs = match unknowns {
+            Unknowns::Joints => Vec::new(),
+            Unknowns::AgainstBase => self.pairs(moves),
+        };
+        solved_in_pairs(&pairs, d, [bias, tau], moves)
+    }
+}
+
+impl<S: Scalar> Chain<S> {
+    /// Joints that move and turn about parallel axes, one after the other.
+    fn pairs(&self, moves: &[bool]) -> Vec<Pair> {
+        let mut pairs = Vec::new();
+        for group in self.parallel() {
+            let moving = group.into_iter().filter(|(link, _)| moves[*link]);
+            let moving: Vec<(usize, bool)> = moving.collect();
+            pairs.extend(moving.windows(2).map(|two| Pair {
+                before: two[0].0,
+                after: two[1].0,
+                opposite: two[0].1 != two[1].1,
+            }));
+        }
+        pairs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+
+    use super::super::{Regrouping, Skeleton};
+    use super::*;
+    use crate::equations::Arm;
+    use crate::equations::matrix::symmetric;
+    use crate::number::Exact;
+    use crate::read;
+    use crate::scalar::field::{Field, Points};
+
+    /// Four parallel axes, one of them the other way, and one across.
+    fn chain() -> Chain<Exact> {
+        let joint =
+            |alpha| format!("[[joint]]\nkind = \"revolute\"\na = 1\nalpha = {alpha}\nmass = 0\n");
+        let joints = ["0", "\"pi\"", "0", "\"pi/2\"", "0"].map(joint).concat();
+        let text = format!(
+            "name = \"folded\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n{joints}"
+        );
+        let robot = read::parse(&text, &read::Options::default()).unwrap().robot;
+        let arm = Arm::from_robot(&robot, &mut Exact::clone).fold_base();
+        let skeleton = Skeleton::new(&arm, &[const { None }; 5]);
+        Chain::new(&skeleton, &Regrouping::base(&skeleton))
+    }
+
+    #[test]
+    fn solves_the_equation_of_the_joints_that_move() {
+        let chain = chain();
+        let pairs = |moves: &[bool]| {
+            let pairs = chain.pairs(moves).into_iter();
+            let pairs = pairs.map(|pair| (pair.before, pair.after, pair.opposite));
+            pairs.collect::<Vec<_>>()
+        };
+        let all = [true; 5];
+        assert_eq!(pairs(&all), [(0, 1, false), (1, 2, true), (2, 3, false)]);
+        let some = [true, false, true, true, true];
+        assert_eq!(pairs(&some), [(0, 2, true), (2, 3, false)]);
+        let mut points = Points::new(0x9a12);
+        for moves in [all, some, [false; 5]] {
+            let entries: Vec<Field> = (0..25).map(|_| points.field()).collect();
+            let d = symmetric(5, |i, k| entries[i * 5 + k]);
+            let mut vector = || (0..5).map(|_| points.field()).collect::<Vec<Field>>();
+            let (bias, tau) = (vector(), vector());
+            let found = solved_in_pairs(&chain.pairs(&moves), &d, [&bias, &tau], &moves);
+            for (i, row) in d.iter().enumerate() {
+                let products = row.iter().zip(&found).map(|(x, y)| x.mul(y));
+                let load = products.fold(bias[i], |sum, x| sum.add(&x));
+                match moves[i] {
+                    true => assert_eq!(load, tau[i]),
+                    false => assert_eq!(found[i], Field::ZERO),
+                }
+            }
+        }
+    }
+}
