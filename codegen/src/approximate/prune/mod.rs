@@ -127,6 +127,16 @@ impl PruneSettings {
         }
     }
 
+    /// Guesses in a stage. Of long programs, of which one takes a while, the first stages
+    /// take what goes in any case: how far sampled and certified errors are apart is
+    /// learned where it decides.
+    fn guesses(&self, stage: usize, steps: usize) -> usize {
+        match self.part(stage) < 1.0 && steps > LONG {
+            true => 1,
+            false => self.guesses,
+        }
+    }
+
     /// Parts are taken back only where no later stage would find them anyway.
     fn retries(&self, stage: usize) -> usize {
         if self.part(stage) < 1.0 {
@@ -136,6 +146,9 @@ impl PruneSettings {
         }
     }
 }
+
+/// A program of more steps is long.
+const LONG: usize = 400;
 
 /// The parts of the allowances that the first stages may use.
 const RAMP: [f64; 2] = [0.5, 0.8];
@@ -175,7 +188,7 @@ pub fn watched(
     settings: &PruneSettings,
     watch: Option<FunctionWatch<'_>>,
 ) -> Pruned {
-    let tally = Tally::new(settings, watch);
+    let tally = Tally::new(settings, program.steps.len(), watch);
     let nothing = Pruned {
         stages: Vec::new(),
         program: program.clone(),
@@ -207,6 +220,7 @@ pub fn watched(
             settings,
             motions: &motions,
             tally: &tally,
+            guesses: settings.guesses(stage, program.steps.len()),
             retries: settings.retries(stage),
         };
         match search.run(&mut positions, &mut random) {
@@ -243,7 +257,8 @@ pub fn appraise(
         allowances,
         settings,
         motions: &motions,
-        tally: &Tally::new(settings, None),
+        tally: &Tally::new(settings, program.steps.len(), None),
+        guesses: 1,
         retries: 0,
     };
     search.appraise(&positions, 1.0, &mut random)

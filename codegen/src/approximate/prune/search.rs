@@ -46,6 +46,8 @@ pub(super) struct Search<'a> {
     pub settings: &'a PruneSettings,
     pub motions: &'a Motions,
     pub tally: &'a Tally<'a>,
+    /// Guesses of how far sampled and certified errors are apart.
+    pub guesses: usize,
     /// Times that a part is taken back and chosen anew.
     pub retries: usize,
 }
@@ -96,8 +98,8 @@ impl Search<'_> {
     ) -> Option<Found> {
         let mut shares = vec![SHARE; self.allowances.len()];
         let mut best: Option<Found> = None;
-        for round in 0..self.settings.guesses + MORE {
-            let enough = round >= self.settings.guesses || self.tally.is_over();
+        for round in 0..self.guesses + MORE {
+            let enough = round >= self.guesses || self.tally.is_over();
             let over = round > 0 && self.tally.is_over();
             if over || best.is_some() && enough {
                 break;
@@ -138,7 +140,7 @@ impl Search<'_> {
                     true => (1.1 * *share).min(1.0),
                     false => (*share / libm::pow(ratio.min(5.0), 0.9) * 0.99).min(1.5),
                 };
-                if best.is_none() && round + 1 >= self.settings.guesses {
+                if best.is_none() && round + 1 >= self.guesses {
                     *share *= CAUTION;
                 }
             }

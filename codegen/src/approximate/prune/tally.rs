@@ -16,12 +16,16 @@ pub(super) struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    pub(super) fn new(settings: &PruneSettings, watch: Option<FunctionWatch<'a>>) -> Tally<'a> {
+    pub(super) fn new(
+        settings: &PruneSettings,
+        steps: usize,
+        watch: Option<FunctionWatch<'a>>,
+    ) -> Tally<'a> {
         Tally {
             watch,
             done: Cell::new(0),
             rounds: (0..settings.stages)
-                .map(|stage| settings.guesses + settings.retries(stage))
+                .map(|stage| settings.guesses(stage, steps) + settings.retries(stage))
                 .sum(),
             meter: Meter::new(settings.work),
         }
