@@ -1,7 +1,0 @@
-//! The file is no TOML.
-dalembert::dynamics! {
-    mod arm = "robots/notes.txt";
-    outputs: gravity;
-}
-
-fn main() {}
