@@ -4,7 +4,7 @@
 //! The compiler's own lexer reads the text; nothing parses it again, since
 //! bodies are as long as the dynamics are.
 
-use proc_macro2::{Delimiter, Group, Ident, LexError, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, LexError, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::Attribute;
 
@@ -47,20 +47,20 @@ pub(super) fn assemble(
         facade,
         ..
     } = invocation;
-    let math = Ident::new(MATH, proc_macro2::Span::call_site());
+    let math = Ident::new(MATH, Span::call_site());
     let import = quote! {
         #[allow(unused_imports)]
         use #facade::__private::math as #math;
     };
     let batches = (invocation.entries == Entries::Batch).then(|| {
-        let batch = Ident::new(BATCH, proc_macro2::Span::call_site());
+        let batch = Ident::new(BATCH, Span::call_site());
         quote! {
             #[allow(unused_imports)]
             use #facade::batch as #batch;
         }
     });
     let traits = (invocation.interface == Interface::Traits).then(|| {
-        let traits = Ident::new(TRAITS, proc_macro2::Span::call_site());
+        let traits = Ident::new(TRAITS, Span::call_site());
         quote! {
             #[allow(unused_imports)]
             use #facade::interface as #traits;
@@ -76,7 +76,8 @@ pub(super) fn assemble(
 
     let mut tokens = TokenStream::new();
     let mut start = true;
-    for tree in text.parse::<TokenStream>()? {
+    let text: TokenStream = with_attributes(text).parse()?;
+    for tree in located(text, invocation) {
         if start {
             tokens.extend(quote!(#(#attributes)* #gap));
             start = false;
@@ -110,4 +111,78 @@ fn name(word: &Ident, invocation: &Invocation) -> Ident {
         return invocation.name.clone();
     }
     Ident::new(&word.to_string(), invocation.name.span())
+}
+
+/// The text with its comments of documentation as the attributes that they stand for:
+/// an editor that reads tokens itself takes a third slash for a part of the comment.
+fn with_attributes(text: &str) -> String {
+    let mut attributes = String::with_capacity(text.len());
+    for line in text.lines() {
+        match line.trim_start().strip_prefix("///") {
+            Some(said) => attributes += &format!("#[doc = {said:?}]"),
+            None => attributes += line,
+        }
+        attributes.push('\n');
+    }
+    attributes
+}
+
+/// The tokens where they are to be found: a function at its output's name in the macro,
+/// as far as that was written, all else at the macro as a whole. Places in the generated
+/// text would be places in no file.
+fn located(tokens: TokenStream, invocation: &Invocation) -> TokenStream {
+    let mut is_name = false;
+    let located = tokens.into_iter().map(|tree| {
+        let was_fn = std::mem::replace(
+            &mut is_name,
+            matches!(&tree, TokenTree::Ident(word) if word == "fn"),
+        );
+        match tree {
+            TokenTree::Group(group) => {
+                let mut whole = Group::new(group.delimiter(), located(group.stream(), invocation));
+                whole.set_span(Span::call_site());
+                TokenTree::Group(whole)
+            }
+            TokenTree::Ident(mut word) if was_fn => {
+                word.set_span(place(&word, invocation));
+                TokenTree::Ident(word)
+            }
+            mut tree => {
+                tree.set_span(Span::call_site());
+                tree
+            }
+        }
+    });
+    located.collect()
+}
+
+/// Where the output of a function is asked for: the longest name that the function's
+/// begins with, since what follows says how it is called.
+fn place(function: &Ident, invocation: &Invocation) -> Span {
+    let function = function.to_string();
+    let asked = invocation.outputs.iter().flatten();
+    let own = asked.filter(|(output, _)| {
+        let rest = function.strip_prefix(output.name());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    });
+    let longest = own.max_by_key(|(output, _)| output.name().len());
+    let first = longest.and_then(|(_, tokens)| tokens.clone().into_iter().next());
+    first.map_or_else(Span::call_site, |token| token.span())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The compiler's lexer and others agree: documentation comes as attributes, with
+    /// what would end a string escaped.
+    #[test]
+    fn documentation_is_attributes() {
+        let text = "/// τ in \"N·m\" \\ n\nmod arm {\n    ///\n    pub fn f() {}\n}\n";
+        let found = with_attributes(text);
+        assert!(!found.contains("///"), "{found}");
+        let [one, other] = [text, &found].map(|text| text.parse::<TokenStream>().unwrap());
+        let file = |tokens| syn::parse2::<syn::File>(tokens).unwrap().items;
+        assert_eq!(file(one), file(other));
+    }
 }
