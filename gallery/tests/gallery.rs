@@ -36,6 +36,22 @@ fn imports_and_pictures_are_what_is_checked_in() {
     }
 }
 
+/// What vanishes when frames are derived is zero, and no dust of 256 bits: it would
+/// cost operations as any other number does.
+#[test]
+fn no_length_is_dust() {
+    for arm in &ARMS {
+        let robot = Made::of(arm).unwrap_or_else(|why| panic!("{why}")).robot;
+        for joint in &robot.joints {
+            let lengths = joint.com.iter().chain([&joint.a, &joint.d]);
+            for length in lengths.map(f64::nearest_rational) {
+                let size = length.abs();
+                assert!(size == 0.0 || size > 1e-30, "{} {:?}", arm.name, joint.name);
+            }
+        }
+    }
+}
+
 /// Nothing is there that the command does not make, and every licence is named.
 #[test]
 fn every_file_belongs_to_an_arm_with_a_licence() {

@@ -47,7 +47,7 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
                 (pose.clone(), placement(&pose, &size))
             }
         };
-        let (mass, body) = body(urdf, moving)?;
+        let (mass, body) = body(urdf, moving, &size)?;
         Some(Link {
             pose,
             placement,
@@ -137,8 +137,9 @@ fn direction_of(joint: &Joint) -> Option<Vector<Wide>> {
     direction(&joint.axis.each_ref().map(|x| x.value.clone()))
 }
 
-/// Mass and body of everything that a joint moves, in its child's frame.
-fn body(urdf: &Urdf, moving: &Moving) -> Option<(Rational, Body)> {
+/// Mass and body of everything that a joint moves, in its child's frame; lengths of the
+/// chain are of this size.
+fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<(Rational, Body)> {
     let mut parts: Vec<(Rational, Body)> = Vec::new();
     for (link, steps) in &moving.links {
         let Some(inertial) = &urdf.links[*link].inertial else {
@@ -148,8 +149,10 @@ fn body(urdf: &Urdf, moving: &Moving) -> Option<(Rational, Body)> {
             com: [(); 3].map(|()| Rational::zero()),
             inertia: inertial.inertia.map(|entry| entry.value.clone()),
         };
-        let at = way(urdf, steps)?.then(&pose(&inertial.origin.placement()));
-        parts.push((inertial.mass.value.clone(), moved(&own, &at)));
+        let origin = inertial.origin.placement();
+        let at = way(urdf, steps)?.then(&pose(&origin));
+        let size = size + origin.size();
+        parts.push((inertial.mass.value.clone(), moved(&own, &at, &size)));
     }
     let total: Rational = parts.iter().map(|(mass, _)| mass).sum();
     let centre: [Rational; 3] = core::array::from_fn(|i| {

@@ -53,14 +53,13 @@ pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
     }
 }
 
-/// A body given in a frame, seen from one in which that frame has this pose.
-pub fn moved(body: &Body, pose: &Columns<Wide>) -> Body {
+/// A body given in a frame, seen from one in which that frame has this pose, which was
+/// computed from lengths of this size: beside them what is left of a difference may be
+/// nothing.
+pub fn moved(body: &Body, pose: &Columns<Wide>, size: &Rational) -> Body {
     let com = body.com.each_ref().map(Wide::from_rational);
     let com = pose.apply(&com, &Wide::one());
-    // Centres are of the size of what they were computed from.
-    let lengths = body.com.iter().map(Signed::abs);
-    let origin = pose.origin.iter().map(|x| x.to_rational().abs());
-    let size = lengths.chain(origin).sum::<Rational>();
+    let size = size + body.com.iter().map(Signed::abs).sum::<Rational>();
 
     let turned = pose.turn_tensor(&body.inertia.map(Wide::from_rational));
     let entries = body.inertia.rows();

@@ -111,7 +111,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
             com: joint.com.clone(),
             inertia: joint.inertia.clone(),
         };
-        let moved = frame::moved(&own, &frame::inverse(&row.frame));
+        let moved = frame::moved(&own, &frame::inverse(&row.frame), &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
         before = row.frame;
     }
@@ -132,8 +132,7 @@ fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     let ends = [&robot.base, &robot.tool, &robot.payload_frame];
     let ends = ends.into_iter().flatten();
     let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
-    let lengths = placements.flat_map(|placement| placement.xyz.iter());
-    let total: Rational = lengths.map(num_traits::Signed::abs).sum();
+    let total: Rational = placements.map(Placement::size).sum();
     match num_traits::Zero::is_zero(&total) {
         true => num_traits::One::one(),
         false => total,

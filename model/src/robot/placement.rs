@@ -1,6 +1,6 @@
 //! Constant placements of one frame in another.
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 use crate::number::{Angle, Rational};
 
@@ -20,6 +20,12 @@ impl Placement {
     /// Whether it moves nothing.
     pub fn is_identity(&self) -> bool {
         self.xyz.iter().all(Zero::is_zero) && self.rpy.iter().all(Angle::is_zero)
+    }
+
+    /// |x| + |y| + |z|, in metres: what lengths that are computed from it are small
+    /// against.
+    pub fn size(&self) -> Rational {
+        self.xyz.iter().map(Signed::abs).sum()
     }
 
     /// The placement, unless it moves nothing: one that is left out says the

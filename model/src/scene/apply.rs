@@ -17,7 +17,7 @@ impl Scene {
         if let Some(gravity) = &self.gravity {
             robot.gravity = gravity.clone();
         }
-        let frame = robot.payload_frame.as_ref().map(frame::pose);
+        let frame = robot.payload_frame.clone();
         if let (Some(payload), Some(last)) = (&self.payload, robot.joints.last_mut()) {
             let own = Body {
                 com: payload.com.clone(),
@@ -25,7 +25,7 @@ impl Scene {
             };
             let body = match &frame {
                 None => own,
-                Some(frame) => frame::moved(&own, frame),
+                Some(frame) => frame::moved(&own, &frame::pose(frame), &frame.size()),
             };
             carry(last, &payload.mass, &body);
         }
