@@ -63,7 +63,8 @@ pub mod matrices;
 ///
 /// # The robot
 ///
-/// A robot file by its path, relative to `CARGO_MANIFEST_DIR`; editing it
+/// A robot file by its path, relative to `CARGO_MANIFEST_DIR` or, where there is none,
+/// to the folder of the file with the macro; editing it
 /// expands the macro again, and so does a plan that `dalembert generate
 /// --save-plan` puts beside it. (A first plan that comes with a checkout is
 /// noticed once the robot file is newer than the last build: touch it.) Or the

@@ -11,5 +11,11 @@ use proc_macro::TokenStream;
 pub fn dynamics(input: TokenStream) -> TokenStream {
     // Cargo sets it; without it, paths are relative to where the compiler runs.
     let base = std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
-    dalembert_codegen::clauses::expand(input.into(), base.as_ref()).into()
+    // The folder of the file with the macro, where that is a file; absolute, as other
+    // macros take relative paths for relative to that file.
+    let file = proc_macro::Span::call_site().local_file();
+    let file = file.and_then(|file| std::path::absolute(file).ok());
+    let beside = file.as_deref().and_then(std::path::Path::parent);
+    let folders: Vec<&std::path::Path> = std::iter::once(base.as_ref()).chain(beside).collect();
+    dalembert_codegen::clauses::expand_from(input.into(), &folders).into()
 }

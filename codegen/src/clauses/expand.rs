@@ -25,11 +25,17 @@ use crate::program::ScalarType;
 ///
 /// Paths of robot files are relative to `base`.
 pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
+    expand_from(input, &[base])
+}
+
+/// [`expand`], where paths of robot files are relative to the first of these folders that
+/// has the file.
+pub fn expand_from(input: TokenStream, folders: &[&Path]) -> TokenStream {
     let mut errors = Errors::default();
     let Some(invocation) = invocation::read(input, &mut errors) else {
         return errors.into_tokens();
     };
-    let source = source(&invocation, base, &mut errors);
+    let source = source(&invocation, folders, &mut errors);
     let generated = match &source.robot {
         Some(robot) if errors.is_empty() => functions(robot, &source, &invocation, &mut errors),
         _ => None,
@@ -67,9 +73,9 @@ struct Source {
     watch: TokenStream,
 }
 
-fn source(invocation: &Invocation, base: &Path, errors: &mut Errors) -> Source {
+fn source(invocation: &Invocation, folders: &[&Path], errors: &mut Errors) -> Source {
     match &invocation.robot {
-        RobotSource::File(path) => file(path, base, invocation, errors),
+        RobotSource::File(path) => file(path, folders, invocation, errors),
         RobotSource::Table(block) => {
             let read = table::read(&invocation.name, block, written(invocation), errors);
             let in_range = (1..=Robot::MAX_JOINTS).contains(&read.joints);
@@ -91,9 +97,20 @@ fn written(invocation: &Invocation) -> Option<(&Ident, &Group)> {
     Some((name, body.as_ref()?))
 }
 
-fn file(literal: &LitStr, base: &Path, invocation: &Invocation, errors: &mut Errors) -> Source {
+fn file(
+    literal: &LitStr,
+    folders: &[&Path],
+    invocation: &Invocation,
+    errors: &mut Errors,
+) -> Source {
     let shown = literal.value();
-    let path = base.join(&shown);
+    let mut places = folders.iter().map(|folder| folder.join(&shown));
+    // What is nowhere is missed where it is looked for first.
+    let first = places.next().unwrap_or_else(|| shown.clone().into());
+    let path = match first.is_file() {
+        true => first,
+        false => places.find(|path| path.is_file()).unwrap_or(first),
+    };
     // Both the robot file and its plan, if it has one.
     let watch = [path.clone(), plan::file::path(&path)];
     let watch = watch.iter().filter_map(|path| path.to_str());
@@ -118,7 +135,7 @@ fn file(literal: &LitStr, base: &Path, invocation: &Invocation, errors: &mut Err
         Err(error) => {
             let help = match &error {
                 RobotFileError::Missing { meant: None, .. } => {
-                    "the path is relative to the folder of Cargo.toml"
+                    "the path is relative to the folder of Cargo.toml or of the file with the macro"
                 }
                 _ => "",
             };

@@ -26,6 +26,6 @@ mod table;
 mod warnings;
 pub mod words;
 
-pub use expand::expand;
+pub use expand::{expand, expand_from};
 pub use robot_file::{RobotFile, RobotFileError};
 pub use words::{UnknownWord, Word};
