@@ -8,7 +8,7 @@ use dalembert_model::placed::Body;
 use dalembert_model::placed::frame::{direction, moved, placement, pose, turned};
 use dalembert_model::robot::{Inertia, Placement, Position};
 use dalembert_model::scalar::Scalar;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use crate::problems::Problems;
 use crate::tree::{Chain, Moving, Step};
@@ -95,8 +95,8 @@ fn without_mass(urdf: &Urdf, links: &[&str], problems: &mut Problems) {
 /// What lengths are small against.
 fn size(urdf: &Urdf, chain: &Chain) -> Rational {
     let joints = chain.joints().into_iter();
-    let lengths = joints.flat_map(|joint| &urdf.joints[joint].origin.xyz);
-    let size: Rational = lengths.map(|length| length.value.abs()).sum();
+    let sizes = joints.map(|joint| urdf.joints[joint].origin.placement().size());
+    let size: Rational = sizes.sum();
     if size.is_zero() {
         Rational::one()
     } else {
