@@ -76,8 +76,8 @@ fn fused_products_are_asked_for() {
     assert!(report.out.contains(warned) && !report.out.contains("on aarch64,"));
 }
 
-/// Parameters that are arguments are proved, printed and verified like others, and
-/// no plan has such programs.
+/// Programs whose parameters are arguments are proved, printed, verified and kept in
+/// plans like others.
 #[test]
 fn parameters_are_asked_for() {
     let planar = robot("planar2r");
@@ -98,12 +98,17 @@ fn parameters_are_asked_for() {
     );
     let counted = run(&[&["count", &planar][..], &asked].concat());
     assert!(counted.out.contains("load") && counted.out.contains("gravity"));
-    let kept = run(&[&["generate", &planar, "--save-plan"][..], &asked].concat());
-    assert_eq!(kept.code, 2);
-    assert!(
-        kept.err
-            .contains("a plan keeps programs of the robot's own parameters")
-    );
+    let folder = temporary("parameters");
+    let arm = folder.join("arm.toml");
+    fs::copy(&planar, &arm).unwrap();
+    let kept = [&["generate", arm.to_str().unwrap()][..], &asked].concat();
+    let ran = run(&[&kept[..], &["--save-plan"]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let plan = fs::read_to_string(folder.join("arm.plan")).unwrap();
+    assert!(plan.contains("\nparameters payload gravity 6 "), "{plan}");
+    let replayed = run(&kept);
+    assert!(replayed.err.contains(", plan "), "{}", replayed.err);
+    assert_eq!(replayed.out, ran.out);
     let wrong = run(&["count", &planar, "--parameters", "mass"]);
     assert_eq!(wrong.code, 2);
     assert!(wrong.err.contains("payload"), "{}", wrong.err);

@@ -28,13 +28,6 @@ use files::Files;
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     request.entries = args.entries;
-    if args.save_plan && !request.parameters.is_empty() {
-        return Err(Failure::Input(
-            "error: a plan keeps programs of the robot's own parameters: leave --parameters or \
-             --save-plan out"
-                .into(),
-        ));
-    }
     request.interface = args.interface;
     if args.contents {
         request.layout = Layout::Contents;
