@@ -1,9 +1,8 @@
 //! Smart constructors: folding and sharing as a graph grows.
 
-use std::collections::HashMap;
-
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
+use rustc_hash::FxHashMap;
 
 use super::{Edge, Fingerprint, Graph, Node, NodeId, Points};
 use crate::program::{Counts, Input};
@@ -49,11 +48,11 @@ pub struct Builder {
     prints: Vec<Fingerprint>,
     folding: Folding,
     points: Points,
-    by_node: HashMap<Node, NodeId>,
-    by_constant: HashMap<Exact, NodeId>,
+    by_node: FxHashMap<Node, NodeId>,
+    by_constant: FxHashMap<Exact, NodeId>,
     /// Canonical print → the edge that has it (semantic folding only).
-    by_print: HashMap<Fingerprint, Edge>,
-    at_rest: HashMap<NodeId, Option<Exact>>,
+    by_print: FxHashMap<Fingerprint, Edge>,
+    at_rest: FxHashMap<NodeId, Option<Exact>>,
     /// Operations asked for, before any folding but that of constants.
     asked: Counts,
 }
@@ -66,10 +65,10 @@ impl Builder {
             prints: Vec::new(),
             folding,
             points: Points::SEARCH,
-            by_node: HashMap::new(),
-            by_constant: HashMap::new(),
-            by_print: HashMap::new(),
-            at_rest: HashMap::new(),
+            by_node: FxHashMap::default(),
+            by_constant: FxHashMap::default(),
+            by_print: FxHashMap::default(),
+            at_rest: FxHashMap::default(),
             asked: Counts::default(),
         }
     }

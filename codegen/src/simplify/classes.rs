@@ -4,10 +4,9 @@
 //! compute a class adds it here: other formulations, the e-graph, the search.
 //! [`extract`](super::extract) then chooses one way for each class.
 
-use std::collections::HashMap;
-
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
+use rustc_hash::FxHashMap;
 
 use crate::graph::{Builder, Edge, Fingerprint, Folding, Graph, Node, Points, Value};
 use crate::program::Input;
@@ -86,7 +85,7 @@ pub struct Signed {
 #[derive(Clone, Debug, Default)]
 pub struct Classes {
     classes: Vec<Class>,
-    by_print: HashMap<Fingerprint, ClassId>,
+    by_print: FxHashMap<Fingerprint, ClassId>,
     /// The function's results; `None` is zero.
     pub outputs: Vec<Option<Signed>>,
 }

@@ -6,11 +6,11 @@
 //! with constants would flood it. What the e-graph found is handed back as
 //! ways to compute classes; extraction is [`extract`](super::extract)'s.
 
-use std::collections::HashMap;
 use std::fmt;
 use std::str::FromStr;
 
 use egg::{Analysis, DidMerge, EGraph, Id, Language, Rewrite, SimpleScheduler, define_language};
+use rustc_hash::FxHashMap;
 
 use super::classes::{ClassId, Classes, ENode};
 use super::rules::{Phase, SATURATION};
@@ -63,7 +63,7 @@ define_language! {
 /// Carries every e-class's fingerprint.
 #[derive(Clone, Debug, Default)]
 pub struct Prints {
-    leaves: HashMap<ClassId, Fingerprint>,
+    leaves: FxHashMap<ClassId, Fingerprint>,
 }
 
 impl Analysis<Term> for Prints {
@@ -152,7 +152,7 @@ fn run_phase(egraph: &mut EGraph<Term, Prints>, phase: Phase, budget: Saturation
 
 /// The chosen program as terms.
 fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option<ENode>]) {
-    let mut ids: HashMap<ClassId, Id> = HashMap::new();
+    let mut ids: FxHashMap<ClassId, Id> = FxHashMap::default();
     let mut pending: Vec<ClassId> = Vec::new();
     for output in classes.outputs.iter().flatten() {
         pending.push(output.class);
@@ -196,7 +196,7 @@ fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option
 fn merge_by_print(egraph: &mut EGraph<Term, Prints>) {
     let mut ids: Vec<Id> = egraph.classes().map(|class| class.id).collect();
     ids.sort_unstable();
-    let mut by_print: HashMap<Fingerprint, Id> = HashMap::new();
+    let mut by_print: FxHashMap<Fingerprint, Id> = FxHashMap::default();
     for id in ids {
         let print = egraph[id].data;
         if let Some(&other) = by_print.get(&print) {

@@ -47,7 +47,7 @@ pub fn round(
     let pool: Vec<ClassId> = (0..classes.len().min(most) as ClassId).collect();
     discover::pairs(&mut classes, &pool);
     if own.len() <= limits.substitutes {
-        discover::resubstitute(&mut classes, &own, &own);
+        discover::resubstitute(&mut classes, &own);
     }
     let found = extract(&classes, &choice, limits.schedule, random);
     if cost(&found) <= cost(program) {

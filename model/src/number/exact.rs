@@ -11,6 +11,7 @@ use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
+use core::hash::{Hash, Hasher};
 
 use num_traits::{One, Signed, Zero};
 
@@ -23,10 +24,24 @@ use crate::scalar::SinCosPair;
 pub struct Exact(Form);
 
 /// Canonical: `Polynomial` only where a generator occurs, no zero coefficient.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Form {
     Rational(Arc<Rational>),
     Polynomial(Arc<BTreeMap<Monomial, Rational>>),
+}
+
+/// Of a rational its reduced numerator and denominator: its own hash goes through the
+/// steps of a division with remainder, since it does not count on them being reduced.
+impl Hash for Form {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Form::Rational(value) => {
+                value.numer().hash(state);
+                value.denom().hash(state);
+            }
+            Form::Polynomial(terms) => terms.hash(state),
+        }
+    }
 }
 
 /// A product of powers of generators, sorted by angle.

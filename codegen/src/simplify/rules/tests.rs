@@ -170,7 +170,7 @@ fn discovery_finds_every_kind_of_way_in_its_table() {
         let known = classes.get(target).ways.clone();
         let found = match rule.name.split('-').next() {
             Some("pair") => discover::pairs(&mut classes, inputs),
-            Some("substitute") => discover::resubstitute(&mut classes, &[target], inputs),
+            Some("substitute") => discover::resubstitute(&mut classes, &ids),
             _ => {
                 let program = classes.program();
                 discover::multiples(&mut classes, &[inputs[0], target], &program)
