@@ -9,18 +9,18 @@
 use std::fs;
 use std::path::Path;
 
-use dalembert_codegen::approximate::sines::within;
-use dalembert_codegen::backend::{Entries, MathPath, Printed, function};
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::bound::scale;
-use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::plan;
-use dalembert_codegen::program::{Library, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::sincos::{self, SinCos};
+use dalembert_codegen::workspace::approximate::sines::within;
+use dalembert_codegen::workspace::backend::{Entries, MathPath, Printed, function};
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::bound::scale;
+use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::program::{Library, ScalarType};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::sincos::{self, SinCos};
 use dalembert_model::read;
 
 const TOLERANCE: f64 = 1e-6;

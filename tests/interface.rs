@@ -235,7 +235,7 @@ fn every_question_has_a_trait() {
     // An output that is added has a trait as well, or its module does not compile.
     let source = include_str!("../src/interface/mod.rs");
     for function in dalembert_codegen::Function::ALL {
-        let question = dalembert_codegen::emit::interface::question(function);
+        let question = dalembert_codegen::workspace::emit::interface::question(function);
         let names = ["", "<K>"].map(|k| format!("    {}{k}::{function}(", function.camel()));
         let known = names.iter().any(|name| source.contains(name.as_str()));
         assert!(question.is_some() && known, "{function}");

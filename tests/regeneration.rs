@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::plan;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::plan;
 use dalembert_model::read;
 
 fn root() -> &'static Path {

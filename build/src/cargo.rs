@@ -4,7 +4,7 @@ use std::env;
 use std::fs;
 use std::path::Path;
 
-use dalembert_codegen::plan;
+use dalembert_codegen::workspace::plan;
 
 /// Makes cargo run the script again when the robot file changes, or its plan.
 ///

@@ -82,36 +82,36 @@ mod output;
 use std::env;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::generate::in_scene::find;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::Library;
+use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::generate::in_scene::find;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::program::Library;
 use dalembert_model::robot::Severity;
 
 #[doc(inline)]
-pub use dalembert_codegen::backend::Entries;
+pub use dalembert_codegen::workspace::backend::Entries;
 #[doc(inline)]
-pub use dalembert_codegen::clauses::RobotFileError;
+pub use dalembert_codegen::workspace::clauses::RobotFileError;
 #[doc(inline)]
-pub use dalembert_codegen::emit::{Interface, Layout};
+pub use dalembert_codegen::workspace::emit::{Interface, Layout};
 #[doc(inline)]
-pub use dalembert_codegen::function::BundleError;
+pub use dalembert_codegen::workspace::function::BundleError;
 #[doc(inline)]
-pub use dalembert_codegen::function::Function as Output;
+pub use dalembert_codegen::workspace::function::Function as Output;
 #[doc(inline)]
-pub use dalembert_codegen::function::RuntimeParameter as Parameter;
+pub use dalembert_codegen::workspace::function::RuntimeParameter as Parameter;
 #[doc(inline)]
-pub use dalembert_codegen::generate::in_scene::UnknownScene;
+pub use dalembert_codegen::workspace::generate::in_scene::UnknownScene;
 #[doc(inline)]
-pub use dalembert_codegen::generate::{Fma, GenerateError, Prefer};
+pub use dalembert_codegen::workspace::generate::{Fma, GenerateError, Prefer};
 #[doc(inline)]
-pub use dalembert_codegen::portfolio::Start as Formulation;
+pub use dalembert_codegen::workspace::portfolio::Start as Formulation;
 #[doc(inline)]
-pub use dalembert_codegen::program::ScalarType as Scalar;
+pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 #[doc(inline)]
-pub use dalembert_codegen::simplify::Effort;
+pub use dalembert_codegen::workspace::simplify::Effort;
 #[doc(inline)]
-pub use dalembert_codegen::sincos::SinCos;
+pub use dalembert_codegen::workspace::sincos::SinCos;
 pub use error::BuildError;
 
 /// What to generate, and from which robot file.
@@ -326,7 +326,8 @@ impl Generator {
         let path = path.as_ref();
         let robot = self.robot.as_deref().ok_or(BuildError::NoRobot)?;
         cargo::watch(robot, path);
-        let file = dalembert_codegen::clauses::RobotFile::read(robot).map_err(BuildError::Robot)?;
+        let file = dalembert_codegen::workspace::clauses::RobotFile::read(robot)
+            .map_err(BuildError::Robot)?;
         let scene = match &self.scene {
             Some(name) => find(&file.scenes, name)
                 .map(Some)

@@ -7,8 +7,8 @@ use std::time::SystemTime;
 use dalembert_build::{
     BuildError, Entries, Generator, Interface, Layout, Output, Parameter, Scalar, SinCos,
 };
-use dalembert_codegen::clauses::RobotFile;
-use dalembert_codegen::generate::{Request, generate};
+use dalembert_codegen::workspace::clauses::RobotFile;
+use dalembert_codegen::workspace::generate::{Request, generate};
 
 /// An empty folder of one test, with the robot file of the planar arm.
 fn folder(test: &str) -> PathBuf {

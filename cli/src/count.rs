@@ -1,7 +1,7 @@
 //! `dalembert count`: the operations of the generated functions.
 
-use dalembert_codegen::generate::GeneratedFunction;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::generate::GeneratedFunction;
+use dalembert_codegen::workspace::program::ScalarType;
 use serde_json::{Map, Value, json};
 
 use crate::args::CountArgs;

@@ -1,6 +1,6 @@
 //! `dalembert couplings`: which coefficients vanish or repeat, and why.
 
-use dalembert_codegen::function::Quantity;
+use dalembert_codegen::workspace::function::Quantity;
 use dalembert_model::robot::Robot;
 use dalembert_report::couplings::{Coupling, Couplings, Finding};
 use serde_json::{Map, Value, json};

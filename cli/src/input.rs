@@ -5,10 +5,10 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use dalembert_codegen::RobotFileError;
-use dalembert_codegen::generate::in_scene::find;
-use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::plan;
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::workspace::generate::in_scene::find;
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;

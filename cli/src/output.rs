@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use dalembert_codegen::program::Counts;
+use dalembert_codegen::workspace::program::Counts;
 use dalembert_model::read::{Diagnostic, Doubt};
 use serde_json::{Value, json};
 

@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Request;
-use dalembert_codegen::simplify::Effort;
-use dalembert_codegen::watch::{Observer, Progress, Watch};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::Request;
+use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::watch::{Observer, Progress, Watch};
 use dalembert_report::sweep::ladder::Waiting;
 use dalembert_report::sweep::rungs::Rung;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -241,7 +241,7 @@ impl Drop for Session {
 
 #[cfg(test)]
 mod tests {
-    use dalembert_codegen::function::Function;
+    use dalembert_codegen::workspace::function::Function;
 
     use super::place;
 

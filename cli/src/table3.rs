@@ -1,10 +1,10 @@
 //! `dalembert table3`: the paper's Table 3 beside what the formulas cost as
 //! written and what is generated ([`dalembert_report::table3`]), printed.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::portfolio::{Source, Start};
-use dalembert_codegen::program::Counts;
-use dalembert_codegen::simplify::Pass;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::portfolio::{Source, Start};
+use dalembert_codegen::workspace::program::Counts;
+use dalembert_codegen::workspace::simplify::Pass;
 use dalembert_model::robot::Robot;
 use dalembert_report::table3::{self, FORMULATIONS, JOINTS, Pair, Row};
 use serde_json::{Map, Value, json};

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use crate::support::run;
-use dalembert_codegen::certificate::format;
+use dalembert_codegen::workspace::certificate::format;
 
 /// Torques of the PUMA over the box of its file.
 fn holds(name: &str, relative_to: &str, tolerance: f64, operations: usize) {

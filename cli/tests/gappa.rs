@@ -6,7 +6,7 @@ use std::fs;
 use std::process::Command;
 
 use crate::support::{robot, run, temporary};
-use dalembert_codegen::certificate::format;
+use dalembert_codegen::workspace::certificate::format;
 
 /// Exact but for rounding, in a box.
 const SCENE: &str = r#"

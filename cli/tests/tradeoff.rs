@@ -1,7 +1,7 @@
 //! Accuracy given up on purpose, as a user runs it: scenes with a tolerance,
 //! `certify` and `tradeoff`.
 
-use dalembert_codegen::certificate::format::text_hash;
+use dalembert_codegen::workspace::certificate::format::text_hash;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,6 @@
 //! The functions that can be generated: the model's registry of outputs.
 
+pub(crate) use dalembert_model::outputs::ErrorScale;
 pub use dalembert_model::outputs::{
-    Argument, BundleError, Columns, ErrorScale, Function, Quantity, RuntimeParameter, Sizes,
+    Argument, BundleError, Columns, Function, Quantity, RuntimeParameter, Sizes,
 };

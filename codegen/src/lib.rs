@@ -2,9 +2,9 @@
 //! scripts' `dalembert-build` and the command have in common.
 //!
 //! [`generate()`] does a [`Request`] for a robot. The items listed below are for
-//! users of the generator as a library; the modules are the workspace's own, and
-//! change as it needs. They follow here in the order of the stages: each may use
-//! those above it, never those below (`tests/layering.rs` sees to it).
+//! users of the generator as a library. The modules follow here in the order of the
+//! stages: each may use those above it, never those below (`tests/layering.rs` sees
+//! to it).
 //!
 //! - `random`: seeded random numbers, the same on every machine
 //! - `states`: joint states inside a robot's limits
@@ -33,58 +33,40 @@
 //!
 //! And the ways in, which all end in `generate`:
 //! - `clauses`: words, robot files, and `dynamics!` as tokens
+//!
+//! The other crates of the workspace, and the tests, use more than what is listed
+//! below, by one door:
+//! - `workspace`: what they use of each stage
 #![forbid(unsafe_code)]
+#![warn(unreachable_pub)]
 
+mod approximate;
+mod backend;
+mod bound;
+mod certificate;
+mod clauses;
+mod edits;
+mod emit;
+mod falsify;
+mod function;
+mod generate;
+mod graph;
+mod interval;
+mod plan;
+mod portfolio;
+mod program;
+mod random;
+mod scene;
+mod schedule;
+mod simplify;
+mod sincos;
+mod split;
+mod states;
+mod trace;
+mod verify;
+mod watch;
 #[doc(hidden)]
-pub mod approximate;
-#[doc(hidden)]
-pub mod backend;
-#[doc(hidden)]
-pub mod bound;
-#[doc(hidden)]
-pub mod certificate;
-#[doc(hidden)]
-pub mod clauses;
-#[doc(hidden)]
-pub mod edits;
-#[doc(hidden)]
-pub mod emit;
-#[doc(hidden)]
-pub mod falsify;
-#[doc(hidden)]
-pub mod function;
-#[doc(hidden)]
-pub mod generate;
-#[doc(hidden)]
-pub mod graph;
-#[doc(hidden)]
-pub mod interval;
-#[doc(hidden)]
-pub mod plan;
-#[doc(hidden)]
-pub mod portfolio;
-#[doc(hidden)]
-pub mod program;
-#[doc(hidden)]
-pub mod random;
-#[doc(hidden)]
-pub mod scene;
-#[doc(hidden)]
-pub mod schedule;
-#[doc(hidden)]
-pub mod simplify;
-#[doc(hidden)]
-pub mod sincos;
-#[doc(hidden)]
-pub mod split;
-#[doc(hidden)]
-pub mod states;
-#[doc(hidden)]
-pub mod trace;
-#[doc(hidden)]
-pub mod verify;
-#[doc(hidden)]
-pub mod watch;
+pub mod workspace;
 
 #[doc(inline)]
 pub use backend::{Entries, MathPath};

@@ -27,7 +27,7 @@ pub struct Trace {
 /// The motion of a robot in its scene in symbols. Of the arguments that are no part of a
 /// state only these are inputs: a search pairs whatever a graph has, and what
 /// nothing reads would only be in its way.
-pub fn symbols(
+pub(crate) fn symbols(
     scene_robot: &SceneRobot,
     arguments: &[Argument],
     builder: &Rc<RefCell<Builder>>,
@@ -48,7 +48,7 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
 
 /// Whether a function of a robot in its scene depends on what Coulomb friction reads of
 /// speeds.
-pub fn feels_coulomb(scene_robot: &SceneRobot, function: Function) -> bool {
+pub(crate) fn feels_coulomb(scene_robot: &SceneRobot, function: Function) -> bool {
     if !scene_robot.has_coulomb() {
         return false;
     }

@@ -2,13 +2,13 @@
 //! that a robot's last digits do not decide.
 
 use crate::support::{arm_file, dose, read_robot};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GeneratedFunction, Prefer, Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::states::seeded;
-use dalembert_codegen::verify::floating::Runtime;
-use dalembert_codegen::verify::rounding::Rounding;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GeneratedFunction, Prefer, Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::verify::rounding::Rounding;
 
 /// τ by a quick search.
 fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {

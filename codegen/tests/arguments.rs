@@ -3,17 +3,17 @@
 
 use std::path::Path;
 
-use dalembert_codegen::backend::Entries;
-use dalembert_codegen::clauses::expand;
-use dalembert_codegen::function::{Argument, Function, RuntimeParameter};
-use dalembert_codegen::generate::keep::keep;
-use dalembert_codegen::generate::{Generated, Request};
-use dalembert_codegen::plan::Plan;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::states::JointState;
-use dalembert_codegen::verify::exact::prove;
-use dalembert_codegen::verify::floating::{BOUND, Emitted, Granted, Runtime};
+use dalembert_codegen::workspace::backend::Entries;
+use dalembert_codegen::workspace::clauses::expand;
+use dalembert_codegen::workspace::function::{Argument, Function, RuntimeParameter};
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
+use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::verify::exact::prove;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
 use dalembert_model::equations::Formulation;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Inertia, Placement, Position, Robot};

@@ -1,7 +1,7 @@
 //! Upper bounds on operation counts. They only ever go down.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::portfolio::Start;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_model::equations::Formulation;
 
 use crate::support;

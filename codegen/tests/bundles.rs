@@ -5,15 +5,15 @@
 use std::path::Path;
 
 use dalembert_codegen::Entries;
-use dalembert_codegen::clauses::expand;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::keep::keep;
-use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::plan::Plan;
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::states;
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::clauses::expand;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -124,7 +124,7 @@ fn one_struct_in_the_written_order() {
 /// A field that trades its name with another of its type is noticed.
 #[test]
 fn the_text_is_read_back_field_by_field() {
-    use dalembert_codegen::program::{Library, Lowered};
+    use dalembert_codegen::workspace::program::{Library, Lowered};
     let planar = support::robot("planar2r");
     let loads = bundle("loads=gravity+coriolis");
     let generated = of(&planar, &[loads], Entries::Single);

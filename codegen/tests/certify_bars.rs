@@ -2,16 +2,16 @@
 //!
 //! Minutes without optimisation, so they run in release only.
 
-use dalembert_codegen::approximate::prune::{PruneSettings, prune};
-use dalembert_codegen::bound::definite::least_eigenvalue;
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::bound::scale;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::falsify::falsify;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::SceneRobot;
+use dalembert_codegen::workspace::approximate::prune::{PruneSettings, prune};
+use dalembert_codegen::workspace::bound::definite::least_eigenvalue;
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::bound::scale;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 
 use crate::support;
 

@@ -1,19 +1,19 @@
 //! Certificates hold, are tight enough, and are caught when they lie.
 
-use dalembert_codegen::approximate::prune::{PruneSettings, Pruned, prune};
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::bound::magnitude::{BoxEffort, magnitudes};
-use dalembert_codegen::bound::ranges::{Finding, ranges};
-use dalembert_codegen::certificate::{Certificate, Refuted, format};
-use dalembert_codegen::edits::text::{read_edit, write_edit};
-use dalembert_codegen::edits::{Edit, EditSite, Stage, difference};
-use dalembert_codegen::falsify::falsify;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::graph::Folding;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::verify::exact::prove_same;
+use dalembert_codegen::workspace::approximate::prune::{PruneSettings, Pruned, prune};
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::bound::magnitude::{BoxEffort, magnitudes};
+use dalembert_codegen::workspace::bound::ranges::{Finding, ranges};
+use dalembert_codegen::workspace::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::workspace::edits::text::{read_edit, write_edit};
+use dalembert_codegen::workspace::edits::{Edit, EditSite, Stage, difference};
+use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::graph::Folding;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Program, ScalarType};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -175,7 +175,7 @@ fn every_other_lie_is_caught() {
     let last = edit.stages[0].program.steps.len() - 1;
     let (place, value) = (
         EditSite::Step(0),
-        dalembert_codegen::program::Operand::Step(last),
+        dalembert_codegen::workspace::program::Operand::Step(last),
     );
     edit.stages[0].edits = vec![Edit {
         place,
@@ -262,7 +262,7 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     // The whole circle, and a part of it.
     let mut part = case.limits.clone();
     for q in &mut part.position {
-        *q = dalembert_codegen::interval::Interval::new(-0.5, 0.25).unwrap();
+        *q = dalembert_codegen::workspace::interval::Interval::new(-0.5, 0.25).unwrap();
     }
     let (whole, boxes) = (bound(1 << 16, &case.limits), bound(0, &case.limits));
     for i in 0..3 {
@@ -304,7 +304,7 @@ fn what_a_scalar_cannot_hold_is_found() {
     let none = ranges(&program, ScalarType::F32, &[], &limits, 8).findings;
     assert_eq!(none, []);
     for rate in &mut limits.velocity {
-        *rate = dalembert_codegen::interval::Interval::symmetric(1e25);
+        *rate = dalembert_codegen::workspace::interval::Interval::symmetric(1e25);
     }
     let overflow = ranges(&program, ScalarType::F32, &[], &limits, 8).findings;
     assert!(matches!(overflow[0], Finding::Overflow { .. }) && overflow[0].is_error());

@@ -1,21 +1,21 @@
 //! D stays positive definite where terms were left out, and that is certified.
 
-use dalembert_codegen::approximate::prune::{PruneSettings, Pruned, prune};
-use dalembert_codegen::bound::definite::{Indefinite, least_eigenvalue};
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::bound::sample::draw;
-use dalembert_codegen::bound::scale;
-use dalembert_codegen::certificate::{Certificate, Refuted};
-use dalembert_codegen::edits::{Edit, EditSite, Stage};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request, ToleranceError, generate};
-use dalembert_codegen::graph::Folding;
-use dalembert_codegen::plan::{Edited, Entry, Plan};
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::{SceneKey, SceneRobot, input_hash};
-use dalembert_codegen::states::JointState;
+use dalembert_codegen::workspace::approximate::prune::{PruneSettings, Pruned, prune};
+use dalembert_codegen::workspace::bound::definite::{Indefinite, least_eigenvalue};
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::bound::sample::draw;
+use dalembert_codegen::workspace::bound::scale;
+use dalembert_codegen::workspace::certificate::{Certificate, Refuted};
+use dalembert_codegen::workspace::edits::{Edit, EditSite, Stage};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, ToleranceError, generate};
+use dalembert_codegen::workspace::graph::Folding;
+use dalembert_codegen::workspace::plan::{Edited, Entry, Plan};
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Program, ScalarType};
+use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot, input_hash};
+use dalembert_codegen::workspace::states::JointState;
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Options, Reading, parse};
 use dalembert_model::robot::Robot;

@@ -5,17 +5,17 @@
 
 use std::collections::HashMap;
 
-use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::certificate::{Certificate, format};
-use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::plan::{Edited, Entry, Plan};
-use dalembert_codegen::program::{Library, ScalarType};
-use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::scene::input_hash;
-use dalembert_codegen::sincos::SinCos;
-use dalembert_codegen::states::JointState;
-use dalembert_codegen::verify::floating::Runtime;
+use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
+use dalembert_codegen::workspace::certificate::{Certificate, format};
+use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::plan::{Edited, Entry, Plan};
+use dalembert_codegen::workspace::program::{Library, ScalarType};
+use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::scene::input_hash;
+use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::read::{self, Reading};
 use serde_json::Value;
 
@@ -202,8 +202,8 @@ fn is_true(claim: &Certificate, scene_robot: &SceneRobot) -> bool {
     let mut random = Random::new(7);
     let limits = &claim.limits;
     (0..400).all(|index| {
-        let mut draw = |ranges: &[dalembert_codegen::interval::Interval]| {
-            let one = |x: &dalembert_codegen::interval::Interval| {
+        let mut draw = |ranges: &[dalembert_codegen::workspace::interval::Interval]| {
+            let one = |x: &dalembert_codegen::workspace::interval::Interval| {
                 let at = match index % 4 {
                     0 => random.unit(),
                     _ => random.below(2) as f64,

@@ -4,11 +4,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::certificate::Refuted;
-use dalembert_codegen::clauses::expand;
-use dalembert_codegen::generate::keep::keep;
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::plan::Plan;
+use dalembert_codegen::workspace::certificate::Refuted;
+use dalembert_codegen::workspace::clauses::expand;
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::plan::Plan;
 use dalembert_model::number::Rational;
 use dalembert_model::read::Reading;
 

@@ -3,16 +3,16 @@
 
 use crate::support;
 use crate::support::draw::{Draw, robots};
-use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::approximate::prune::{PruneSettings, Pruned, prune};
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::edits::Stage;
-use dalembert_codegen::falsify::falsify;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
+use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
+use dalembert_codegen::workspace::approximate::prune::{PruneSettings, Pruned, prune};
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::edits::Stage;
+use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Program, ScalarType};
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::Scale;

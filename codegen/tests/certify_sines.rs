@@ -1,21 +1,21 @@
 //! Certificates of functions whose sines are polynomials: they hold, follow
 //! from the tolerance, and are caught when they lie.
 
-use dalembert_codegen::approximate::sines::within;
-use dalembert_codegen::backend::{Printed, function};
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::bound::scale;
-use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::certificate::{Certificate, Refuted, format};
-use dalembert_codegen::falsify::falsify;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::interval::Interval;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::kernel::Term;
-use dalembert_codegen::program::{AngleSum, Library, Literal, Program, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::sincos::{Sines, counts, lowered, stated};
+use dalembert_codegen::workspace::approximate::sines::within;
+use dalembert_codegen::workspace::backend::{Printed, function};
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::bound::scale;
+use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
+use dalembert_codegen::workspace::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::interval::Interval;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::kernel::Term;
+use dalembert_codegen::workspace::program::{AngleSum, Library, Literal, Program, ScalarType};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::sincos::{Sines, counts, lowered, stated};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 

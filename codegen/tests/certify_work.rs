@@ -2,13 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::certificate::format;
-use dalembert_codegen::certificate::{Certificate, Refuted};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::SceneRobot;
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::certificate::format;
+use dalembert_codegen::workspace::certificate::{Certificate, Refuted};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};

@@ -2,16 +2,16 @@
 //! other text must bring the right values. What does not is refused.
 
 use dalembert_codegen::Entries;
-use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::backend::entries::angles::Angles;
-use dalembert_codegen::emit::Layout;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::keep::keep;
-use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::plan::Plan;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Library, Lowered, ScalarType};
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::backend::entries::angles::Angles;
+use dalembert_codegen::workspace::emit::Layout;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::robot::Robot;
 
 use crate::support;

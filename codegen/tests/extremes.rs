@@ -2,9 +2,9 @@
 //! errors that are measured where code is run, and the bounds that they are held
 //! against, overflow and underflow as the code does.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::random::Random;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::random::Random;
 use dalembert_model::read::{self, Reading};
 
 use crate::support;

@@ -1,17 +1,17 @@
 //! Products that are fused with sums: which they are, that the text is the program
 //! and the program the formula, what rounding costs then, and certificates.
 
-use dalembert_codegen::certificate::{Certificate, Refuted, format};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::keep::keep;
-use dalembert_codegen::generate::{Fma, Generated, Request, generate};
-use dalembert_codegen::program::columns::Columns;
-use dalembert_codegen::program::run::State;
-use dalembert_codegen::program::{Lowered, Operation, Program, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::states::{JointState, SEED, STATES, seeded};
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::verify::rounding::Rounding;
+use dalembert_codegen::workspace::certificate::{Certificate, Refuted, format};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{Fma, Generated, Request, generate};
+use dalembert_codegen::workspace::program::columns::Columns;
+use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::program::{Lowered, Operation, Program, ScalarType};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states::{JointState, SEED, STATES, seeded};
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::rounding::Rounding;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
@@ -86,7 +86,7 @@ fn six_robots_are_right() {
     }
 }
 
-fn is_torques(emitted: &dalembert_codegen::verify::floating::Emitted) -> bool {
+fn is_torques(emitted: &dalembert_codegen::workspace::verify::floating::Emitted) -> bool {
     (emitted.function, emitted.scalar) == (Function::InverseDynamics, ScalarType::F64)
 }
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use dalembert_codegen::clauses::expand;
-use dalembert_codegen::random::Random;
+use dalembert_codegen::workspace::clauses::expand;
+use dalembert_codegen::workspace::random::Random;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 /// A dose for every day; `FUZZ_TIMES` multiplies it.

@@ -3,11 +3,11 @@
 //! The reader's own fuzzing, of arbitrary bytes, is in the model's tests; here
 //! the files are close enough to right that many are accepted.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::random::Random;
-use dalembert_codegen::states::seeded;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::states::seeded;
 use dalembert_model::read::{Options, parse};
 use dalembert_model::robot::write;
 

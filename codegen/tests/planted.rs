@@ -1,11 +1,13 @@
 //! Faults planted into finished programs and texts: the exact proof and the
 //! text check catch every one.
 
-use dalembert_codegen::backend::{Printed, function};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::program::{Library, Lowered, Operand, Operation, Program, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::verify::exact::{Disproof, prove};
+use dalembert_codegen::workspace::backend::{Printed, function};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::program::{
+    Library, Lowered, Operand, Operation, Program, ScalarType,
+};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use dalembert_codegen::Entries;
-use dalembert_codegen::emit::Layout;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::workspace::emit::Layout;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::robot::Robot;
 
 use crate::support;

@@ -1,14 +1,14 @@
 //! Programs that divide: what they divide by, that a wrong divisor is seen, and
 //! what is refused by name.
 
-use dalembert_codegen::certificate::format;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::program::{Operand, Operation, Program};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::states::{SEED, seeded};
-use dalembert_codegen::verify::exact::prove;
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::certificate::format;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::program::{Operand, Operation, Program};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states::{SEED, seeded};
+use dalembert_codegen::workspace::verify::exact::prove;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Scale, Scene, Tolerance};

@@ -5,15 +5,15 @@
 //! stays within the floating bound, and the formulations agree.
 
 use crate::support::draw::{Draw, robots};
-use dalembert_codegen::function::{Argument, Function};
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::graph::Points;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::program::run::State;
-use dalembert_codegen::scene::{self, SceneRobot};
-use dalembert_codegen::states::{SEED, seeded};
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::graph::Points;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::scene::{self, SceneRobot};
+use dalembert_codegen::workspace::states::{SEED, seeded};
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;

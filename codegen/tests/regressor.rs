@@ -3,16 +3,18 @@
 
 use std::path::Path;
 
-use dalembert_codegen::clauses::expand;
-use dalembert_codegen::function::{Function, Quantity};
-use dalembert_codegen::generate::{GenerateError, Generated, Request, ToleranceError, Unbounded};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::scene::base::{BaseParameters, Parameter};
-use dalembert_codegen::states::seeded;
-use dalembert_codegen::verify::exact::Disproof;
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::verify::parameters::prove_base;
+use dalembert_codegen::workspace::clauses::expand;
+use dalembert_codegen::workspace::function::{Function, Quantity};
+use dalembert_codegen::workspace::generate::{
+    GenerateError, Generated, Request, ToleranceError, Unbounded,
+};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::scene::base::{BaseParameters, Parameter};
+use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::verify::exact::Disproof;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::parameters::prove_base;
 use dalembert_model::equations::Arm;
 use dalembert_model::number::{Angle, Exact, Rational, Rounded};
 use dalembert_model::robot::{Position, Robot};

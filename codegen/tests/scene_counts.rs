@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GeneratedFunction, Request, generate};
-use dalembert_codegen::plan;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GeneratedFunction, Request, generate};
+use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
 use dalembert_model::scene::{MotionBox, Scene};

@@ -1,13 +1,13 @@
 //! A scene's code is the full model's at the scene's values: proved, and run.
 
-use dalembert_codegen::function::{Argument, Function};
-use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::plan::{Entry, Plan};
-use dalembert_codegen::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::scene::{SceneKey, SceneRobot, input_hash};
-use dalembert_codegen::states::seeded;
-use dalembert_codegen::verify::exact::{Disproof, prove};
-use dalembert_codegen::verify::floating::Runtime;
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::plan::{Entry, Plan};
+use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
+use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot, input_hash};
+use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::number::{Angle, Rational, Rounded};
 use dalembert_model::outputs::Axis;
 use dalembert_model::robot::{Position, Robot};

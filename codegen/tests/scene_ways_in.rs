@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::clauses::expand;
+use dalembert_codegen::workspace::clauses::expand;
 
 const SCENE: &str = r#"
 [scene.swing]

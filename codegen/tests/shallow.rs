@@ -1,11 +1,11 @@
 //! `prefer: latency`: the same function, as many operations, a shorter longest chain.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Fma, Prefer, Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::program::shallow::Cycles;
-use dalembert_codegen::states::{SEED, STATES, seeded};
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Fma, Prefer, Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::program::shallow::Cycles;
+use dalembert_codegen::workspace::states::{SEED, STATES, seeded};
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 
 use crate::support;
 

@@ -1,19 +1,19 @@
 //! Generated functions whose sines are polynomials: printed, counted, read
 //! back, and as near to libm's as was proved.
 
-use dalembert_codegen::backend::{Printed, function};
-use dalembert_codegen::function::{Argument, Function};
-use dalembert_codegen::generate::{GenerateError, Generated, Request, generate};
-use dalembert_codegen::interval::Interval;
-use dalembert_codegen::program::{
+use dalembert_codegen::workspace::backend::{Printed, function};
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::interval::Interval;
+use dalembert_codegen::workspace::program::{
     AngleSum, Input, Library, Lowered, Operand, Output, Program, ScalarType, Trig,
 };
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::sincos::choose::Candidates;
-use dalembert_codegen::sincos::{AngleKernel, SinCos, need};
-use dalembert_codegen::split::Split;
-use dalembert_codegen::states::seeded;
-use dalembert_codegen::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::sincos::choose::Candidates;
+use dalembert_codegen::workspace::sincos::{AngleKernel, SinCos, need};
+use dalembert_codegen::workspace::split::Split;
+use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
 
 use crate::support;

@@ -1,10 +1,10 @@
 //! Reading emitted text back: what is no emitted function is refused with a
 //! line and a reason.
 
-use dalembert_codegen::function::{Argument, Function};
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::run::State;
-use dalembert_codegen::program::{Difference, Library, Lowered, ScalarType};
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::program::{Difference, Library, Lowered, ScalarType};
 
 use crate::support;
 

@@ -1,15 +1,15 @@
 //! Generated functions that call for all their angles at once: the same
 //! program, one line of text apart, and certified with what is proved of their sines.
 
-use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::bound::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::certificate::{Refuted, format};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::program::Library;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::sincos::SinCos;
-use dalembert_codegen::states::seeded;
+use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
+use dalembert_codegen::workspace::certificate::{Refuted, format};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::program::Library;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::states::seeded;
 use dalembert_model::number::Angle;
 use dalembert_model::robot::{Position, Robot};
 
@@ -99,7 +99,7 @@ fn certificates_name_the_library() {
     for (alone, together) in alone.bounds.iter().zip(&certificate.bounds) {
         assert!(alone.sincos > together.sincos && alone.rounding == together.rounding);
     }
-    let mixed = dalembert_codegen::certificate::Certificate {
+    let mixed = dalembert_codegen::workspace::certificate::Certificate {
         text: alone.text.clone(),
         ..certificate.clone()
     };

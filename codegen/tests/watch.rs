@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::sync::Mutex;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::early::price;
-use dalembert_codegen::generate::{Generated, Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::simplify::Effort;
-use dalembert_codegen::watch::{Observer, Part, Progress, Watch};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::early::price;
+use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::watch::{Observer, Part, Progress, Watch};
 
 use crate::support;
 

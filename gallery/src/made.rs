@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::program::{Counts, ScalarType};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::{Request, generate};
 use dalembert_import::{Options, import};
 use dalembert_model::read;

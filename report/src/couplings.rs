@@ -10,11 +10,11 @@ use std::fmt;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
 
-use dalembert_codegen::function::{Function, Quantity, Sizes};
-use dalembert_codegen::generate::MAX_OUTPUTS;
-use dalembert_codegen::graph::{Folding, Graph, Node, NodeId};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::trace::trace;
+use dalembert_codegen::workspace::function::{Function, Quantity, Sizes};
+use dalembert_codegen::workspace::generate::MAX_OUTPUTS;
+use dalembert_codegen::workspace::graph::{Folding, Graph, Node, NodeId};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::trace::trace;
 
 /// Why a coefficient vanishes or repeats another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

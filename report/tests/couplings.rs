@@ -1,6 +1,6 @@
 //! Coefficients that vanish or repeat: the known counts, and the reasons.
 
-use dalembert_codegen::function::Quantity;
+use dalembert_codegen::workspace::function::Quantity;
 use dalembert_report::couplings::{Couplings, Finding, Reason};
 
 use crate::support;

@@ -1,11 +1,11 @@
 //! The table of steps and the fate of the parameters, on arms where the
 //! answers are known.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::verify::exact::prove;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::verify::exact::prove;
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
 use dalembert_report::explain::parameters::{Parameter, ParameterStatus, Together};

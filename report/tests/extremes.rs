@@ -7,10 +7,10 @@ use std::ops::Range;
 
 use crate::extremes_support;
 use crate::extremes_support::Extreme;
-use dalembert_codegen::function::{Function, Quantity, Sizes};
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::function::{Function, Quantity, Sizes};
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::big::Big;

@@ -1,11 +1,11 @@
 //! What must hold along a motion: Ḋ − 2C is skew-symmetric, and a passive arm
 //! keeps its energy.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::states::{JointState, seeded};
-use dalembert_codegen::verify::floating::Emitted;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::states::{JointState, seeded};
+use dalembert_codegen::workspace::verify::floating::Emitted;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::number::Rounded;

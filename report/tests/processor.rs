@@ -3,15 +3,15 @@
 
 use std::path::Path;
 
-use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::function::{Argument, Function};
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::plan;
-use dalembert_codegen::program::{
+use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::program::{
     AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output,
     ScalarType, Speed, Step,
 };
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_report::processor::estimate::Estimate;
 use dalembert_report::processor::flat::Flat;
 use dalembert_report::processor::registers::{Traffic, is_short, traffic};

@@ -3,9 +3,9 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::function::{Function, Quantity};
-use dalembert_codegen::states::seeded;
-use dalembert_codegen::verify::floating::Runtime;
+use dalembert_codegen::workspace::function::{Function, Quantity};
+use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, Robot};
 use dalembert_report::states::GivenState;

@@ -1,12 +1,12 @@
 //! Which functions to generate, and from what.
 
-use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Fma, Prefer, Request};
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Library, ScalarType};
-use dalembert_codegen::simplify::Effort;
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Fma, Prefer, Request};
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Library, ScalarType};
+use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::outputs::RuntimeParameter;
 
 use super::values::{

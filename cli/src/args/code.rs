@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::ArgGroup;
-use dalembert_codegen::backend::Entries;
-use dalembert_codegen::emit::Interface;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::workspace::backend::Entries;
+use dalembert_codegen::workspace::emit::Interface;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::processor::target::Target;
 
 use super::Choice;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_model::number::Rational;
 
 use super::Choice;

@@ -7,15 +7,15 @@
 use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
-use dalembert_codegen::backend::Entries;
-use dalembert_codegen::clauses::words::bundle;
-use dalembert_codegen::emit::Interface;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Prefer;
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::simplify::Effort;
-use dalembert_codegen::sincos::SinCos;
+use dalembert_codegen::workspace::backend::Entries;
+use dalembert_codegen::workspace::clauses::words::bundle;
+use dalembert_codegen::workspace::emit::Interface;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::Prefer;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::outputs::RuntimeParameter;

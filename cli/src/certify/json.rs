@@ -1,6 +1,6 @@
 //! A certificate that holds, as JSON.
 
-use dalembert_codegen::interval::Interval;
+use dalembert_codegen::workspace::interval::Interval;
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 

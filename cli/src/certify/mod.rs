@@ -5,15 +5,15 @@
 
 mod json;
 
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::certificate::format::{self, MAX_BYTES};
-use dalembert_codegen::certificate::gappa;
-use dalembert_codegen::certificate::{Certificate, Checked};
-use dalembert_codegen::emit::figures::inside;
-use dalembert_codegen::falsify::{Falsification, falsify};
-use dalembert_codegen::generate::GenerateError;
-use dalembert_codegen::interval::Interval;
-use dalembert_codegen::scene::SceneRobot;
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::certificate::format::{self, MAX_BYTES};
+use dalembert_codegen::workspace::certificate::gappa;
+use dalembert_codegen::workspace::certificate::{Certificate, Checked};
+use dalembert_codegen::workspace::emit::figures::inside;
+use dalembert_codegen::workspace::falsify::{Falsification, falsify};
+use dalembert_codegen::workspace::generate::GenerateError;
+use dalembert_codegen::workspace::interval::Interval;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::{Scene, Tolerance};

@@ -1,7 +1,7 @@
 //! The table of steps and the reasons, for programs.
 
-use dalembert_codegen::function::{Function, Quantity};
-use dalembert_codegen::portfolio::Source;
+use dalembert_codegen::workspace::function::{Function, Quantity};
+use dalembert_codegen::workspace::portfolio::Source;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 use dalembert_report::couplings::Couplings;

@@ -7,9 +7,9 @@
 mod json;
 mod text;
 
-use dalembert_codegen::function::{Function, Quantity};
-use dalembert_codegen::generate::Request;
-use dalembert_codegen::plan;
+use dalembert_codegen::workspace::function::{Function, Quantity};
+use dalembert_codegen::workspace::generate::Request;
+use dalembert_codegen::workspace::plan;
 use dalembert_report::couplings::{Couplings, Finding, Reason};
 use dalembert_report::explain::errors::{self, Errors};
 use dalembert_report::explain::{Explanation, explain_all};

@@ -1,7 +1,7 @@
 //! The table of steps and the reasons, for readers.
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
 use dalembert_report::couplings::Couplings;

@@ -1,10 +1,10 @@
 //! What a program wants to know about generated code.
 
-use dalembert_codegen::approximate::admitted::Admitted;
-use dalembert_codegen::approximate::prune::omissions;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
-use dalembert_codegen::verify::exact::Proof;
+use dalembert_codegen::workspace::approximate::admitted::Admitted;
+use dalembert_codegen::workspace::approximate::prune::omissions;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, Request};
+use dalembert_codegen::workspace::verify::exact::Proof;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::Errors;
 use serde_json::{Map, Value, json};

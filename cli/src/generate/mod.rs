@@ -11,11 +11,11 @@ pub mod json;
 mod processor;
 pub mod report;
 
-use dalembert_codegen::certificate::format;
-use dalembert_codegen::emit::Layout;
-use dalembert_codegen::generate::keep::keep;
-use dalembert_codegen::generate::{GenerateError, Generated, Request};
-use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::workspace::certificate::format;
+use dalembert_codegen::workspace::emit::Layout;
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request};
+use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
 

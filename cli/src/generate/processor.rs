@@ -1,8 +1,8 @@
 //! What functions take of processors, as text and for programs.
 
-use dalembert_codegen::backend::Entries;
-use dalembert_codegen::generate::{Generated, Request};
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::backend::Entries;
+use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::robot::Robot;
 use dalembert_report::processor::estimate::Estimate;
 use dalembert_report::processor::target::Target;
@@ -77,7 +77,7 @@ pub fn text(
 }
 
 fn cuts(steps: usize) -> bool {
-    steps > dalembert_codegen::backend::parts::LONG
+    steps > dalembert_codegen::workspace::backend::parts::LONG
 }
 
 /// The scalars, in the order of the text.

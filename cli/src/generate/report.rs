@@ -1,13 +1,13 @@
 //! What a person wants to know about generated code: counts, errors, what a
 //! tolerance admitted, proofs.
 
-use dalembert_codegen::approximate::admitted::Admitted;
-use dalembert_codegen::approximate::prune::omissions;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::emit::figures::bound_of;
-use dalembert_codegen::generate::{Generated, GeneratedFunction, Request};
-use dalembert_codegen::program::Counts;
-use dalembert_codegen::verify::reference::Reference;
+use dalembert_codegen::workspace::approximate::admitted::Admitted;
+use dalembert_codegen::workspace::approximate::prune::omissions;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::emit::figures::bound_of;
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, Request};
+use dalembert_codegen::workspace::program::Counts;
+use dalembert_codegen::workspace::verify::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{Errors, of_program};
 

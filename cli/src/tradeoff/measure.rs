@@ -12,9 +12,9 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use dalembert_codegen::backend::result::structure;
-use dalembert_codegen::function::Argument;
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::backend::result::structure;
+use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_report::sweep::{Point, Time};
 
 use crate::outcome::Failure;

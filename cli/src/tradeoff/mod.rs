@@ -11,12 +11,12 @@ mod report;
 
 use std::path::Path;
 
-use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::plan::{self, Plan};
-use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::scene::{SceneKey, SceneRobot, input_hash};
+use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::plan::{self, Plan};
+use dalembert_codegen::workspace::program::{Program, ScalarType};
+use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot, input_hash};
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use dalembert_codegen::function::Quantity;
-use dalembert_codegen::generate::{Generated, Request};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::verify::floating::Runtime;
+use dalembert_codegen::workspace::function::Quantity;
+use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::robot::Robot;
 use dalembert_report::states::compare::{Compared, compare, quantities};
 use dalembert_report::states::diagnose::{Diagnosis, diagnose};

@@ -8,11 +8,11 @@
 mod given;
 mod show;
 
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::falsify::{Falsification, falsify};
-use dalembert_codegen::generate::{GenerateError, Generated};
-use dalembert_codegen::states::{SEED, STATES};
-use dalembert_codegen::verify::floating::{BOUND, Emitted, Measure, Runtime};
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::falsify::{Falsification, falsify};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated};
+use dalembert_codegen::workspace::states::{SEED, STATES};
+use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Measure, Runtime};
 
 use crate::args::VerifyArgs;
 use crate::outcome::{Failure, Outcome};

@@ -9,9 +9,9 @@
 //! Nothing here decides what is true: what comes out is claimed in a certificate,
 //! whose check knows nothing of the search.
 
-pub mod admitted;
-pub mod choose;
-pub mod error;
-pub mod prune;
+pub(crate) mod admitted;
+pub(crate) mod choose;
+pub(crate) mod error;
+pub(crate) mod prune;
 mod regrouping;
-pub mod sines;
+pub(crate) mod sines;

@@ -15,20 +15,20 @@ use crate::program::fused::pieces;
 use crate::program::{Literal, Lowered, Operand, Output, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
-pub const FLAT: usize = 1000;
+pub(crate) const FLAT: usize = 1000;
 
 /// Operations a block.
 ///
 /// To rustc each `let` opens a scope inside the one before, and its debug
 /// information walks them recursively: somewhere above 2 000 it overflows the
 /// compiler's stack. A block closes its scopes.
-pub const BLOCK: usize = 500;
+pub(crate) const BLOCK: usize = 500;
 
 /// The name of the load's type in a module.
-pub const LOAD: &str = "Load";
+pub(crate) const LOAD: &str = "Load";
 
 /// The name of a payload's type.
-pub const PAYLOAD: &str = "Payload";
+pub(crate) const PAYLOAD: &str = "Payload";
 
 /// Prints the function; `path` is where the sines and roots are that it calls, and `doc`
 /// stands above it, one line an item.
@@ -128,7 +128,7 @@ pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType
 }
 
 /// What it returns.
-pub fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) -> String {
+pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) -> String {
     match function.structure() {
         Some(name) => name.to_owned(),
         None if function == Function::Load => LOAD.to_owned(),

@@ -11,11 +11,11 @@
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`read`]: the printed text, and whether it is the program
 
-pub mod entries;
-pub mod function;
-pub mod parts;
-pub mod read;
-pub mod result;
+pub(crate) mod entries;
+pub(crate) mod function;
+pub(crate) mod parts;
+pub(crate) mod read;
+pub(crate) mod result;
 mod scope;
 mod sines;
 mod speed;

@@ -15,7 +15,7 @@ pub(super) fn array_of(entry: &str, quantity: Quantity, sizes: Sizes) -> String 
 }
 
 /// The array type of a quantity.
-pub fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
+pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
     array_of(scalar.name(), quantity, sizes)
 }
 

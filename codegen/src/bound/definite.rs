@@ -104,7 +104,7 @@ pub fn least_eigenvalue(
 
 /// Whether it can be shown to be no less than a number above zero: one pass in place
 /// of a search for the largest.
-pub fn is_at_least(
+pub(crate) fn is_at_least(
     least: f64,
     program: &Program,
     scalar: ScalarType,
@@ -116,7 +116,7 @@ pub fn is_at_least(
 
 /// Whether D can be shown to be positive definite, by whatever little: what a search
 /// asks of one variant after the other.
-pub fn is_definite(program: &Program, scalar: ScalarType, limits: &InputBox) -> bool {
+pub(crate) fn is_definite(program: &Program, scalar: ScalarType, limits: &InputBox) -> bool {
     shown(program, scalar, &[], limits, Wanted::Any).is_ok()
 }
 

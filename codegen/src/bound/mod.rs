@@ -12,17 +12,17 @@
 //!   outputs once
 //! - `work`: work counted, for who cannot wait
 
-pub mod definite;
+pub(crate) mod definite;
 mod distinct;
 mod expand;
-pub mod form;
+pub(crate) mod form;
 mod grid;
-pub mod input_box;
-pub mod magnitude;
-pub mod ranges;
-pub mod sample;
-pub mod scale;
-pub mod sensitivity;
+pub(crate) mod input_box;
+pub(crate) mod magnitude;
+pub(crate) mod ranges;
+pub(crate) mod sample;
+pub(crate) mod scale;
+pub(crate) mod sensitivity;
 mod subdivide;
-pub mod turns;
+pub(crate) mod turns;
 pub(crate) mod work;

@@ -87,7 +87,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
 
 /// The tolerance of each output: that of its joint, for an entry of D the
 /// smaller of its two joints'.
-pub fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
+pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let (rows, sizes) = (&program.rows, program.sizes());
     // Down: nothing is allowed that the decimal does not allow.
     let of = |joint: usize| {

@@ -11,7 +11,7 @@ use crate::sincos::stated;
 /// no sum of angles is formed of it, which rounds the worse the larger it is.
 /// Everything else reads its sine and cosine, so that what holds over one turn
 /// holds wherever those two are good.
-pub fn turns_freely(robot: &Robot, trig: &[Trig], joint: usize) -> bool {
+pub(crate) fn turns_freely(robot: &Robot, trig: &[Trig], joint: usize) -> bool {
     let free = robot
         .joints
         .get(joint)
@@ -22,7 +22,7 @@ pub fn turns_freely(robot: &Robot, trig: &[Trig], joint: usize) -> bool {
 
 /// The positions over which a program's sines must be good: those of the box, and
 /// [`stated`] angles of a joint that [turns freely](turns_freely).
-pub fn sine_positions(
+pub(crate) fn sine_positions(
     robot: &Robot,
     program: &Program,
     scalar: ScalarType,

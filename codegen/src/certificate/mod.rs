@@ -41,12 +41,12 @@
 mod bounds;
 mod check;
 #[cfg(feature = "certificates")]
-pub mod format;
-pub mod gappa;
+pub(crate) mod format;
+pub(crate) mod gappa;
 mod refuted;
 mod run;
 mod shape;
-pub mod subject;
+pub(crate) mod subject;
 mod work;
 
 use dalembert_model::robot::Robot;
@@ -66,10 +66,10 @@ use crate::sincos::{AngleKernel, Sines};
 use crate::split::Split;
 use crate::verify::exact::Proof;
 pub(crate) use bounds::Shared;
-pub use refuted::{Refuted, WrongInput};
-pub use run::Ran;
+pub use refuted::Refuted;
+pub(crate) use refuted::WrongInput;
+pub(crate) use run::Ran;
 use subject::{Subject, printed};
-pub use work::TooMuch;
 
 /// What every bound rests on besides arithmetic.
 const ASSUMPTIONS: [&str; 3] = [
@@ -89,7 +89,8 @@ const INSIDE: &str =
     "positions, velocities and accelerations are the scalar's numbers inside the box";
 
 /// How the bounds were found.
-pub const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
+#[cfg(feature = "certificates")]
+pub(crate) const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
      at a grid with Riesz's and Bernstein's inequalities, or branch and bound with intervals; \
      rounding: half an ulp of the largest values times largest adjoints, both written out in the \
      same way, or the largest sum of their products, at a grid with Riesz's inequality, \

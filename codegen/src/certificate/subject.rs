@@ -19,7 +19,7 @@ use crate::split::Split;
 
 /// What a claim is about, whatever the scalar.
 #[derive(Clone, Copy, Debug)]
-pub struct Subject<'a> {
+pub(crate) struct Subject<'a> {
     /// The full model.
     pub scene_robot: &'a SceneRobot,
     /// What was edited; none for an exact program.
@@ -41,7 +41,7 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// The largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
-    pub fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
+    pub(crate) fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
         if !has_edits(self.stages) {
             return vec![0.0; self.scales.len()];
         }
@@ -51,7 +51,7 @@ impl Subject<'_> {
 
     /// Bounds by cause, relative to the scales, with the edits' and the
     /// sensitivity at hand.
-    pub fn bounds(
+    pub(crate) fn bounds(
         &self,
         scalar: ScalarType,
         model: &[f64],
@@ -110,13 +110,13 @@ impl Subject<'_> {
     }
 
     /// What bounds of the emitted program's rounding need.
-    pub fn sensitivity(&self, bound_effort: BoundEffort) -> Sensitivity {
+    pub(crate) fn sensitivity(&self, bound_effort: BoundEffort) -> Sensitivity {
         Sensitivity::of(self.emitted, self.limits, bound_effort)
     }
 
     /// A lower bound of the least eigenvalue of S D S, if D is an output and
     /// not the model's; `None` as well if there is none above zero.
-    pub fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
+    pub(crate) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
         if !changes_inertia(self.stages, self.emitted, self.sines(scalar)) {
             return None;
         }
@@ -125,7 +125,7 @@ impl Subject<'_> {
 
     /// The claim for a scalar with these bounds, whether they hold or not;
     /// nothing is claimed of the least eigenvalue.
-    pub fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
+    pub(crate) fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
         Certificate {
             robot: self.scene_robot.robot().name.clone(),
             input: input_hash(self.scene_robot.robot()),
@@ -148,7 +148,7 @@ impl Subject<'_> {
     }
 
     /// The polynomials for sines in a scalar.
-    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
+    pub(crate) fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
         sincos::of(self.sines, scalar)
     }
 }

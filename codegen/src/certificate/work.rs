@@ -15,22 +15,22 @@ use crate::program::{Operand, Operation, Program};
 use std::collections::BTreeMap;
 
 /// The most programs of a certificate that are edited one after another.
-pub const MAX_STAGES: usize = 64;
+pub(crate) const MAX_STAGES: usize = 64;
 /// The most steps of a program.
-pub const MAX_STEPS: usize = 50_000;
+pub(crate) const MAX_STEPS: usize = 50_000;
 /// The most edits of a program.
-pub const MAX_EDITS: usize = 10_000;
+pub(crate) const MAX_EDITS: usize = 10_000;
 /// The most angles whose sine or cosine a program reads.
-pub const MAX_ANGLES: usize = 256;
+pub(crate) const MAX_ANGLES: usize = 256;
 /// The most bits of a constant's coefficient.
-pub const MAX_BITS: u64 = 1 << 16;
+pub(crate) const MAX_BITS: u64 = 1 << 16;
 /// The most monomials of a constant.
-pub const MAX_TERMS: u64 = 20_000;
+pub(crate) const MAX_TERMS: u64 = 20_000;
 /// The largest degree of a constant in sines and cosines.
-pub const MAX_DEGREE: u64 = 256;
+pub(crate) const MAX_DEGREE: u64 = 256;
 /// What all constants of a program may cost together: terms times degrees
 /// times bits.
-pub const MAX_COST: u64 = 1 << 30;
+pub(crate) const MAX_COST: u64 = 1 << 30;
 
 /// What would take too long.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -19,13 +19,12 @@ mod invocation;
 mod list;
 mod messages;
 mod module;
-pub mod robot_file;
+pub(crate) mod robot_file;
 mod statement;
 mod stub;
 mod table;
 mod warnings;
-pub mod words;
+pub(crate) mod words;
 
 pub use expand::{expand, expand_from};
 pub use robot_file::{RobotFile, RobotFileError};
-pub use words::{UnknownWord, Word};

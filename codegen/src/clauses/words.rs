@@ -16,7 +16,7 @@ use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
 /// A value that users name by a word.
-pub trait Word: Copy {
+pub(crate) trait Word: Copy {
     /// What messages call it.
     const WHAT: &'static str;
 
@@ -118,7 +118,7 @@ impl Word for SinCos {
 ///
 /// # Errors
 /// [`UnknownWord`], with the word that was probably meant.
-pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
+pub(crate) fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
     let all = W::all();
     if let Some((_, value)) = all.iter().find(|(name, _)| *name == text) {
         return Ok(*value);
@@ -163,7 +163,7 @@ impl std::error::Error for NoBundle {}
 
 /// A word that names nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownWord {
+pub(crate) struct UnknownWord {
     /// What it should name: `output`, `scalar`, …
     pub what: &'static str,
     /// The word.
@@ -176,12 +176,12 @@ pub struct UnknownWord {
 
 impl UnknownWord {
     /// What is wrong.
-    pub fn message(&self) -> String {
+    pub(crate) fn message(&self) -> String {
         format!("unknown {} `{}`", self.what, self.found)
     }
 
     /// The likely fix.
-    pub fn help(&self) -> String {
+    pub(crate) fn help(&self) -> String {
         match self.meant {
             Some(meant) => format!("did you mean `{meant}`?"),
             None => format!("known: {}", self.known.join(", ")),

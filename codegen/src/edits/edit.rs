@@ -129,6 +129,6 @@ impl Stage {
 }
 
 /// Whether anything was edited.
-pub fn has_edits(stages: &[Stage]) -> bool {
+pub(crate) fn has_edits(stages: &[Stage]) -> bool {
     stages.iter().any(|stage| !stage.edits.is_empty())
 }

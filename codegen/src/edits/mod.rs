@@ -6,7 +6,9 @@
 
 mod difference;
 mod edit;
-pub mod text;
+pub(crate) mod text;
 
 pub use difference::difference;
-pub use edit::{BadEdit, Edit, EditSite, Stage, has_edits};
+pub(crate) use edit::BadEdit;
+pub(crate) use edit::has_edits;
+pub use edit::{Edit, EditSite, Stage};

@@ -44,7 +44,7 @@ fn plain(x: f64) -> String {
 }
 
 /// Five digits, not below: an error relative to it stays a bound.
-pub fn at_least(x: f64) -> String {
+pub(crate) fn at_least(x: f64) -> String {
     plain(rounded(x, 5, Side::Above))
 }
 
@@ -61,7 +61,7 @@ pub(super) fn placed(placement: &dalembert_model::robot::Placement) -> String {
 }
 
 /// Three digits, not below: what is read off is a bound too.
-pub fn bound(x: f64) -> String {
+pub(crate) fn bound(x: f64) -> String {
     bound_of(x, 3)
 }
 

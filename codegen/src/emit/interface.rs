@@ -9,7 +9,7 @@ use crate::function::{Columns, Function};
 use crate::program::ScalarType;
 
 /// The type that has the traits.
-pub const ROBOT: &str = "Robot";
+pub(crate) const ROBOT: &str = "Robot";
 
 /// How code meets a module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -43,7 +43,12 @@ pub fn question(function: Function) -> Option<String> {
 
 /// What the trait answers, of these lengths: an array, or the struct of this name that
 /// fits every robot.
-pub fn answer(function: Function, path: &str, scalar: ScalarType, joints: &str) -> Option<String> {
+pub(crate) fn answer(
+    function: Function,
+    path: &str,
+    scalar: ScalarType,
+    joints: &str,
+) -> Option<String> {
     let name = function.structure()?;
     Some(format!("{path}::answers::{name}<{scalar}, {joints}>"))
 }

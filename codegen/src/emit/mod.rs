@@ -14,12 +14,12 @@
 
 mod arguments;
 mod escape;
-pub mod figures;
+pub(crate) mod figures;
 mod friction;
 mod fused;
 mod generated;
-pub mod interface;
-pub mod module;
+pub(crate) mod interface;
+pub(crate) mod module;
 mod parameters;
 mod scale;
 mod scene;

@@ -19,7 +19,7 @@ use crate::scene::SceneRobot;
 
 /// How a robot's modules are printed.
 #[derive(Clone, Copy, Debug)]
-pub struct ModuleOptions<'a> {
+pub(crate) struct ModuleOptions<'a> {
     /// One module each.
     pub scalars: &'a [ScalarType],
     /// Where the sines and roots are that functions call.
@@ -57,7 +57,7 @@ const ALLOWED: &str = "dead_code, unreachable_pub, clippy::all, clippy::pedantic
 
 /// The name of one scalar's module: `puma560`, `puma560_f32`. A module that
 /// was asked for alone keeps the plain name.
-pub fn name(base: &str, scalar: ScalarType, all: &[ScalarType]) -> String {
+pub(crate) fn name(base: &str, scalar: ScalarType, all: &[ScalarType]) -> String {
     match scalar {
         ScalarType::F32 if all.contains(&ScalarType::F64) => format!("{base}_f32"),
         _ => base.to_owned(),
@@ -65,7 +65,7 @@ pub fn name(base: &str, scalar: ScalarType, all: &[ScalarType]) -> String {
 }
 
 /// The part of a generated file that is one module, where it has modules.
-pub fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
+pub(crate) fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
     let head = format!("pub mod {module} {{\n");
     let start = text.find(&head)? + head.len();
     let rest = &text[start..];
@@ -74,7 +74,7 @@ pub fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
 }
 
 /// The whole file; `codes` are the functions' programs in each scalar.
-pub fn write(
+pub(crate) fn write(
     robot: &Robot,
     scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
@@ -191,7 +191,7 @@ fn module(
 }
 
 /// The angles of a robot's functions.
-pub fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
+pub(crate) fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
     Angles::of(joints, functions.iter().map(|generated| &generated.program))
 }
 

@@ -11,18 +11,18 @@
 //! - [`error`]: why nothing was generated; [`reason`]: what it says of that
 
 mod contradiction;
-pub mod early;
-pub mod error;
-pub mod in_scene;
-pub mod keep;
-pub mod parameters;
+pub(crate) mod early;
+pub(crate) mod error;
+pub(crate) mod in_scene;
+pub(crate) mod keep;
+pub(crate) mod parameters;
 mod range;
-pub mod reason;
-pub mod request;
+pub(crate) mod reason;
+pub(crate) mod request;
 #[doc(hidden)]
-pub mod search;
+pub(crate) mod search;
 #[doc(hidden)]
-pub mod tolerate;
+pub(crate) mod tolerate;
 
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
@@ -44,7 +44,8 @@ use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
-pub use reason::{NoSines, TextDefect};
+pub(crate) use reason::NoSines;
+pub use reason::TextDefect;
 pub use request::{Fma, Prefer, Request};
 use search::{found, replay};
 

@@ -18,7 +18,7 @@ use dalembert_model::scalar::{Divide, Scalar};
 use crate::program::input::Input;
 
 /// How many points a fingerprint has.
-pub const POINTS: usize = 3;
+pub(crate) const POINTS: usize = 3;
 
 /// The values of one node at every point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

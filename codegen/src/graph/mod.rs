@@ -10,17 +10,18 @@
 //! A graph is a directed acyclic graph in topological order: operands come
 //! before their users. Negation is free, so it is no node: edges carry signs.
 
-pub mod builder;
+pub(crate) mod builder;
 mod counts;
-pub mod fingerprint;
-pub mod rules;
-pub mod symbol;
+pub(crate) mod fingerprint;
+pub(crate) mod rules;
+pub(crate) mod symbol;
 
 use dalembert_model::number::Exact;
 
 use crate::program::Input;
 
-pub use builder::{Builder, Folding, Value};
+pub use builder::Folding;
+pub(crate) use builder::{Builder, Value};
 pub use fingerprint::{Fingerprint, Points};
 
 /// The index of a node.

@@ -14,7 +14,7 @@ use crate::program::Input;
 /// The builder travels with the nodes, so there is no global state; two nodes
 /// in one expression must come from the same builder.
 #[derive(Clone)]
-pub enum Symbol {
+pub(crate) enum Symbol {
     /// An exact constant.
     Constant(Exact),
     /// A quotient of constants whose divisor is not zero, and no rational
@@ -26,13 +26,13 @@ pub enum Symbol {
 
 impl Symbol {
     /// An input of the traced program.
-    pub fn input(builder: &Rc<RefCell<Builder>>, input: Input) -> Symbol {
+    pub(crate) fn input(builder: &Rc<RefCell<Builder>>, input: Input) -> Symbol {
         let value = builder.borrow_mut().input(input);
         Symbol::wrap(builder, value)
     }
 
     /// The value in a builder, which is that of its nodes if it has any.
-    pub fn value(&self, builder: &mut Builder) -> Value {
+    pub(crate) fn value(&self, builder: &mut Builder) -> Value {
         match self {
             Symbol::Constant(constant) => Value::Constant(constant.clone()),
             Symbol::Quotient(a, b) => {

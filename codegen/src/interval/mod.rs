@@ -5,7 +5,7 @@
 //! - [`rounding`]: what rounding costs straight-line code
 
 mod doubles;
-pub mod rounding;
+pub(crate) mod rounding;
 mod scalar;
 mod trig;
 

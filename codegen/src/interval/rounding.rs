@@ -12,7 +12,7 @@ use crate::program::{Operation, Step};
 
 /// Intervals that hold what is exact and what is computed, and each step's own
 /// rounding.
-pub struct Forward {
+pub(crate) struct Forward {
     /// Step by step.
     pub values: Vec<Interval>,
     /// How far the two can be apart at the step itself.
@@ -21,7 +21,7 @@ pub struct Forward {
 
 /// Runs steps with every operation widened by its `rounding`, from what its exact
 /// result may be. `operands`: what a step reads, from the values before it.
-pub fn forward<C: PartialEq, I: PartialEq>(
+pub(crate) fn forward<C: PartialEq, I: PartialEq>(
     steps: &[Step<C, I>],
     operands: impl Fn(usize, &[Interval]) -> [Interval; 2],
     rounding: impl Fn(usize, Interval) -> f64,
@@ -44,7 +44,7 @@ pub fn forward<C: PartialEq, I: PartialEq>(
 
 /// The largest power of two that is at most x; x if that is no normal number.
 /// Rounding a number that is no larger than x moves it by at most this times u.
-pub fn binade(x: f64) -> f64 {
+pub(crate) fn binade(x: f64) -> f64 {
     match x.is_normal() && x > 0.0 {
         true => f64::from_bits(x.to_bits() & !((1 << 52) - 1)),
         false => x,

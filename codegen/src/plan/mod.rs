@@ -11,14 +11,14 @@
 //! - [`parse`], [`write`](Plan::write): the text; `variant` reads what a
 //!   tolerance left of a program
 
-pub mod error;
+pub(crate) mod error;
 pub mod file;
-pub mod parse;
+pub(crate) mod parse;
 mod variant;
 pub(crate) mod write;
 
-pub use error::{PlanError, PlanFault};
-pub use file::PlanFileError;
+pub use error::PlanError;
+pub(crate) use file::PlanFileError;
 
 use crate::edits;
 use crate::function::Function;

@@ -15,7 +15,7 @@ use crate::scene::{ParametersKey, SceneKey};
 use crate::simplify::Pass;
 
 /// The longest plan that is read.
-pub const MAX_BYTES: usize = 64 << 20;
+pub(crate) const MAX_BYTES: usize = 64 << 20;
 
 impl Plan {
     /// Reads a plan.

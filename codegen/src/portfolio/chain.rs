@@ -135,7 +135,7 @@ const MAX_AXES: usize = 16;
 /// A function in each of these chain forms, in one regrouping, in its axes and in
 /// others: what is dear in one choice of axes may be cheap in another, and
 /// the search mixes them.
-pub fn regrouped(
+pub(crate) fn regrouped(
     scene_robot: &SceneRobot,
     function: Function,
     forms: &[Form],
@@ -162,7 +162,11 @@ pub fn regrouped(
 
 /// A function in the regroupings that differ from a tuned one in one link, in its
 /// form.
-pub fn neighbours(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -> Vec<Graph> {
+pub(crate) fn neighbours(
+    scene_robot: &SceneRobot,
+    function: Function,
+    tuned: &Tuned,
+) -> Vec<Graph> {
     let regroupings = regroupings(scene_robot, function, &tuned.regrouping);
     let graph = |regrouping| in_regrouping(scene_robot, function, regrouping, tuned.form);
     regroupings.iter().map(graph).collect()
@@ -170,7 +174,7 @@ pub fn neighbours(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -
 
 /// The regroupings that differ from one in one link; none of chains too long to
 /// look at each.
-pub fn regroupings(
+pub(crate) fn regroupings(
     scene_robot: &SceneRobot,
     function: Function,
     regrouping: &Regrouping<Exact>,
@@ -183,7 +187,7 @@ pub fn regroupings(
 }
 
 /// A function in a regrouping and a form, merged by fingerprint.
-pub fn in_regrouping(
+pub(crate) fn in_regrouping(
     scene_robot: &SceneRobot,
     function: Function,
     regrouping: &Regrouping<Exact>,

@@ -21,7 +21,7 @@ const MAX_TRIED: usize = 3;
 
 /// How far a program is above the error that is allowed: at most one where it
 /// is admitted.
-pub type Limit<'a> = &'a dyn Fn(&Graph) -> f64;
+pub(crate) type Limit<'a> = &'a dyn Fn(&Graph) -> f64;
 
 /// Above every price of an admitted program. What is refused is compared by
 /// its error, so that a descent from there first goes where it is admitted.
@@ -42,7 +42,7 @@ fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
 /// The regrouping that is cheapest for a function in one of these forms within a limit,
 /// if there is one; the best so far where the watch is over. `from` are regroupings to
 /// start from, besides those that every robot has.
-pub fn tuned(
+pub(crate) fn tuned(
     scene_robot: &SceneRobot,
     function: Function,
     forms: &[Form],

@@ -22,7 +22,7 @@ use crate::simplify::Effort;
 /// other quantity that takes a load depends on more. The same for every request, so
 /// that whoever has the parameters has the load.
 #[must_use]
-pub fn chosen(scene_robot: SceneRobot) -> SceneRobot {
+pub(crate) fn chosen(scene_robot: SceneRobot) -> SceneRobot {
     if !scene_robot.has(RuntimeParameter::Payload) {
         return scene_robot;
     }

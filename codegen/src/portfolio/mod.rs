@@ -10,28 +10,27 @@
 //! - [`load`]: the numbers of the chain that a payload changes; `numbers`: how formulas
 //!   read them
 
-pub mod chain;
-pub mod descent;
-pub mod load;
+pub(crate) mod chain;
+pub(crate) mod descent;
+pub(crate) mod load;
 mod numbers;
-pub mod start;
-pub mod sums;
-pub mod textbook;
-pub mod tune;
+pub(crate) mod start;
+pub(crate) mod sums;
+pub(crate) mod textbook;
+pub(crate) mod tune;
 
 use dalembert_model::equations::Formulation;
 
 use crate::graph::Graph;
 use crate::program::Counts;
-pub use chain::{
-    in_regrouping, neighbours, regrouped, regroupings, skeleton, skeleton_for, trace_chain,
-};
-pub use descent::{Limit, tuned};
+pub(crate) use chain::{in_regrouping, neighbours, regrouped, regroupings};
+pub use chain::{skeleton, skeleton_for, trace_chain};
+pub(crate) use descent::{Limit, tuned};
 pub use start::Start;
-pub use sums::{Sums, angle_sums};
-pub use textbook::textbook;
+pub(crate) use sums::{Sums, angle_sums};
+pub(crate) use textbook::textbook;
 
-pub use dalembert_model::equations::chain::Form;
+pub(crate) use dalembert_model::equations::chain::Form;
 
 /// Longer chains are tuned by the price before the search alone.
 const MAX_QUICK_LINKS: usize = 10;

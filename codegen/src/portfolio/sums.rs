@@ -16,7 +16,7 @@ use crate::trace::symbols;
 
 /// How the sine and cosine of a sum of angles come about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sums {
+pub(crate) enum Sums {
     /// From those of the angles, so that large angles lose nothing.
     Products,
     /// Also as inputs: one evaluation for four products, of an angle that is
@@ -26,7 +26,7 @@ pub enum Sums {
 
 /// Values that no recursion forms but that shorten it: the sines and cosines
 /// of the angle sums of parallel joints.
-pub fn angle_sums(scene_robot: &SceneRobot, sums: Sums) -> Graph {
+pub(crate) fn angle_sums(scene_robot: &SceneRobot, sums: Sums) -> Graph {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let arm = skeleton(scene_robot);
     let chain = Chain::new(&arm, &Regrouping::base(&arm));

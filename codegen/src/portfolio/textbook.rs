@@ -8,7 +8,11 @@ use crate::scene::SceneRobot;
 use crate::trace::trace;
 
 /// A textbook formulation.
-pub fn textbook(scene_robot: &SceneRobot, function: Function, formulation: Formulation) -> Variant {
+pub(crate) fn textbook(
+    scene_robot: &SceneRobot,
+    function: Function,
+    formulation: Formulation,
+) -> Variant {
     let trace = trace(scene_robot, function, formulation);
     Variant {
         source: Source::Textbook(formulation),

@@ -62,7 +62,7 @@ pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 
 /// Descends from a regrouping. `price` must not depend on anything else; above the
 /// last argument, which is the best price so far, it need not be exact.
-pub fn tune(
+pub(crate) fn tune(
     arm: &Skeleton<Exact>,
     from: Regrouping<Exact>,
     forms: &[Form],
@@ -96,7 +96,7 @@ pub fn tune(
 }
 
 /// The cheapest of the forms in a regrouping that is given.
-pub fn form(
+pub(crate) fn form(
     arm: &Skeleton<Exact>,
     regrouping: Regrouping<Exact>,
     forms: &[Form],
@@ -174,7 +174,10 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
 
 /// Regroupings that differ in one link. What the joints before a link feel does
 /// not depend on its regrouping, so the search can mix these link by link.
-pub fn neighbours(arm: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
+pub(crate) fn neighbours(
+    arm: &Skeleton<Exact>,
+    regrouping: &Regrouping<Exact>,
+) -> Vec<Regrouping<Exact>> {
     let mut found: Vec<Regrouping<Exact>> = Vec::new();
     if arm.links.len() > MAX_TUNED {
         return found;

@@ -9,7 +9,7 @@ use super::{Operand, Operation, Step};
 
 /// Where a step reads what no step computes.
 #[derive(Debug)]
-pub struct Leaf<'p, C, I> {
+pub(crate) struct Leaf<'p, C, I> {
     /// The step that reads it.
     pub step: usize,
     /// 0 for its left operand, 1 for its right one.
@@ -98,7 +98,7 @@ fn add_each<T: Machine>(
 /// `visit` is given every step with its whole adjoint, users before operands,
 /// and says whether to go on through it: what adds nothing ends there. `leaf`
 /// is given what steps read besides each other, use by use.
-pub fn backward<'p, C, I, S: Divide>(
+pub(crate) fn backward<'p, C, I, S: Divide>(
     steps: &'p [Step<C, I>],
     top: usize,
     operands: impl Fn(usize) -> [S; 2],

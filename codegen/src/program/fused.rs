@@ -87,7 +87,7 @@ impl<C, I> Fusion<'_, C, I> {
 /// Whether a step's rounding can lose what is below the least normal number: that
 /// of a product, a quotient, and a sum with a fused product. A sum of two floats
 /// cannot.
-pub fn underflows<C, I>(steps: &[Step<C, I>], index: usize) -> bool {
+pub(crate) fn underflows<C, I>(steps: &[Step<C, I>], index: usize) -> bool {
     match steps.get(index).map(|step| step.operation) {
         Some(Operation::Mul | Operation::Div) => true,
         Some(Operation::Add | Operation::Sub) => fusion(steps, index).is_some(),
@@ -97,7 +97,7 @@ pub fn underflows<C, I>(steps: &[Step<C, I>], index: usize) -> bool {
 
 /// The ends of pieces of at least so many steps; none ends between a product and
 /// the sum that takes it.
-pub fn pieces<C, I>(steps: &[Step<C, I>], length: usize) -> Vec<std::ops::Range<usize>> {
+pub(crate) fn pieces<C, I>(steps: &[Step<C, I>], length: usize) -> Vec<std::ops::Range<usize>> {
     let mut pieces = Vec::new();
     let mut start = 0;
     while start < steps.len() {

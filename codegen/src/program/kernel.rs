@@ -15,16 +15,16 @@ pub struct Angle;
 pub type Term = Operand<Literal, Angle>;
 
 /// The angle as an operand.
-pub const ANGLE: Term = Operand::Input(Angle);
+pub(crate) const ANGLE: Term = Operand::Input(Angle);
 
 /// A kernel's step.
-pub type KernelStep = Step<Literal, Angle>;
+pub(crate) type KernelStep = Step<Literal, Angle>;
 
 /// A kernel's result.
-pub type Value = Output<Literal, Angle>;
+pub(crate) type Value = Output<Literal, Angle>;
 
 /// A literal as an operand.
-pub fn literal(value: f64) -> Term {
+pub(crate) fn literal(value: f64) -> Term {
     Operand::Constant(Literal(value))
 }
 

@@ -17,24 +17,24 @@
 //! - [`text`]: operands and steps as plans and certificates write them
 //! - [`machine`]: floats that run as emitted code does
 
-pub mod adjoint;
-pub mod columns;
-pub mod counts;
+pub(crate) mod adjoint;
+pub(crate) mod columns;
+pub(crate) mod counts;
 mod difference;
 mod evaluate;
-pub mod fused;
-pub mod input;
-pub mod kernel;
-pub mod library;
+pub(crate) mod fused;
+pub(crate) mod input;
+pub(crate) mod kernel;
+pub(crate) mod library;
 mod literal;
 mod lowered;
-pub mod machine;
+pub(crate) mod machine;
 mod map;
-pub mod run;
-pub mod scalar_type;
-pub mod shallow;
-pub mod speed;
-pub mod text;
+pub(crate) mod run;
+pub(crate) mod scalar_type;
+pub(crate) mod shallow;
+pub(crate) mod speed;
+pub(crate) mod text;
 
 use std::collections::BTreeMap;
 
@@ -234,7 +234,7 @@ impl Program {
 }
 
 /// Whether a program returns D.
-pub fn has_inertia(program: &Program) -> bool {
+pub(crate) fn has_inertia(program: &Program) -> bool {
     let mut quantities = program.function.quantities().iter();
     quantities.any(|quantity| quantity.is_definite())
 }

@@ -51,7 +51,7 @@ impl LoadParameters {
 }
 
 /// Where a number is in a list, and whether it is negated there.
-pub fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
+pub(crate) fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
     let is_negative = number.leads_negative();
     let number = if is_negative {
         number.neg()

@@ -20,10 +20,10 @@
 //! entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
-pub mod base;
+pub(crate) mod base;
 mod friction;
 mod key;
-pub mod load;
+pub(crate) mod load;
 mod motion;
 mod posed;
 mod states;
@@ -40,10 +40,12 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::{Scene, SceneFinding};
 
 use base::{BaseParameters, NoBase};
-pub use key::{ParametersKey, SceneKey, input_hash};
+pub(crate) use key::ParametersKey;
+pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
 pub use motion::motion;
-pub use posed::{Posed, Value};
+pub(crate) use posed::Posed;
+pub(crate) use posed::Value;
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;

@@ -30,7 +30,7 @@ pub struct Posed<S> {
 }
 
 /// A value of a formula that is recorded: over a program's inputs and exact numbers.
-pub type Value = Recorded<Input, Exact>;
+pub(crate) type Value = Recorded<Input, Exact>;
 
 impl SceneRobot {
     /// A formula over the scene's arm and motion as a function takes them, as it is

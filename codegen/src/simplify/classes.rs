@@ -12,14 +12,14 @@ use crate::graph::{Builder, Edge, Fingerprint, Folding, Graph, Node, Points, Val
 use crate::program::Input;
 
 /// The index of a class.
-pub type ClassId = u32;
+pub(crate) type ClassId = u32;
 
 /// One way to compute a class from two others; operands ascending.
 ///
 /// The operands stand for their canonical prints, and the result for the
 /// class up to sign: signs are found again when a graph is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ENode {
+pub(crate) enum ENode {
     /// a + b
     Sum(ClassId, ClassId),
     /// a − b
@@ -33,7 +33,7 @@ pub enum ENode {
 
 impl ENode {
     /// The operands.
-    pub fn operands(self) -> [ClassId; 2] {
+    pub(crate) fn operands(self) -> [ClassId; 2] {
         match self {
             ENode::Sum(a, b)
             | ENode::Difference(a, b)
@@ -54,7 +54,7 @@ impl ENode {
 
 /// A value that costs nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Leaf {
+pub(crate) enum Leaf {
     /// An exact constant.
     Constant(Exact),
     /// An input.
@@ -63,7 +63,7 @@ pub enum Leaf {
 
 /// A class up to sign.
 #[derive(Clone, Debug)]
-pub struct Class {
+pub(crate) struct Class {
     /// The canonical print.
     pub print: Fingerprint,
     /// The leaf that it is, if it is one: then there are no ways.
@@ -74,7 +74,7 @@ pub struct Class {
 
 /// A class with a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Signed {
+pub(crate) struct Signed {
     /// The class.
     pub class: ClassId,
     /// Whether the value is the negated canonical one.
@@ -83,7 +83,7 @@ pub struct Signed {
 
 /// All classes of one function.
 #[derive(Clone, Debug, Default)]
-pub struct Classes {
+pub(crate) struct Classes {
     classes: Vec<Class>,
     by_print: FxHashMap<Fingerprint, ClassId>,
     /// The function's results; `None` is zero.
@@ -92,7 +92,7 @@ pub struct Classes {
 
 impl Classes {
     /// The classes of a graph, which also gives the outputs.
-    pub fn new(graph: &Graph) -> Classes {
+    pub(crate) fn new(graph: &Graph) -> Classes {
         let mut classes = Classes::default();
         let values = classes.absorb(graph);
         classes.outputs = graph
@@ -105,7 +105,7 @@ impl Classes {
 
     /// The first way of each class: of a fresh [`Classes::new`] the program
     /// that the graph was, since a merged graph computes each class once.
-    pub fn program(&self) -> Vec<Option<ENode>> {
+    pub(crate) fn program(&self) -> Vec<Option<ENode>> {
         self.classes
             .iter()
             .map(|class| class.ways.first().copied())
@@ -113,29 +113,24 @@ impl Classes {
     }
 
     /// How many classes there are.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.classes.len()
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.classes.is_empty()
-    }
-
     /// A class.
-    pub fn get(&self, id: ClassId) -> &Class {
+    pub(crate) fn get(&self, id: ClassId) -> &Class {
         &self.classes[id as usize]
     }
 
     /// The class of a print, and whether the print is its negative.
-    pub fn find(&self, print: &Fingerprint) -> Option<Signed> {
+    pub(crate) fn find(&self, print: &Fingerprint) -> Option<Signed> {
         let (canonical, negative) = print.canonical();
         let &class = self.by_print.get(&canonical)?;
         Some(Signed { class, negative })
     }
 
     /// The class of a print, made if it is new.
-    pub fn intern(&mut self, print: &Fingerprint) -> Signed {
+    pub(crate) fn intern(&mut self, print: &Fingerprint) -> Signed {
         let (canonical, negative) = print.canonical();
         let classes = &mut self.classes;
         let class = *self.by_print.entry(canonical).or_insert_with(|| {
@@ -150,14 +145,14 @@ impl Classes {
     }
 
     /// Declares a class to be a leaf: it needs no operation any more.
-    pub fn set_leaf(&mut self, id: ClassId, leaf: Leaf) {
+    pub(crate) fn set_leaf(&mut self, id: ClassId, leaf: Leaf) {
         let class = &mut self.classes[id as usize];
         class.ways.clear();
         class.leaf.get_or_insert(leaf);
     }
 
     /// Adds a way to compute a class; whether it was new.
-    pub fn add_way(&mut self, id: ClassId, way: ENode) -> bool {
+    pub(crate) fn add_way(&mut self, id: ClassId, way: ENode) -> bool {
         let way = way.ordered();
         if let Some(constant) = self.folded(way) {
             // Up to sign it is the class, which stands for its canonical value.
@@ -191,7 +186,7 @@ impl Classes {
     }
 
     /// The print of a way's result.
-    pub fn way_print(&self, way: ENode) -> Fingerprint {
+    pub(crate) fn way_print(&self, way: ENode) -> Fingerprint {
         let [a, b] = way.operands().map(|id| self.get(id).print);
         match way {
             ENode::Sum(..) => a.add(&b),
@@ -203,7 +198,7 @@ impl Classes {
 
     /// Adds every node of a graph as a way to compute its class. Returns each
     /// node's class; `None` is zero.
-    pub fn absorb(&mut self, graph: &Graph) -> Vec<Option<Signed>> {
+    pub(crate) fn absorb(&mut self, graph: &Graph) -> Vec<Option<Signed>> {
         let points = Points::SEARCH;
         let mut prints: Vec<Fingerprint> = Vec::with_capacity(graph.nodes.len());
         let mut values = Vec::with_capacity(graph.nodes.len());
@@ -272,7 +267,7 @@ impl Classes {
     ///
     /// The choice must be acyclic below the outputs and name a way for each
     /// class that they need; classes beyond its end have no way.
-    pub fn graph(&self, choice: &[Option<ENode>]) -> Graph {
+    pub(crate) fn graph(&self, choice: &[Option<ENode>]) -> Graph {
         let mut builder = Builder::new(Folding::Semantic);
         let mut values: Vec<Option<Value>> = vec![None; self.len()];
         let mut pending: Vec<ClassId> = Vec::new();

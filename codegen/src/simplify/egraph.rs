@@ -18,7 +18,7 @@ use crate::graph::Fingerprint;
 
 /// How far saturation goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SaturationLimits {
+pub(crate) struct SaturationLimits {
     /// E-nodes at which it stops.
     pub nodes: usize,
     /// Iterations of each phase in each round.
@@ -32,7 +32,7 @@ const NODES_PER_TERM: usize = 50;
 
 /// A class of [`Classes`] as a leaf of the e-graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct LeafRef(ClassId);
+pub(crate) struct LeafRef(ClassId);
 
 impl fmt::Display for LeafRef {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -62,7 +62,7 @@ define_language! {
 
 /// Carries every e-class's fingerprint.
 #[derive(Clone, Debug, Default)]
-pub struct Prints {
+pub(crate) struct Prints {
     leaves: FxHashMap<ClassId, Fingerprint>,
 }
 
@@ -93,7 +93,7 @@ impl Analysis<Term> for Prints {
 /// Saturates from the chosen program and adds what it finds to the classes.
 ///
 /// `choice` names the way that each needed class is computed by now.
-pub fn saturate(classes: &mut Classes, choice: &[Option<ENode>], budget: SaturationLimits) {
+pub(crate) fn saturate(classes: &mut Classes, choice: &[Option<ENode>], budget: SaturationLimits) {
     let mut egraph = EGraph::new(Prints {
         leaves: (0..classes.len() as ClassId)
             .filter(|&id| classes.get(id).leaf.is_some())

@@ -8,13 +8,13 @@
 //! - [`extract`]: the cheapest program that the ways allow
 //! - [`search`]: discovery and extraction in turns, to a plateau
 
-pub mod classes;
-pub mod discover;
-pub mod effort;
-pub mod egraph;
-pub mod extract;
-pub mod rules;
-pub mod search;
+pub(crate) mod classes;
+pub(crate) mod discover;
+pub(crate) mod effort;
+pub(crate) mod egraph;
+pub(crate) mod extract;
+pub(crate) mod rules;
+pub(crate) mod search;
 mod sieve;
 
 use std::fmt;
@@ -25,7 +25,7 @@ use crate::random::Random;
 use crate::watch::{FunctionWatch, Part};
 use classes::Classes;
 pub use effort::Effort;
-pub use extract::{CostModel, Extraction, Schedule};
+pub(crate) use extract::CostModel;
 
 /// What one step left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +82,7 @@ pub struct Simplified {
 /// `helpers` are graphs of other values that may serve, such as the sines of
 /// angle sums. A program that `accept` refuses is not taken, unless it refuses
 /// every variant. Returns `None` if there is no variant.
-pub fn simplify(
+pub(crate) fn simplify(
     variants: &[Graph],
     helpers: &[Graph],
     effort: Effort,

@@ -9,7 +9,7 @@ use crate::random::Random;
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SearchLimits {
+pub(crate) struct SearchLimits {
     /// Rounds at most.
     pub rounds: usize,
     /// Rounds without a gain before it stops.
@@ -28,7 +28,7 @@ const MAX_OWN: usize = 1_500;
 
 /// One round from a program: what other graphs and the fingerprints offer,
 /// then extraction. Never returns a dearer program.
-pub fn round(
+pub(crate) fn round(
     program: &Graph,
     variants: &[Graph],
     helpers: &[Graph],
@@ -58,7 +58,7 @@ pub fn round(
 }
 
 /// A round without annealing: what a program is about worth.
-pub fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
+pub(crate) fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
     let limits = SearchLimits {
         rounds: 1,
         patience: 0,
@@ -70,7 +70,7 @@ pub fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
 }
 
 /// Climbs, anneals and climbs again from a choice.
-pub fn extract(
+pub(crate) fn extract(
     classes: &Classes,
     choice: &[Option<ENode>],
     schedule: Schedule,

@@ -11,13 +11,13 @@
 //! A robot's joints have limits, so most angles need none of what a library's
 //! sine does for large ones; and a tolerance of 1e-6 needs no sixteen digits.
 
-pub mod called;
-pub mod choose;
-pub mod forms;
-pub mod poly;
-pub mod proof;
-pub mod reduction;
-pub mod series;
+pub(crate) mod called;
+pub(crate) mod choose;
+pub(crate) mod forms;
+pub(crate) mod poly;
+pub(crate) mod proof;
+pub(crate) mod reduction;
+pub(crate) mod series;
 #[cfg(test)]
 mod tests;
 
@@ -159,7 +159,7 @@ pub fn stated(scalar: ScalarType) -> f64 {
 
 /// The positions of a robot's joints: their limits, or what is
 /// [`stated`] where there are none. Joints that slide have no angle.
-pub fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
+pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
     let value = |position: &Position| match position {
         Position::Angle(angle) => angle.to_f64(),
         Position::Length(length) => f64::nearest_rational(length),
@@ -175,7 +175,7 @@ pub fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
 }
 
 /// The values that an angle takes as the emitted code adds it.
-pub fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarType) -> Interval {
+pub(crate) fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarType) -> Interval {
     let (mut sum, mut reach) = (Interval::ZERO, 0.0);
     for (index, (joint, negative)) in angle.terms().enumerate() {
         let q = positions.get(joint).copied().unwrap_or(Interval::ALL);
@@ -194,7 +194,7 @@ pub fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarType) -> 
 ///
 /// # Errors
 /// The first angle for which there are none.
-pub fn polynomials(
+pub(crate) fn polynomials(
     program: &Program,
     scalar: ScalarType,
     positions: &[Interval],
@@ -265,7 +265,7 @@ fn one(
 }
 
 /// The polynomials of one scalar; none if its sines are a library's.
-pub fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
+pub(crate) fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
     let found = all.iter().find(|(known, _)| *known == scalar);
     found.map_or(&[], |(_, sines)| sines)
 }

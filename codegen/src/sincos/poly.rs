@@ -12,14 +12,14 @@ use dalembert_model::number::{Rational, Rounded};
 
 /// Σ c_k·x^k with c_k = `coefficients[k]`·2^−`exponent`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Poly {
+pub(crate) struct Poly {
     coefficients: Vec<BigInt>,
     exponent: u64,
 }
 
 impl Poly {
     /// From integer coefficients.
-    pub fn integers(coefficients: Vec<BigInt>) -> Poly {
+    pub(crate) fn integers(coefficients: Vec<BigInt>) -> Poly {
         Poly {
             coefficients,
             exponent: 0,
@@ -28,7 +28,7 @@ impl Poly {
     }
 
     /// A float; `None` if it is not finite.
-    pub fn constant(value: f64) -> Option<Poly> {
+    pub(crate) fn constant(value: f64) -> Option<Poly> {
         if !value.is_finite() {
             return None;
         }
@@ -50,30 +50,30 @@ impl Poly {
     }
 
     /// x
-    pub fn variable() -> Poly {
+    pub(crate) fn variable() -> Poly {
         Poly::integers(vec![BigInt::zero(), BigInt::one()])
     }
 
     /// The degree; zero for zero.
-    pub fn degree(&self) -> usize {
+    pub(crate) fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
     }
 
     /// Bits of the largest numerator and of the denominator.
-    pub fn bits(&self) -> u64 {
+    pub(crate) fn bits(&self) -> u64 {
         let numerators = self.coefficients.iter().map(BigInt::bits).max();
         numerators.unwrap_or(0) + self.exponent
     }
 
     /// c_k
-    pub fn coefficient(&self, k: usize) -> Rational {
+    pub(crate) fn coefficient(&self, k: usize) -> Rational {
         let numerator = self.coefficients.get(k).cloned().unwrap_or_default();
         Rational::new(numerator, BigInt::one() << self.exponent)
     }
 
     /// self + other
     #[must_use]
-    pub fn add(&self, other: &Poly) -> Poly {
+    pub(crate) fn add(&self, other: &Poly) -> Poly {
         let exponent = self.exponent.max(other.exponent);
         let (a, b) = (self.at(exponent), other.at(exponent));
         let len = a.len().max(b.len());
@@ -88,13 +88,13 @@ impl Poly {
 
     /// self − other
     #[must_use]
-    pub fn sub(&self, other: &Poly) -> Poly {
+    pub(crate) fn sub(&self, other: &Poly) -> Poly {
         self.add(&other.scaled(&BigInt::from(-1)))
     }
 
     /// self·other
     #[must_use]
-    pub fn mul(&self, other: &Poly) -> Poly {
+    pub(crate) fn mul(&self, other: &Poly) -> Poly {
         let len = self.coefficients.len() + other.coefficients.len();
         let mut coefficients = vec![BigInt::zero(); len];
         for (i, a) in self.coefficients.iter().enumerate() {
@@ -111,7 +111,7 @@ impl Poly {
 
     /// self·factor
     #[must_use]
-    pub fn scaled(&self, factor: &BigInt) -> Poly {
+    pub(crate) fn scaled(&self, factor: &BigInt) -> Poly {
         Poly {
             coefficients: self.coefficients.iter().map(|c| c * factor).collect(),
             exponent: self.exponent,
@@ -121,7 +121,7 @@ impl Poly {
 
     /// The polynomial p(inner(x)).
     #[must_use]
-    pub fn compose(&self, inner: &Poly) -> Poly {
+    pub(crate) fn compose(&self, inner: &Poly) -> Poly {
         let mut sum = Poly::integers(Vec::new());
         for c in self.coefficients.iter().rev() {
             let constant = Poly {
@@ -136,7 +136,7 @@ impl Poly {
     /// This over a divisor with coefficients cut to few bits, and what that
     /// changes at most where |x| is up to a reach.
     #[must_use]
-    pub fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
+    pub(crate) fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
         const BITS: u64 = 100;
         // 2^digit is at least the reach.
         let digit = libm::ceil(libm::log2(reach.max(1.0))) as u64 + 1;
@@ -156,7 +156,7 @@ impl Poly {
 
     /// p((centre + radius·y)/2^`bits`) as a polynomial in y.
     #[must_use]
-    pub fn on(&self, centre: i64, radius: i64, bits: u64) -> Poly {
+    pub(crate) fn on(&self, centre: i64, radius: i64, bits: u64) -> Poly {
         let mut sum: Vec<BigInt> = Vec::with_capacity(self.coefficients.len());
         for (step, c) in self.coefficients.iter().rev().enumerate() {
             // sum·(centre + radius·y) + c, all times 2^(bits·step).
@@ -180,7 +180,7 @@ impl Poly {
     ///
     /// Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) + T_(k−1).
     #[must_use]
-    pub fn chebyshev(&self) -> Poly {
+    pub(crate) fn chebyshev(&self) -> Poly {
         let mut sum: Vec<BigInt> = Vec::new();
         for (halvings, c) in self.coefficients.iter().rev().enumerate() {
             let mut next = vec![BigInt::zero(); sum.len() + 1];
@@ -203,7 +203,7 @@ impl Poly {
 
     /// Σ a_k·T_k for k up to a degree, as Σ c_k·x^k.
     #[must_use]
-    pub fn from_chebyshev(&self, degree: usize) -> Poly {
+    pub(crate) fn from_chebyshev(&self, degree: usize) -> Poly {
         let two_x = Poly::integers(vec![BigInt::zero(), BigInt::from(2)]);
         let (mut low, mut high) = (Poly::integers(vec![BigInt::one()]), Poly::variable());
         let mut sum = Poly::integers(Vec::new());
@@ -222,7 +222,7 @@ impl Poly {
     /// Of the Chebyshev form this bounds |p| on \[−1, 1\], where no |T_k|
     /// exceeds one; for what is left of a near-minimax fit, which has one
     /// large coefficient, it is close.
-    pub fn sum_from(&self, k: usize, divisor: &BigInt) -> f64 {
+    pub(crate) fn sum_from(&self, k: usize, divisor: &BigInt) -> f64 {
         let sum: BigInt = self.coefficients.iter().skip(k).map(Signed::abs).sum();
         if sum.is_zero() {
             return 0.0;

@@ -54,7 +54,7 @@ const CELLS: usize = 48;
 
 /// Bounds for every float of the scalar in the range; `None` if the kernel is
 /// nothing that can be bounded.
-pub fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
+pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
     if kernel.steps.len() > MAX_STEPS {
         return None;
     }

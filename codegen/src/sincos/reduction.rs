@@ -13,11 +13,11 @@ use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operand, Operation, ScalarType};
 
 /// Steps that it takes.
-pub const STEPS: usize = 7;
+pub(crate) const STEPS: usize = 7;
 
 /// What is left of an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rest {
+pub(crate) struct Rest {
     /// The values that it takes as computed.
     pub range: Interval,
     /// How far it is from the angle less whole turns.
@@ -43,7 +43,7 @@ fn turn() -> Rational {
 }
 
 /// Prints the reduction into an empty kernel; the rest is what it returns.
-pub fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
+pub(crate) fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
     let round = |x: &Rational| match scalar {
         ScalarType::F64 => f64::nearest_rational(x),
         ScalarType::F32 => f32::nearest_rational(x).into(),
@@ -68,7 +68,7 @@ pub fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
 
 /// The reduction that a kernel begins with, as (ι, A, B), and the kernel of
 /// what is left; `None` if it begins with none.
-pub fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
+pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
     use Operand::{Constant, Input, Step as At};
     use Operation::{Add, Mul, Sub};
     let [s1, s2, s3, s4, s5, s6, s7, rest @ ..] = kernel.steps.as_slice() else {
@@ -113,7 +113,7 @@ pub fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> 
 
 /// What is left of angles in a range; `None` if there are too many turns for
 /// the way they are counted.
-pub fn rest(
+pub(crate) fn rest(
     [inverse, much, little]: [f64; 3],
     scalar: ScalarType,
     range: Interval,

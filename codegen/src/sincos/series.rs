@@ -15,7 +15,7 @@ use super::poly::Poly;
 use crate::program::ScalarType;
 
 /// Beyond this |angle| Taylor's series is no way to prove anything.
-pub const FARTHEST: f64 = 40.0;
+pub(crate) const FARTHEST: f64 = 40.0;
 
 /// What Taylor's polynomials may leave out.
 const NEGLIGIBLE: f64 = 1e-26;
@@ -31,7 +31,7 @@ pub enum Wave {
 
 /// Taylor's polynomials about zero, times n!, so that they are integers.
 #[derive(Clone, Debug)]
-pub struct Taylor {
+pub(crate) struct Taylor {
     sin: Poly,
     cos: Poly,
     /// n!
@@ -45,7 +45,7 @@ impl Taylor {
     ///
     /// Every derivative of a sine is at most one, so what degree n leaves out
     /// is at most reach^(n+1)/(n+1)!.
-    pub fn up_to(reach: f64) -> Option<Taylor> {
+    pub(crate) fn up_to(reach: f64) -> Option<Taylor> {
         if reach.is_nan() || reach > FARTHEST {
             return None;
         }
@@ -77,7 +77,7 @@ impl Taylor {
     }
 
     /// One of the two.
-    pub fn wave(&self, wave: Wave) -> &Poly {
+    pub(crate) fn wave(&self, wave: Wave) -> &Poly {
         match wave {
             Wave::Sin => &self.sin,
             Wave::Cos => &self.cos,
@@ -150,7 +150,7 @@ impl Fit {
 }
 
 /// Up to the next multiple of 2^−20: few bits make short integers.
-pub fn coarse(x: f64) -> f64 {
+pub(crate) fn coarse(x: f64) -> f64 {
     const GRID: f64 = 1_048_576.0;
     (libm::floor(x.abs() * GRID) + 1.0) / GRID
 }

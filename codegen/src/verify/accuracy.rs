@@ -14,7 +14,7 @@ use crate::scene::SceneRobot;
 const FLOOR: f64 = 4.0;
 
 /// The factor in rounding error that fewer operations may cost.
-pub const WORSE: f64 = 4.0;
+pub(crate) const WORSE: f64 = 4.0;
 
 /// Longer chains are not measured: their programs are what the recursion is.
 const MAX_MEASURED: usize = 16;
@@ -37,7 +37,7 @@ pub struct Refused {
 /// Accepts a program of a function that costs no more than [`WORSE`] times
 /// the error of a textbook form.
 #[derive(Clone, Debug)]
-pub struct AccuracyFilter<'a> {
+pub(crate) struct AccuracyFilter<'a> {
     scene_robot: &'a SceneRobot,
     function: Function,
     yardstick: Option<Rounding>,
@@ -46,7 +46,7 @@ pub struct AccuracyFilter<'a> {
 impl<'a> AccuracyFilter<'a> {
     /// Measures the textbook form: the link-frame recursion; for h_ikm, which
     /// it gives only by differences, Lagrange–Euler.
-    pub fn new(scene_robot: &'a SceneRobot, function: Function) -> Self {
+    pub(crate) fn new(scene_robot: &'a SceneRobot, function: Function) -> Self {
         let n = scene_robot.joints().len();
         let mut quantities = function.quantities().iter();
         let formulation = if quantities.any(|quantity| quantity.by_differences()) {
@@ -66,7 +66,7 @@ impl<'a> AccuracyFilter<'a> {
     }
 
     /// Whatever it costs.
-    pub fn lenient(scene_robot: &'a SceneRobot, function: Function) -> Self {
+    pub(crate) fn lenient(scene_robot: &'a SceneRobot, function: Function) -> Self {
         AccuracyFilter {
             scene_robot,
             function,
@@ -75,13 +75,13 @@ impl<'a> AccuracyFilter<'a> {
     }
 
     /// Whether the program is accurate enough.
-    pub fn accepts(&self, graph: &Graph) -> bool {
+    pub(crate) fn accepts(&self, graph: &Graph) -> bool {
         self.excess(graph) <= 1.0
     }
 
     /// The program's error over the largest that is accepted; zero where
     /// nothing is measured.
-    pub fn excess(&self, graph: &Graph) -> f64 {
+    pub(crate) fn excess(&self, graph: &Graph) -> f64 {
         let Some(yardstick) = &self.yardstick else {
             return 0.0;
         };
@@ -90,7 +90,7 @@ impl<'a> AccuracyFilter<'a> {
     }
 
     /// The program's largest normwise error, in units of u.
-    pub fn error(&self, graph: &Graph) -> f64 {
+    pub(crate) fn error(&self, graph: &Graph) -> f64 {
         estimate(self.scene_robot, self.function, graph).worst()
     }
 }

@@ -30,11 +30,11 @@ const MAX_TRIES: u64 = 1 << 14;
 
 /// A statement, written so that two of them never have the same bytes: every
 /// text goes in behind its length, every list behind the number of its items.
-pub struct Transcript(Hash);
+pub(crate) struct Transcript(Hash);
 
 impl Transcript {
     /// An empty statement with a purpose.
-    pub fn new(purpose: &str) -> Transcript {
+    pub(crate) fn new(purpose: &str) -> Transcript {
         let mut transcript = Transcript(Hash::new());
         transcript.text(DOMAIN);
         transcript.text(purpose);
@@ -42,12 +42,12 @@ impl Transcript {
     }
 
     /// A number.
-    pub fn number(&mut self, x: usize) {
+    pub(crate) fn number(&mut self, x: usize) {
         self.0.update((x as u64).to_le_bytes());
     }
 
     /// A text.
-    pub fn text(&mut self, text: &str) {
+    pub(crate) fn text(&mut self, text: &str) {
         self.number(text.len());
         self.0.update(text.as_bytes());
     }
@@ -58,7 +58,7 @@ impl Transcript {
     }
 
     /// The robot with its payload and gravity, what is locked, the results.
-    pub fn scene_robot(&mut self, scene_robot: &SceneRobot) {
+    pub(crate) fn scene_robot(&mut self, scene_robot: &SceneRobot) {
         self.text(&write_robot(scene_robot.robot()));
         self.text(&scene_robot.scene().map(write_scene).unwrap_or_default());
         self.numbers(scene_robot.rows());
@@ -72,7 +72,7 @@ impl Transcript {
     }
 
     /// A program with its exact constants.
-    pub fn program(&mut self, program: &Program) {
+    pub(crate) fn program(&mut self, program: &Program) {
         self.text(&program.function.text());
         self.number(program.joints);
         self.numbers(&program.rows);
@@ -132,19 +132,19 @@ impl Transcript {
     }
 
     /// Nothing more is added: where it is evaluated is decided.
-    pub fn seal(self) -> Challenge {
+    pub(crate) fn seal(self) -> Challenge {
         Challenge(self.0.finalize())
     }
 }
 
 /// The seed of primes and points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Challenge([u8; 32]);
+pub(crate) struct Challenge([u8; 32]);
 
 impl Challenge {
     /// A prime with its point, the same for the same index; `None` if there is
     /// no prime among [`MAX_TRIES`] numbers, which never happens.
-    pub fn draw(&self, index: usize) -> Option<Point> {
+    pub(crate) fn draw(&self, index: usize) -> Option<Point> {
         let words = (0..MAX_TRIES / 4).flat_map(|counter| self.words(index, "prime", "", counter));
         // From 2⁶² to 2⁶³, and 3 modulo 4, where −1 is no square.
         let mut odd = words.map(|word| (word >> 2) | (1 << 62) | 3);
@@ -171,7 +171,7 @@ impl Challenge {
 
 /// A prime, and a residue for every input and every constant angle.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub(crate) struct Point {
     seed: Challenge,
     index: usize,
     prime: Prime,
@@ -179,7 +179,7 @@ pub struct Point {
 
 impl Point {
     /// The prime.
-    pub fn prime(&self) -> Prime {
+    pub(crate) fn prime(&self) -> Prime {
         self.prime
     }
 
@@ -199,7 +199,7 @@ impl Point {
     }
 
     /// The value of an input.
-    pub fn input(&self, input: Input) -> Residue {
+    pub(crate) fn input(&self, input: Input) -> Residue {
         let free = |kind: &str, joint: usize| {
             Residue::new(self.prime, self.residue(kind, &joint.to_string()))
         };
@@ -217,7 +217,7 @@ impl Point {
 
     /// The value of a constant; `None` if the prime divides a denominator or a
     /// coefficient that is not zero: it is unfit then.
-    pub fn constant(&self, value: &Exact) -> Option<Residue> {
+    pub(crate) fn constant(&self, value: &Exact) -> Option<Residue> {
         value.map(
             &mut |x: &Rational| Residue::of_rational(self.prime, x),
             &mut |angle| match angle {

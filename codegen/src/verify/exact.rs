@@ -42,10 +42,10 @@ use crate::scene::SceneRobot;
 
 /// The most joints for which Lagrange–Euler itself is the yardstick: its cost
 /// grows with n⁴ to n⁵.
-pub const WRITTEN_LIMIT: usize = 10;
+pub(crate) const WRITTEN_LIMIT: usize = 10;
 
 /// At how many primes, each with its point, a statement is proved.
-pub const PRIMES: usize = 4;
+pub(crate) const PRIMES: usize = 4;
 
 /// Primes to draw before a statement is given up for want of fit ones.
 pub(super) const MAX_DRAWS: usize = 64;

@@ -20,19 +20,19 @@ use num_bigint::BigUint;
 use num_traits::One;
 
 /// Attempts that somebody is granted who wants a wrong program to pass.
-pub const ATTEMPTS_EXPONENT: u32 = 64;
+pub(crate) const ATTEMPTS_EXPONENT: u32 = 64;
 
 /// What is left of the chance after so many attempts is below 10 to the power
 /// of this, or nothing is proved.
-pub const MAX_EXPONENT: i32 = -9;
+pub(crate) const MAX_EXPONENT: i32 = -9;
 
 /// The chance of a miss in one attempt is below 10 to the power of this.
-pub fn exponent(degree: u64, height: u64, primes: usize) -> i32 {
+pub(crate) fn exponent(degree: u64, height: u64, primes: usize) -> i32 {
     digits(degree, height, primes, 0)
 }
 
 /// Whether a wrong program is unlikely to pass, whatever was attempted.
-pub fn is_small(degree: u64, height: u64, primes: usize) -> bool {
+pub(crate) fn is_small(degree: u64, height: u64, primes: usize) -> bool {
     digits(degree, height, primes, ATTEMPTS_EXPONENT) <= MAX_EXPONENT
 }
 

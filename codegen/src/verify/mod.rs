@@ -12,18 +12,18 @@
 //! - [`running`]: how far code may be off at a state, from its own numbers
 //! - [`floating`]: what rounding costs: against the runtime and given states
 
-pub mod accuracy;
-pub mod challenge;
-pub mod condition;
-pub mod degree;
-pub mod exact;
-pub mod floating;
+pub(crate) mod accuracy;
+pub(crate) mod challenge;
+pub(crate) mod condition;
+pub(crate) mod degree;
+pub(crate) mod exact;
+pub(crate) mod floating;
 mod lanes;
-pub mod miss;
-pub mod parameters;
-pub mod ratio;
-pub mod reference;
-pub mod rounding;
-pub mod running;
-pub mod singular;
+pub(crate) mod miss;
+pub(crate) mod parameters;
+pub(crate) mod ratio;
+pub(crate) mod reference;
+pub(crate) mod rounding;
+pub(crate) mod running;
+pub(crate) mod singular;
 mod size;

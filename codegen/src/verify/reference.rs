@@ -110,7 +110,7 @@ impl<'s> Reference<'s> {
 }
 
 /// How many recursions a function takes: what a state costs.
-pub fn recursions(function: Function, joints: usize) -> usize {
+pub(crate) fn recursions(function: Function, joints: usize) -> usize {
     let of = |quantity: &Quantity| {
         let axes = quantity.shape().0.iter();
         if function.columns() != Columns::None {

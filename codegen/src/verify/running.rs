@@ -120,7 +120,7 @@ impl<T: Machine> Divide for Bounded<T> {
 
 /// Bounds of a program's errors at a state of the scalar's own numbers, one a
 /// result; infinite where nothing can be said.
-pub fn errors(
+pub(crate) fn errors(
     program: &Program,
     scalar: ScalarType,
     library: Library,

@@ -19,7 +19,7 @@ use crate::scene::SceneRobot;
 
 /// The joint nearest to the hand that moves no inertia in any state; none if
 /// D has an inverse almost everywhere.
-pub fn without_inertia(scene_robot: &SceneRobot, function: Function) -> Option<usize> {
+pub(crate) fn without_inertia(scene_robot: &SceneRobot, function: Function) -> Option<usize> {
     let mut transcript = Transcript::new("inertia");
     transcript.scene_robot(scene_robot);
     let challenge = transcript.seal();

@@ -11,7 +11,7 @@ const MAX_BITS: u64 = 4096;
 
 /// An upper bound of a positive number: mantissa · 2^exponent, with 32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
+pub(crate) struct Size {
     /// From 2³¹ to 2³² − 1.
     mantissa: u64,
     exponent: i64,
@@ -19,13 +19,13 @@ pub struct Size {
 
 impl Size {
     /// 1
-    pub const ONE: Size = Size {
+    pub(crate) const ONE: Size = Size {
         mantissa: 1 << 31,
         exponent: -31,
     };
 
     /// Of a rational's magnitude: a power of two, at most four times as large.
-    pub fn of(x: &Rational) -> Size {
+    pub(crate) fn of(x: &Rational) -> Size {
         let [numerator, denominator] = [x.numer(), x.denom()].map(|x| x.bits() as i64);
         let bits = match x.is_integer() && numerator == 1 {
             true => 0,
@@ -38,7 +38,7 @@ impl Size {
     }
 
     /// a + b
-    pub fn add(self, other: Size) -> Size {
+    pub(crate) fn add(self, other: Size) -> Size {
         let (large, small) = match self.exponent >= other.exponent {
             true => (self, other),
             false => (other, self),
@@ -49,13 +49,13 @@ impl Size {
     }
 
     /// a · b
-    pub fn mul(self, other: Size) -> Size {
+    pub(crate) fn mul(self, other: Size) -> Size {
         let exponent = self.exponent.saturating_add(other.exponent);
         Size::rounded(self.mantissa * other.mantissa, exponent)
     }
 
     /// The least n with 2^n not below it, or 0.
-    pub fn bits(self) -> u64 {
+    pub(crate) fn bits(self) -> u64 {
         let whole = self.mantissa == 1 << 31;
         let bits = self.exponent.saturating_add(if whole { 31 } else { 32 });
         u64::try_from(bits).unwrap_or(0)

@@ -16,13 +16,13 @@ use dalembert_model::equations::chain::Chain;
 use dalembert_model::robot::Robot;
 
 use crate::couplings::Couplings;
-use dalembert_codegen::function::{Columns, Function};
-use dalembert_codegen::generate::{GenerateError, Request, tolerate};
-use dalembert_codegen::graph::Graph;
-use dalembert_codegen::portfolio;
-use dalembert_codegen::program::Program;
-use dalembert_codegen::scene::{SceneRobot, input_hash};
-use dalembert_codegen::trace::trace;
+use dalembert_codegen::workspace::function::{Columns, Function};
+use dalembert_codegen::workspace::generate::{GenerateError, Request, tolerate};
+use dalembert_codegen::workspace::graph::Graph;
+use dalembert_codegen::workspace::portfolio;
+use dalembert_codegen::workspace::program::Program;
+use dalembert_codegen::workspace::scene::{SceneRobot, input_hash};
+use dalembert_codegen::workspace::trace::trace;
 use merged::Merged;
 use parameters::Parameters;
 use steps::Row;
@@ -72,7 +72,7 @@ pub fn explain(
 /// together, since they are emitted in the same one.
 ///
 /// # Errors
-/// Those of [`generate`](dalembert_codegen::generate::generate).
+/// Those of [`generate`](dalembert_codegen::workspace::generate::generate).
 pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
     if let Some(plan) = &request.plan
         && plan.input != input_hash(robot)

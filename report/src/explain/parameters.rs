@@ -8,11 +8,11 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use super::merged;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::graph::Folding;
-use dalembert_codegen::portfolio;
-use dalembert_codegen::portfolio::tune::Tuned;
-use dalembert_codegen::scene::SceneRobot;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::graph::Folding;
+use dalembert_codegen::workspace::portfolio;
+use dalembert_codegen::workspace::portfolio::tune::Tuned;
+use dalembert_codegen::workspace::scene::SceneRobot;
 
 /// A parameter of a body about the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -2,11 +2,11 @@
 
 use std::marker::PhantomData;
 
-use dalembert_codegen::program::machine::Machine;
-use dalembert_codegen::program::{
+use dalembert_codegen::workspace::program::machine::Machine;
+use dalembert_codegen::workspace::program::{
     AngleSum, Input, Literal, Lowered, Program, ScalarType, evaluate,
 };
-use dalembert_codegen::states::JointState;
+use dalembert_codegen::workspace::states::JointState;
 
 /// A program with its constants rounded.
 pub(super) struct Runner<T> {

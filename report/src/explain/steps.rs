@@ -7,18 +7,18 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
-use dalembert_codegen::approximate::admitted::Admitted;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::search::{self, Found};
-use dalembert_codegen::generate::{GenerateError, Request, TextDefect};
-use dalembert_codegen::graph::{Folding, Graph};
-use dalembert_codegen::portfolio::tune::{self, Tuned};
-use dalembert_codegen::portfolio::{self, Start};
-use dalembert_codegen::program::{Counts, Lowered, Program, ScalarType};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::simplify;
-use dalembert_codegen::trace::Trace;
+use dalembert_codegen::workspace::approximate::admitted::Admitted;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::search::{self, Found};
+use dalembert_codegen::workspace::generate::{GenerateError, Request, TextDefect};
+use dalembert_codegen::workspace::graph::{Folding, Graph};
+use dalembert_codegen::workspace::portfolio::tune::{self, Tuned};
+use dalembert_codegen::workspace::portfolio::{self, Start};
+use dalembert_codegen::workspace::program::{Counts, Lowered, Program, ScalarType};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::simplify;
+use dalembert_codegen::workspace::trace::Trace;
 
 /// A step of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

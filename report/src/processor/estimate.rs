@@ -1,6 +1,6 @@
 //! What a function takes of one processor.
 
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::program::ScalarType;
 
 use super::depth;
 use super::flat::{Deed, Flat, Home};

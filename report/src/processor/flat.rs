@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_codegen::function::Argument;
-use dalembert_codegen::program::fused::fusion;
-use dalembert_codegen::program::kernel::{Angle, Kernel};
-use dalembert_codegen::program::{
+use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::program::fused::fusion;
+use dalembert_codegen::workspace::program::kernel::{Angle, Kernel};
+use dalembert_codegen::workspace::program::{
     AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output, Step,
 };
 

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use dalembert_codegen::backend::parts::{LONG, PART};
-use dalembert_codegen::program::{Library, Lowered, LoweredTrig, ScalarType};
+use dalembert_codegen::workspace::backend::parts::{LONG, PART};
+use dalembert_codegen::workspace::program::{Library, Lowered, LoweredTrig, ScalarType};
 
 use super::target::Target;
 

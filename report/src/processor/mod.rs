@@ -80,9 +80,9 @@ pub mod target;
 pub mod targets;
 pub mod values;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::Generated;
-use dalembert_codegen::program::{Counts, Library, Lowered, ScalarType};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::Generated;
+use dalembert_codegen::workspace::program::{Counts, Library, Lowered, ScalarType};
 
 use estimate::{Estimate, estimate};
 use flat::Flat;

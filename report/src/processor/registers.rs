@@ -5,7 +5,7 @@
 //! away, to be loaded again. Entries of arguments are loaded once, where they are
 //! first read, and from then on are values like others: that is what rustc does.
 
-use dalembert_codegen::program::Operation;
+use dalembert_codegen::workspace::program::Operation;
 
 use super::flat::{Deed, Flat, Home, Item};
 use super::target::{Target, Unit};

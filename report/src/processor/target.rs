@@ -1,6 +1,6 @@
 //! What a processor has, as numbers that one function reads.
 
-use dalembert_codegen::program::{Operation, ScalarType};
+use dalembert_codegen::workspace::program::{Operation, ScalarType};
 
 /// A processor and how compilers use it. The table is
 /// [`TARGETS`](super::targets::TARGETS).

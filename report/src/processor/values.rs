@@ -1,6 +1,6 @@
 //! What is alive, and what could be one operation.
 
-use dalembert_codegen::program::Operation;
+use dalembert_codegen::workspace::program::Operation;
 
 use super::flat::{Deed, Flat, Home};
 

@@ -1,8 +1,8 @@
 //! A robot and states that may be changed on trial, and how far they are apart.
 
-use dalembert_codegen::function::{Columns, Function, Quantity, Sizes};
-use dalembert_codegen::states::JointState;
-use dalembert_codegen::verify::floating::Runtime;
+use dalembert_codegen::workspace::function::{Columns, Function, Quantity, Sizes};
+use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::robot::Robot;
 
 use super::{GivenState, float, worst};

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use dalembert_codegen::function::{Quantity, Sizes};
+use dalembert_codegen::workspace::function::{Quantity, Sizes};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 use num_traits::{Signed, Zero};

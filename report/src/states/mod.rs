@@ -15,8 +15,8 @@ pub mod file;
 
 use std::collections::BTreeMap;
 
-use dalembert_codegen::function::Quantity;
-use dalembert_codegen::states::JointState;
+use dalembert_codegen::workspace::function::Quantity;
+use dalembert_codegen::workspace::states::JointState;
 use dalembert_model::number::{Rational, Rounded};
 
 /// The largest disagreement that counts as agreement: the largest error of an

@@ -5,7 +5,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
 
-use dalembert_codegen::program::ScalarType;
+use dalembert_codegen::workspace::program::ScalarType;
 
 /// The error of a vector of joint torques, or of any other result.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

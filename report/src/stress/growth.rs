@@ -8,12 +8,12 @@ use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robo
 use super::deviation::Measure;
 use super::subject::Code;
 use super::truth::Truth;
-use dalembert_codegen::backend::MathPath;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::program::{Counts, ScalarType};
-use dalembert_codegen::random::Random;
-use dalembert_codegen::states::seeded;
+use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::program::{Counts, ScalarType};
+use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::states::seeded;
 
 /// The lengths of chain that are measured.
 pub const JOINTS: [usize; 10] = [1, 2, 3, 4, 6, 8, 12, 20, 30, 60];

@@ -9,11 +9,11 @@ use super::deviation::{Deviation, Measure};
 use super::scale;
 use super::subject::{Code, Subject};
 use super::truth::Truth;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::states::JointState;
-use dalembert_codegen::verify::condition::Condition;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::verify::condition::Condition;
 
 /// How thorough a run is.
 #[derive(Clone, Debug)]

@@ -10,12 +10,12 @@
 use std::fmt;
 use std::ops::Range;
 
-use dalembert_codegen::function::{Argument, Function, Quantity, Sizes};
-use dalembert_codegen::generate::{GenerateError, Request};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::states::{JointState, positions, seeded};
-use dalembert_codegen::verify::condition::Condition;
-use dalembert_codegen::verify::floating::LEAST_PART;
+use dalembert_codegen::workspace::function::{Argument, Function, Quantity, Sizes};
+use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::states::{JointState, positions, seeded};
+use dalembert_codegen::workspace::verify::condition::Condition;
+use dalembert_codegen::workspace::verify::floating::LEAST_PART;
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::big::Big;

@@ -6,11 +6,11 @@ use dalembert_model::reference::{Float, JointVectors, Reference, WrongLength};
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
-use dalembert_codegen::function::{Argument, Columns, Function};
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::states::JointState;
-use dalembert_codegen::verify::floating::Emitted;
+use dalembert_codegen::workspace::function::{Argument, Columns, Function};
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::verify::floating::Emitted;
 
 /// Which code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -7,10 +7,10 @@ use super::report::Options;
 use super::subject::{Code, Subject};
 use super::truth::Truth;
 use super::{robots, states};
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request};
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::states::{JointState, seeded};
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::states::{JointState, seeded};
 
 /// What is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,10 +10,10 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;
 
-use dalembert_codegen::function::{Argument, Function};
-use dalembert_codegen::program::{AngleSum, Input};
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::states::JointState;
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::program::{AngleSum, Input};
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states::JointState;
 
 /// A robot in the big float, or in a scene.
 #[derive(Clone, Debug)]

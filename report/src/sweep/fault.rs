@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use dalembert_codegen::certificate::format::FormatError;
+use dalembert_codegen::workspace::certificate::format::FormatError;
 
 /// Why a rung cannot be used, or not be kept.
 #[derive(Clone, Debug, PartialEq, Eq)]

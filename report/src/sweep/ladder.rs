@@ -3,14 +3,14 @@
 //! From the largest tolerance down: where nothing more can be left out, less
 //! tolerance leaves out nothing either, and no search is needed.
 
-use dalembert_codegen::approximate::admitted::Admitted;
-use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::approximate::prune::PruneSettings;
-use dalembert_codegen::bound::sensitivity::BoundEffort;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::falsify::falsify;
-use dalembert_codegen::program::ScalarType;
-use dalembert_codegen::simplify::Effort;
+use dalembert_codegen::workspace::approximate::admitted::Admitted;
+use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
+use dalembert_codegen::workspace::approximate::prune::PruneSettings;
+use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::simplify::Effort;
 
 use super::rungs::{Rung, Rungs};
 use super::{Point, SweepError};

@@ -12,10 +12,10 @@ pub mod rungs;
 
 use std::fmt;
 
-use dalembert_codegen::backend::read::TextError;
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::program::{Counts, ScalarType};
-use dalembert_codegen::sincos;
+use dalembert_codegen::workspace::backend::read::TextError;
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::program::{Counts, ScalarType};
+use dalembert_codegen::workspace::sincos;
 use fault::RungError;
 
 /// One variant.

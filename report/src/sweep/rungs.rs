@@ -9,7 +9,7 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::certificate::format::{read, text_hash};
+use dalembert_codegen::workspace::certificate::format::{read, text_hash};
 use serde_json::{Value, json};
 
 use super::fault::{Damage, RungError, RungFault};

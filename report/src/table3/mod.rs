@@ -9,11 +9,11 @@ mod generic;
 mod paper;
 mod written;
 
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{GenerateError, Request, generate};
-use dalembert_codegen::portfolio::Start;
-use dalembert_codegen::program::{Counts, ScalarType};
-use dalembert_codegen::simplify::Pass;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Counts, ScalarType};
+use dalembert_codegen::workspace::simplify::Pass;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 

@@ -34,7 +34,8 @@ use crate::random::Random;
 use crate::simplify::Effort;
 use crate::watch::FunctionWatch;
 use motions::Motions;
-pub use omissions::{Omission, omissions};
+pub(crate) use omissions::Omission;
+pub use omissions::omissions;
 use search::Search;
 use tally::Tally;
 
@@ -180,7 +181,7 @@ pub fn prune(
 /// [`prune`] under a watch: where it is over, the search ends with its best.
 /// `start` is an equal program to edit in its place: then the first stage has
 /// no edits and leads there.
-pub fn watched(
+pub(crate) fn watched(
     program: &Program,
     start: Option<&Program>,
     limits: &InputBox,
@@ -237,7 +238,7 @@ pub fn watched(
 
 /// About what [`prune`] would leave of a program: operations, sines and
 /// cosines weighed. Errors at so many samples decide, nothing is certified.
-pub fn appraise(
+pub(crate) fn appraise(
     program: &Program,
     limits: &InputBox,
     allowances: &[f64],

@@ -10,7 +10,7 @@
 //! - `lanes`: `NAME_lanes`, several states at once
 //! - `batch`: `NAME_batch` and `NAME_columns`, any number of states
 
-pub mod angles;
+pub(crate) mod angles;
 mod batch;
 mod given;
 mod lanes;
@@ -56,7 +56,7 @@ impl Entries {
 
 /// What the functions of a module have in common.
 #[derive(Clone, Copy, Debug)]
-pub struct Around<'a> {
+pub(crate) struct Around<'a> {
     /// Where sines and roots are that are called.
     pub path: &'a str,
     /// Where `dalembert-batch` is.
@@ -66,7 +66,7 @@ pub struct Around<'a> {
 }
 
 /// Prints the function by all its entries.
-pub fn write(
+pub(crate) fn write(
     printed: &Printed<'_>,
     around: &Around<'_>,
     entries: Entries,

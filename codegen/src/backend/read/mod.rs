@@ -13,7 +13,7 @@
 //! - `entries`: functions whose arithmetic stands in one of them
 
 mod entries;
-pub mod error;
+pub(crate) mod error;
 mod fused;
 mod given;
 mod part;
@@ -26,8 +26,9 @@ mod together;
 use crate::function::Function;
 use crate::program::{Difference, Library, Lowered, Program, ScalarType};
 use crate::sincos::{AngleKernel, lowered};
+pub use error::TextError;
+pub(crate) use error::TextFault;
 use error::{Mark, WordFault};
-pub use error::{TextError, TextFault};
 use reader::Reader;
 
 impl Lowered {

@@ -8,7 +8,7 @@ use crate::program::Input;
 
 impl Forms {
     /// Evaluates over a sub-box.
-    pub fn evaluate(&self, sub: &InputBox, scratch: &mut Scratch) {
+    pub(crate) fn evaluate(&self, sub: &InputBox, scratch: &mut Scratch) {
         let Scratch { values, factors } = scratch;
         values.clear();
         values.resize(self.coefficients, Interval::ZERO);
@@ -87,7 +87,7 @@ impl Forms {
     }
 
     /// The range of each output over the sub-box evaluated last.
-    pub fn outputs(&self, sub: &InputBox, scratch: &Scratch) -> Vec<Interval> {
+    pub(crate) fn outputs(&self, sub: &InputBox, scratch: &Scratch) -> Vec<Interval> {
         self.outputs
             .iter()
             .map(|(negative, terms)| {

@@ -53,7 +53,7 @@ enum Work {
 
 /// A graph compiled to polynomials.
 #[derive(Clone, Debug)]
-pub struct Forms {
+pub(crate) struct Forms {
     joints: usize,
     work: Vec<Work>,
     /// Ranges that products put into coefficients, by what they are made of.
@@ -69,14 +69,14 @@ pub struct Forms {
 
 /// Room for one evaluation.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch {
+pub(crate) struct Scratch {
     values: Vec<Interval>,
     factors: Vec<Interval>,
 }
 
 impl Forms {
     /// Compiles a graph's live part.
-    pub fn new(graph: &Graph, joints: usize) -> Forms {
+    pub(crate) fn new(graph: &Graph, joints: usize) -> Forms {
         Forms::compile(graph, joints, true)
             .or_else(|| Forms::compile(graph, joints, false))
             .unwrap_or_else(|| Forms::empty(joints))

@@ -55,7 +55,7 @@ pub fn magnitudes(
 
 /// The same, if every output is shown to be at most its limit; at a grid, the
 /// first for which it is not ends the search.
-pub fn magnitudes_within(
+pub(crate) fn magnitudes_within(
     graph: &Graph,
     whole: &InputBox,
     limits: &[f64],
@@ -110,7 +110,7 @@ fn written_out(
 }
 
 /// x/scale, rounded up; 0/0 is no error.
-pub fn relative(x: f64, scale: f64) -> f64 {
+pub(crate) fn relative(x: f64, scale: f64) -> f64 {
     if x == 0.0 {
         0.0
     } else if scale > 0.0 {

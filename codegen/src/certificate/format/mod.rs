@@ -18,16 +18,17 @@ mod program;
 use super::Certificate;
 use document::Document;
 pub use document::text_hash;
-pub use error::{FormatError, FormatFault};
+pub use error::FormatError;
+pub(crate) use error::FormatFault;
 
 /// The version of the format.
-pub const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 2;
 
 /// The longest file that is read.
 pub const MAX_BYTES: usize = 16 << 20;
 
 /// The most certificates of a file: one a function and scalar.
-pub const MAX_CERTIFICATES: usize = 16;
+pub(crate) const MAX_CERTIFICATES: usize = 16;
 
 /// A range: both ends are numbers.
 type Ends = [f64; 2];

@@ -8,7 +8,7 @@
 use super::Rule;
 
 /// Folding by the shape of an expression, in every builder.
-pub const BY_SHAPE: &[Rule] = &[
+pub(crate) const BY_SHAPE: &[Rule] = &[
     // k + m is a constant
     Rule::new(
         "add-constants",
@@ -87,7 +87,7 @@ pub const BY_SHAPE: &[Rule] = &[
 ];
 
 /// Folding by shape that saves no operation, and so is the builder's alone.
-pub const NORMAL_FORM: &[Rule] = &[
+pub(crate) const NORMAL_FORM: &[Rule] = &[
     // 2·a = a + a
     Rule::new(
         "double",
@@ -144,7 +144,7 @@ pub const NORMAL_FORM: &[Rule] = &[
 /// Folding by fingerprint, in a builder that merges equal values: examples of
 /// what no shape shows. A value whose fingerprint is zero, a known value's, its
 /// opposite's, or that of its own exact value at rest becomes that.
-pub const BY_FINGERPRINT: &[Rule] = &[
+pub(crate) const BY_FINGERPRINT: &[Rule] = &[
     // a·b + a·c is a·(b + c), whichever was there before
     Rule::new(
         "known-value",

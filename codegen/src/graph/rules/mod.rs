@@ -7,7 +7,14 @@
 //! The rules of the search are in [`simplify::rules`](crate::simplify::rules);
 //! its README says what may be added.
 
-pub mod folding;
+#[cfg_attr(
+    not(test),
+    expect(
+        dead_code,
+        reason = "its code is the builder's, and the tests hold it against the table"
+    )
+)]
+pub(crate) mod folding;
 #[cfg(test)]
 pub(crate) mod pattern;
 
@@ -17,7 +24,7 @@ pub(crate) mod pattern;
 /// for any value, `?k` and `?m` for constants, numbers for themselves. Negation
 /// is free: it never counts as an operation.
 #[derive(Clone, Copy, Debug)]
-pub struct Rule {
+pub(crate) struct Rule {
     /// Its name.
     pub name: &'static str,
     /// What it matches.
@@ -25,12 +32,19 @@ pub struct Rule {
     /// What takes its place, or is added to it.
     pub to: &'static str,
     /// Why both are equal.
+    #[cfg_attr(
+        not(test),
+        expect(
+            dead_code,
+            reason = "for readers, and for the test that there is a reason"
+        )
+    )]
     pub sound: &'static str,
 }
 
 impl Rule {
     /// A rule of a table.
-    pub const fn new(
+    pub(crate) const fn new(
         name: &'static str,
         from: &'static str,
         to: &'static str,

@@ -10,10 +10,10 @@ use dalembert_model::number::Exact;
 
 use super::{AngleSum, Input, Operand, Operation, Output, Program, Step};
 use crate::function::Argument;
-pub use fault::LineFault;
+pub(crate) use fault::LineFault;
 
 /// How emitted code names an input.
-pub fn input_name(input: Input) -> String {
+pub(crate) fn input_name(input: Input) -> String {
     match input {
         Input::Sin(angle) => format!("s{angle}"),
         Input::Cos(angle) => format!("c{angle}"),

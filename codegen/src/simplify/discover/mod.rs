@@ -17,11 +17,11 @@ use super::classes::{ClassId, Classes, ENode};
 use super::sieve::Sieve;
 use crate::graph::Fingerprint;
 
-pub use multiples::multiples;
-pub use resubstitute::resubstitute;
+pub(crate) use multiples::multiples;
+pub(crate) use resubstitute::resubstitute;
 
 /// Tries every pair of the pool; returns how many new ways there are.
-pub fn pairs(classes: &mut Classes, pool: &[ClassId]) -> usize {
+pub(crate) fn pairs(classes: &mut Classes, pool: &[ClassId]) -> usize {
     let mut known = Sieve::new(classes.len());
     for id in 0..classes.len() as ClassId {
         known.note(key(&classes.get(id).print));

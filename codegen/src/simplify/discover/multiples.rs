@@ -11,7 +11,11 @@ use crate::simplify::classes::{ClassId, Classes, ENode, Leaf};
 
 /// Finds classes that are a constant multiple of one another, or differ by a
 /// constant, and adds the ways that lead from one to the other.
-pub fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<ENode>]) -> usize {
+pub(crate) fn multiples(
+    classes: &mut Classes,
+    pool: &[ClassId],
+    choice: &[Option<ENode>],
+) -> usize {
     // Points 0 and 1 share the constant angles, so a ratio (difference) that
     // is the same at both is a constant.
     let mut ratios: FxHashMap<Field, Vec<ClassId>> = FxHashMap::default();

@@ -25,7 +25,7 @@ enum Inverse {
 /// y = (a ∘ b) ± c where the pair a ∘ b has the key of another, y ∓ c, and y = (a ∘ b)·c
 /// where it has that of y / c. So of the keys of all pairs and quotients, hundreds of
 /// thousands, only those come into a map that are met twice.
-pub fn resubstitute(classes: &mut Classes, pool: &[ClassId]) -> usize {
+pub(crate) fn resubstitute(classes: &mut Classes, pool: &[ClassId]) -> usize {
     let mut met = Sieve::new(5 * pool.len() * pool.len() / 2);
     let mut again = met.clone();
     let mut meet = |key: Field| match met.passes(key) {

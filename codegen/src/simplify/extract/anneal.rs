@@ -5,7 +5,7 @@ use crate::random::Random;
 
 /// How long to anneal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Schedule {
+pub(crate) struct Schedule {
     /// Moves tried.
     pub moves: usize,
     /// First temperature, in operations.
@@ -26,7 +26,7 @@ impl Schedule {
 impl Extraction<'_> {
     /// Sweeps over the live classes, taking every change that does not raise
     /// the cost, until a sweep saves nothing.
-    pub fn climb(&mut self) {
+    pub(crate) fn climb(&mut self) {
         loop {
             let before = self.cost;
             let mut order = self.live.clone();
@@ -49,7 +49,7 @@ impl Extraction<'_> {
     }
 
     /// Annealing; ends with the best program seen.
-    pub fn anneal(&mut self, schedule: Schedule, random: &mut Random) {
+    pub(crate) fn anneal(&mut self, schedule: Schedule, random: &mut Random) {
         let mut best = (self.cost, self.chosen.clone());
         let ratio = schedule.cold / schedule.hot;
         let mut temperature = schedule.hot;

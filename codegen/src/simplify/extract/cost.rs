@@ -5,7 +5,7 @@ use crate::simplify::classes::ENode;
 
 /// What operations cost, in hundredths of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CostModel {
+pub(crate) struct CostModel {
     /// A multiplication.
     pub mul: u64,
     /// An addition.
@@ -23,7 +23,7 @@ impl CostModel {
     /// an angle costs as much as twenty operations, a division as five. The pair of a sum is to be
     /// had only if somebody asked for it, and then costs a little less than the
     /// six operations that form it from other pairs.
-    pub const OPERATIONS: CostModel = CostModel {
+    pub(crate) const OPERATIONS: CostModel = CostModel {
         mul: 101,
         add: 100,
         div: 500,
@@ -32,7 +32,7 @@ impl CostModel {
     };
 
     /// The sine and cosine of an angle, apart from forming it.
-    pub fn angle(&self, angle: AngleSum) -> u64 {
+    pub(crate) fn angle(&self, angle: AngleSum) -> u64 {
         match angle.additions() {
             0 => self.sincos,
             _ => self.sum_sincos,

@@ -24,12 +24,12 @@ use std::collections::BTreeMap;
 
 use super::classes::{ClassId, Classes, ENode, Leaf};
 use crate::program::AngleSum;
-pub use anneal::Schedule;
-pub use cost::CostModel;
+pub(crate) use anneal::Schedule;
+pub(crate) use cost::CostModel;
 use order::Order;
 
 /// The state of the search.
-pub struct Extraction<'a> {
+pub(crate) struct Extraction<'a> {
     classes: &'a Classes,
     model: CostModel,
     /// The chosen way of each class: an index into its ways.
@@ -61,7 +61,7 @@ fn operands(classes: &Classes, chosen: &[u32], id: ClassId) -> Option<[ClassId; 
 impl<'a> Extraction<'a> {
     /// Starts from a choice that is acyclic and complete below the outputs;
     /// every other class gets an acyclic way where it has one.
-    pub fn new(classes: &'a Classes, seed: &[Option<ENode>], model: CostModel) -> Self {
+    pub(crate) fn new(classes: &'a Classes, seed: &[Option<ENode>], model: CostModel) -> Self {
         let n = classes.len();
         let mut angles: BTreeMap<AngleSum, u32> = BTreeMap::new();
         let mut angle_of = vec![NONE; n];
@@ -137,22 +137,16 @@ impl<'a> Extraction<'a> {
     }
 
     /// The cost of the live program.
-    pub fn cost(&self) -> u64 {
+    #[cfg(test)]
+    pub(crate) fn cost(&self) -> u64 {
         self.cost
     }
 
     /// The chosen ways.
-    pub fn choice(&self) -> Vec<Option<ENode>> {
+    pub(crate) fn choice(&self) -> Vec<Option<ENode>> {
         (0..self.classes.len() as ClassId)
             .map(|id| self.way(id))
             .collect()
-    }
-
-    /// The classes that the live program computes, ascending.
-    pub fn live(&self) -> Vec<ClassId> {
-        let mut live = self.live.clone();
-        live.sort_unstable();
-        live
     }
 
     fn way(&self, id: ClassId) -> Option<ENode> {

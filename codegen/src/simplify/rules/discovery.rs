@@ -11,7 +11,7 @@ use crate::graph::rules::Rule;
 
 /// Every kind of way that discovery tries, by what it is made of. `?y` stands
 /// for a value of the program that the equation in `sound` gives.
-pub const DISCOVERY: &[Rule] = &[
+pub(crate) const DISCOVERY: &[Rule] = &[
     // y = a + b
     Rule::new(
         "pair-sum",

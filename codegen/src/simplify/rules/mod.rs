@@ -6,11 +6,17 @@
 //! - [`folding`](crate::graph::rules::folding): what is folded as graphs grow
 //!   and when edits are priced
 
-pub mod discovery;
-pub mod saturation;
+#[cfg_attr(
+    not(test),
+    expect(
+        dead_code,
+        reason = "its code is `discover`, and the tests hold it against the table"
+    )
+)]
+pub(crate) mod discovery;
+pub(crate) mod saturation;
 
-pub use discovery::DISCOVERY;
-pub use saturation::{Phase, SATURATION};
+pub(crate) use saturation::{Phase, SATURATION};
 
 #[cfg(test)]
 mod tests;

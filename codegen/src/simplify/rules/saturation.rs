@@ -4,7 +4,7 @@ use crate::graph::rules::Rule;
 
 /// Rules that run together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
+pub(crate) enum Phase {
     /// Signs: they run in every phase.
     Sign,
     /// Fewer products.
@@ -14,7 +14,7 @@ pub enum Phase {
 }
 
 /// Every rule of the e-graph, and when it runs.
-pub const SATURATION: &[(Phase, Rule)] = &[
+pub(crate) const SATURATION: &[(Phase, Rule)] = &[
     // a + b = b + a
     (
         Phase::Sign,

@@ -7,7 +7,8 @@ use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::field::{Field, Points as FieldPoints};
 use dalembert_model::scalar::{Divide, Scalar};
 
-use super::{DISCOVERY, SATURATION};
+use super::SATURATION;
+use super::discovery::DISCOVERY;
 use crate::function::Argument;
 use crate::graph::rules::Rule;
 use crate::graph::rules::folding::{BY_FINGERPRINT, BY_SHAPE, NORMAL_FORM};

@@ -24,9 +24,6 @@ use std::sync::OnceLock;
 use crate::program::ScalarType;
 use crate::program::kernel::Kernel;
 
-/// What certificates say of it, in units of u: a little more than is proved.
-pub const STATED: f64 = 0.9;
-
 /// Where |r| is below this, cosines are above [`SINE_ALONE`].
 const WIDEST: f64 = 0.79;
 
@@ -41,7 +38,7 @@ const EACH: usize = 4;
 
 /// Proved bounds of |computed − true|.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Called {
+pub(crate) struct Called {
     /// Of sines where |r| is up to this: the worst so far.
     sines: Vec<(f64, f64)>,
     /// Of cosines.
@@ -52,7 +49,7 @@ pub struct Called {
 
 impl Called {
     /// Of a scalar, found once; `None` if the text is not what can be bounded.
-    pub fn of(scalar: ScalarType) -> Option<&'static Called> {
+    pub(crate) fn of(scalar: ScalarType) -> Option<&'static Called> {
         static FOUND: [OnceLock<Option<Called>>; 2] = [OnceLock::new(), OnceLock::new()];
         let place = match scalar {
             ScalarType::F64 => 0,
@@ -64,7 +61,7 @@ impl Called {
     }
 
     /// Up to this magnitude angles are computed by what is proved.
-    pub fn largest(scalar: ScalarType) -> f64 {
+    pub(crate) fn largest(scalar: ScalarType) -> f64 {
         match scalar {
             ScalarType::F64 => dalembert_sines::LARGEST,
             ScalarType::F32 => dalembert_sines::LARGEST_F32.into(),
@@ -98,7 +95,7 @@ impl Called {
     }
 
     /// Of a sine or cosine that is at most so large.
-    pub fn error(&self, size: f64) -> f64 {
+    pub(crate) fn error(&self, size: f64) -> f64 {
         let last = self.sines.last().map_or(f64::INFINITY, |(_, error)| *error);
         if size.is_nan() || size > SINE_ALONE {
             return last.max(self.cosine);

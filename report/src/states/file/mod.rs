@@ -8,8 +8,8 @@
 mod error;
 mod words;
 
-use dalembert_codegen::function::{Argument, Sizes};
-use dalembert_codegen::states::JointState;
+use dalembert_codegen::workspace::function::{Argument, Sizes};
+use dalembert_codegen::workspace::states::JointState;
 use serde_json::{Map, Value};
 
 use super::GivenState;

@@ -1,6 +1,6 @@
 //! The keys of states, and what others call them.
 
-use dalembert_codegen::function::{Argument, Quantity};
+use dalembert_codegen::workspace::function::{Argument, Quantity};
 use dalembert_model::read::closest;
 
 /// The keys of quantities, in the order of the list of outputs.

@@ -13,10 +13,10 @@ mod word;
 
 use std::fmt;
 
-pub use entries::EntryFault;
-pub use sines::SineFault;
-pub use speed::SpeedFault;
-pub use word::{Kind, Mark, WordFault};
+pub(crate) use entries::EntryFault;
+pub(crate) use sines::SineFault;
+pub(crate) use speed::SpeedFault;
+pub(crate) use word::{Kind, Mark, WordFault};
 
 /// Why a text is not the program that it should be.
 #[derive(Clone, Debug, PartialEq, Eq)]
