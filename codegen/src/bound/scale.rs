@@ -49,7 +49,7 @@ impl From<MissingLimit> for NoScale {
 /// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
 ///
 /// # Errors
-/// [`NoScale`].
+/// `NoScale`.
 pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
     let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
         let value = robot.joints.get(joint).map(|row| value(&row.limits));

@@ -129,7 +129,7 @@ pub struct Certificate {
     pub bounds: Vec<Split>,
     /// A lower bound of the least eigenvalue of S D S over the box, if D is
     /// an output and something was left out; S is diagonal
-    /// ([`definite`](crate::bound::definite)). Above zero, D is positive definite.
+    /// (`bound::definite`). Above zero, D is positive definite.
     pub lambda_min: Option<f64>,
 }
 

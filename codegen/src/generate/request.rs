@@ -17,8 +17,7 @@ use crate::sincos::SinCos;
 use crate::watch::Watch;
 
 /// What programs are chosen by: what to do about one whose estimated rounding error is
-/// more than [`WORSE`](crate::verify::accuracy::WORSE) times that of the textbook form,
-/// and in which order its operations are taken.
+/// more than 4 times that of the textbook form, and in which order its operations are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Prefer {
     /// Take the cheapest that is not that much worse.
@@ -27,7 +26,7 @@ pub enum Prefer {
     /// Take the cheapest.
     Operations,
     /// As `Accuracy`, then take sums and products in the order in which the longest
-    /// chain is shortest ([`shallow`](crate::program::shallow)): for who waits for one
+    /// chain is shortest: for who waits for one
     /// state's result, rather than for many.
     Latency,
 }
@@ -46,8 +45,7 @@ impl Prefer {
     }
 }
 
-/// Whether products are fused with the sums that alone read them
-/// ([`fused`](crate::program::fused)).
+/// Whether products are fused with the sums that alone read them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Fma {
     /// Every operation is rounded.

@@ -109,7 +109,7 @@ pub enum Operation {
     /// left / right
     Div,
     /// left · right, not rounded: the next step, a sum or a difference, takes it
-    /// and rounds once ([`fused`]).
+    /// and rounds once (`fused`).
     Fused,
 }
 

@@ -91,7 +91,7 @@ pub(crate) fn simplify(
     watched(variants, helpers, effort, accept, None)
 }
 
-/// [`simplify`] under a watch: where it is over, the search ends with its
+/// `simplify` under a watch: where it is over, the search ends with its
 /// round.
 pub fn watched(
     variants: &[Graph],
