@@ -1,5 +1,6 @@
 //! What is generated and checked in is what the generator writes from the plans
 //! beside the robots, byte for byte: the robots' source, and the code and counts in the README.
+//! Every program of these plans is proved, whether or not a checked-in file has it.
 //!
 //! What differs is written anew before the test fails, so that running it once
 //! more is all that a change of the generator takes; the difference is then in
@@ -9,10 +10,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
-use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
+use dalembert_codegen::workspace::generate::{GeneratedFunction, Request, generate};
+use dalembert_codegen::workspace::plan::{self, Entry};
 use dalembert_model::read;
+use dalembert_model::robot::Robot;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -54,10 +56,13 @@ fn checked_in_code_is_up_to_date() {
         if !keep(&output, &generated.text) {
             stale.push(output);
         }
-        all.insert(name, generated);
+        let mut functions = generated.functions;
+        functions.extend(others(&reading.robot, &request));
+        all.insert(name, functions);
     }
     let readme = root().join("README.md");
-    let text = updated(&fs::read_to_string(&readme).unwrap(), &all);
+    let planar2r = fs::read_to_string(root().join("generated/robots/planar2r.rs")).unwrap();
+    let text = updated(&fs::read_to_string(&readme).unwrap(), &planar2r, &all);
     if !keep(&readme, &text) {
         stale.push(readme);
     }
@@ -67,8 +72,55 @@ fn checked_in_code_is_up_to_date() {
     );
 }
 
+/// The functions of each robot.
+type Table = BTreeMap<String, Vec<GeneratedFunction>>;
+
+/// What the plan has besides the functions of the file, and what takes parameters of the
+/// robot as arguments. Without the plan, a search of minutes would take its place.
+fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
+    let plan = request.plan.as_ref().unwrap();
+    let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());
+    let by_default = Function::by_default();
+    let generated = |parameters: &[RuntimeParameter]| {
+        let taken = |entry: &&Entry| {
+            let taken = entry.parameters.as_ref().map_or(&[][..], |p| &p.taken);
+            taken == parameters
+        };
+        let mut functions: Vec<Function> = Vec::new();
+        for function in entries().filter(taken).map(|entry| entry.program.function) {
+            let is_known = parameters.is_empty() && by_default.contains(&function);
+            if !is_known && !functions.contains(&function) {
+                functions.push(function);
+            }
+        }
+        let request = Request {
+            functions,
+            parameters: parameters.to_vec(),
+            ..request.clone()
+        };
+        let generated = generate(robot, &request).unwrap();
+        for function in &generated.functions {
+            let is_load = function.function == Function::Load;
+            assert!(function.planned || is_load, "{}", function.function);
+        }
+        generated.functions
+    };
+    let own = generated(&[]);
+    // Proved, and not in the README's table: it has one row a function.
+    let parameters: Vec<_> = entries()
+        .filter_map(|entry| entry.parameters.clone())
+        .collect();
+    assert!(
+        parameters
+            .iter()
+            .all(|p| p.taken == [RuntimeParameter::Payload])
+    );
+    generated(&[RuntimeParameter::Payload]);
+    own
+}
+
 /// The README with the code and the rows of counts as they are now.
-fn updated(readme: &str, all: &BTreeMap<String, Generated>) -> String {
+fn updated(readme: &str, planar2r: &str, all: &Table) -> String {
     let mut text = String::new();
     let mut columns: Vec<&str> = Vec::new();
     let mut lines = readme.lines();
@@ -77,15 +129,17 @@ fn updated(readme: &str, all: &BTreeMap<String, Generated>) -> String {
         if cells.get(2).is_some_and(|cell| all.contains_key(*cell)) {
             columns = cells[2..cells.len() - 1].to_vec();
         }
-        let function = cells
-            .get(1)
-            .and_then(|cell| Function::from_name(cell.trim_matches('`')));
-        match (function, line) {
-            (Some(function), _) if !columns.is_empty() => {
-                text += &counts(function, &columns, all);
+        // `function` in the first column, or several that are one.
+        let named: Vec<Function> = match cells.get(1) {
+            Some(cell) => cell.split('`').filter_map(Function::from_name).collect(),
+            None => Vec::new(),
+        };
+        match line {
+            _ if !columns.is_empty() && !named.is_empty() => {
+                text += &counts(cells[1], &named, &columns, all);
             }
-            (_, "<!-- planar2r::inverse_dynamics -->") => {
-                let code = body(&all["planar2r"].text, Function::InverseDynamics);
+            "<!-- planar2r::inverse_dynamics -->" => {
+                let code = body(planar2r, Function::InverseDynamics);
                 text += &format!("{line}\n```rust\n{code}```\n");
                 // Both fences and what is between them.
                 lines.next();
@@ -97,12 +151,19 @@ fn updated(readme: &str, all: &BTreeMap<String, Generated>) -> String {
     text
 }
 
-fn counts(function: Function, robots: &[&str], all: &BTreeMap<String, Generated>) -> String {
-    let mut row = format!("| `{function}` |");
+/// A row of the table: multiplications/additions, and divisions where there are any.
+fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> String {
+    let mut row = format!("| {first} |");
     for robot in robots {
-        let mut functions = all[*robot].functions.iter();
-        let counts = functions.find(|f| f.function == function).unwrap().counts;
-        row += &format!(" **{}/{}** |", counts.mul, counts.add);
+        let is_it = |f: &&GeneratedFunction| match named {
+            [function] => f.function == *function,
+            parts => f.function.parts() == parts,
+        };
+        let counts = all[*robot].iter().find(is_it).unwrap().counts;
+        row += &match counts.div {
+            0 => format!(" **{}/{}** |", counts.mul, counts.add),
+            div => format!(" **{}/{}**, {div} |", counts.mul, counts.add),
+        };
     }
     row + "\n"
 }
