@@ -105,7 +105,7 @@ fn parameters_are_asked_for() {
     let ran = run(&[&kept[..], &["--save-plan"]].concat());
     assert_eq!(ran.code, 0, "{}", ran.err);
     let plan = fs::read_to_string(folder.join("arm.plan")).unwrap();
-    assert!(plan.contains("\nparameters payload gravity 6 "), "{plan}");
+    assert!(plan.contains("\nparameters payload,gravity 6 "), "{plan}");
     let replayed = run(&kept);
     assert!(replayed.err.contains(", plan "), "{}", replayed.err);
     assert_eq!(replayed.out, ran.out);

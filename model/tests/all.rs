@@ -19,4 +19,5 @@ mod read_errors;
 mod read_fuzz;
 mod read_placements;
 mod read_robots;
+mod read_warnings;
 mod scene_read;

@@ -1,6 +1,8 @@
 //! Running the command.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod planar;
+
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
