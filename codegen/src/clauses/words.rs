@@ -107,15 +107,6 @@ impl Word for SinCos {
 
 /// The value of a word.
 ///
-/// ```
-/// use dalembert_codegen::clauses::words::parse;
-/// use dalembert_codegen::function::Function;
-///
-/// assert_eq!(parse("gravity"), Ok(Function::Gravity));
-/// let error = parse::<Function>("gravty").unwrap_err();
-/// assert_eq!(error.to_string(), "unknown output `gravty`: did you mean `gravity`?");
-/// ```
-///
 /// # Errors
 /// [`UnknownWord`], with the word that was probably meant.
 pub(crate) fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
@@ -135,7 +126,7 @@ pub(crate) fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
 /// The bundle that a text makes, `NAME=OUTPUT+OUTPUT`.
 ///
 /// ```
-/// use dalembert_codegen::clauses::words::bundle;
+/// use dalembert_codegen::workspace::clauses::words::bundle;
 ///
 /// assert_eq!(bundle("still=inertia+gravity").unwrap().name(), "still");
 /// let error = bundle("still=inertia+gravty").unwrap_err();
@@ -200,6 +191,14 @@ impl std::error::Error for UnknownWord {}
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_word_or_the_one_that_was_probably_meant() {
+        assert_eq!(parse("gravity"), Ok(Function::Gravity));
+        let error = parse::<Function>("gravty").unwrap_err();
+        let said = "unknown output `gravty`: did you mean `gravity`?";
+        assert_eq!(error.to_string(), said);
+    }
 
     #[test]
     fn every_word_reads_back() {

@@ -171,7 +171,10 @@ fn discovery_finds_every_kind_of_way_in_its_table() {
         let known = classes.get(target).ways.clone();
         let found = match rule.name.split('-').next() {
             Some("pair") => discover::pairs(&mut classes, inputs),
-            Some("substitute") => discover::resubstitute(&mut classes, &ids),
+            // Of pairs with one key the first is taken: that of the inputs, not of y and one.
+            Some("substitute") => {
+                discover::resubstitute(&mut classes, &[inputs, &[target]].concat())
+            }
             _ => {
                 let program = classes.program();
                 discover::multiples(&mut classes, &[inputs[0], target], &program)
