@@ -6,8 +6,8 @@
 //!   double, so nothing can be seen in f64: there the bound stands alone.
 //! - `floor ARM …`: what the same sum of magnitudes comes to at single states: no
 //!   bound by first-order terms is less
-//! - `narrow ARM …`: what edits in narrow boxes about several poses are bounded by,
-//!   against the largest error seen
+//! - `narrow HALF ARM …`: what edits in boxes of so many milliradians to both sides of
+//!   several poses are bounded by, against the largest error seen
 //! - `time FUNCTION ARM …`: a search for a tolerance of a thousandth
 
 use std::time::Instant;
@@ -39,11 +39,14 @@ fn main() {
     match arguments.split_first() {
         Some((what, arms)) if what == "rounding" => arms.iter().for_each(|arm| rounding(arm)),
         Some((what, arms)) if what == "floor" => arms.iter().for_each(|arm| floor(arm)),
-        Some((what, arms)) if what == "narrow" => arms.iter().for_each(|arm| narrow(arm)),
+        Some((what, [half, arms @ ..])) if what == "narrow" => {
+            let half = half.parse().expect("half a width in milliradians");
+            arms.iter().for_each(|arm| narrow(half, arm));
+        }
         Some((what, [function, arms @ ..])) if what == "time" => {
             arms.iter().for_each(|arm| time(function, arm));
         }
-        _ => println!("rounding ARM …, narrow ARM … or time FUNCTION ARM …"),
+        _ => println!("rounding ARM …, floor ARM …, narrow HALF ARM … or time FUNCTION ARM …"),
     }
 }
 
@@ -174,26 +177,24 @@ const POSES: [[i64; 7]; 3] = [
     [0, 1571, 0, -1571, 0, 0, 0],
 ];
 
-fn narrow(name: &str) {
+fn narrow(half: i64, name: &str) {
     let whole = limited(name);
     let program = exact(&whole, Function::InverseDynamics);
     for pose in POSES {
-        for half in [200, 20] {
-            let mut robot = whole.clone();
-            for (joint, middle) in robot.joints.iter_mut().zip(pose) {
-                let ends = [middle - half, middle + half];
-                joint.limits.position = Some(ends.map(|milli| {
-                    let value = Rational::new(milli.into(), 1000.into());
-                    match joint.kind {
-                        JointKind::Prismatic => Position::Length(value),
-                        JointKind::Revolute => Position::Angle(Angle::Radians(value)),
-                    }
-                }));
-            }
-            for tolerance in [1e-2, 1e-3] {
-                let what = format!("{name} {pose:?} ±0.{half:03} at {tolerance}");
-                narrowly(&robot, &program, tolerance, &what);
-            }
+        let mut robot = whole.clone();
+        for (joint, middle) in robot.joints.iter_mut().zip(pose) {
+            let ends = [middle - half, middle + half];
+            joint.limits.position = Some(ends.map(|milli| {
+                let value = Rational::new(milli.into(), 1000.into());
+                match joint.kind {
+                    JointKind::Prismatic => Position::Length(value),
+                    JointKind::Revolute => Position::Angle(Angle::Radians(value)),
+                }
+            }));
+        }
+        for tolerance in [1e-2, 1e-3] {
+            let what = format!("{name} {pose:?} ±{half} mrad at {tolerance}");
+            narrowly(&robot, &program, tolerance, &what);
         }
     }
 }
