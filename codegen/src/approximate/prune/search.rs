@@ -118,7 +118,8 @@ impl Search<'_> {
     ) -> Option<Found> {
         let mut shares = vec![share; self.allowances.len()];
         let mut best: Option<Found> = None;
-        // The first guess tries most of what cannot be, and the others need not.
+        // The first guess at a long program tries most of what cannot be, and the others
+        // need not.
         let mut never = Vec::new();
         for round in 0..self.guesses + MORE {
             let enough = round >= self.guesses || self.tally.is_over();
@@ -133,14 +134,16 @@ impl Search<'_> {
             let truth = outputs(self.full, &states);
             let greedy = self.greedy(&original, &truth, &shares, prices);
             never.resize(original.len(), Vec::new());
-            let mut greedy = greedy.knowing(never);
+            let mut greedy = greedy.knowing(std::mem::take(&mut never));
             let mut state = State {
                 edits: vec![None; original.len()],
                 nodes: original.clone(),
             };
             greedy.drop_all(&mut state, 0.0, random);
             greedy.settle(&mut state, &original, POLISH);
-            never = std::mem::take(&mut greedy.never);
+            if self.hurries() {
+                never = std::mem::take(&mut greedy.never);
+            }
             for (price, used) in prices.iter_mut().zip(greedy.relative(&state)) {
                 *price *= 0.3 + used;
             }
