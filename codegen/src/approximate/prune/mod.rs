@@ -138,6 +138,12 @@ impl PruneSettings {
         }
     }
 
+    /// Whether a program is so long that who waits for a quick search would wait for
+    /// minutes, were it not for what is about as good.
+    fn hurries(&self, steps: usize) -> bool {
+        self.effort == Effort::Quick && steps > LONG
+    }
+
     /// Parts are taken back only where no later stage would find them anyway.
     fn retries(&self, stage: usize) -> usize {
         if self.part(stage) < 1.0 {
@@ -206,6 +212,7 @@ pub(crate) fn watched(
     let mut random = Random::new(SEED);
     let motions = Motions::new(program, limits);
     let mut positions = motions::positions(limits, settings.samples, &mut random);
+    let mut share = search::SHARE;
     for stage in 0..settings.stages + MAX_MORE {
         // What is left of the allowances may do for one more.
         if stage >= settings.stages && !leaves(&best, allowances) {
@@ -224,7 +231,7 @@ pub(crate) fn watched(
             guesses: settings.guesses(stage, program.steps.len()),
             retries: settings.retries(stage),
         };
-        match search.run(&mut positions, &mut random) {
+        match search.run(&mut positions, &mut share, &mut random) {
             Some(found) => best = found,
             None if part < 1.0 => {}
             None => break,

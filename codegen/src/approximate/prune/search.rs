@@ -22,7 +22,7 @@ use crate::states::JointState;
 const POLISH: usize = 12;
 
 /// How much of the allowance sampled errors may use at first.
-const SHARE: f64 = 0.8;
+pub(super) const SHARE: f64 = 0.8;
 
 /// An output whose certified error is less than this part of its allowance
 /// may use more of it; the bound is not tight there.
@@ -32,6 +32,10 @@ const USED_ENOUGH: f64 = 0.88;
 /// leaves out.
 const MORE: usize = 4;
 const CAUTION: f64 = 0.8;
+
+/// Of long programs, the guesses whose worst positions stay among the samples: what one
+/// goes through grows with them, and what was worst long ago no longer is.
+const ROUNDS: usize = 2;
 
 /// In place of the ratio of errors where D may be singular.
 const SINGULAR: f64 = 4.0;
@@ -78,13 +82,28 @@ impl Search<'_> {
     }
 
     /// The cheapest variant found, if it is cheaper than what was there.
-    pub(super) fn run(&self, positions: &mut Vec<Vec<f64>>, random: &mut Random) -> Option<Pruned> {
+    /// `share`: how much of the allowances sampled errors may use at first, and, of long
+    /// programs, what was learned of that.
+    pub(super) fn run(
+        &self,
+        positions: &mut Vec<Vec<f64>>,
+        share: &mut f64,
+        random: &mut Random,
+    ) -> Option<Pruned> {
         if self.tally.is_over() && has_edits(&self.base.stages) {
             return None;
         }
         // Outputs that use up their allowance are dear.
         let mut prices = vec![1.0; self.allowances.len()];
-        let found = self.guess(positions, &mut prices, random)?;
+        let found = self.guess(positions, *share, &mut prices, random)?;
+        if self.hurries() {
+            let used = found.pruned.errors.iter().zip(self.allowances);
+            let used = used.fold(0.0, |most, (&e, &a)| {
+                f64::max(most, magnitude::relative(e, a))
+            });
+            let least = found.shares.iter().copied().fold(SHARE, f64::min);
+            *share = (least / used.clamp(0.1, 1.0).sqrt()).min(SHARE);
+        }
         let mut best = self.again(found, positions, &prices, random);
         best.program = finish(&best.stages, self.settings.effort, true);
         (cost(&best.program) < cost(&self.base.program)).then_some(best)
@@ -93,11 +112,15 @@ impl Search<'_> {
     fn guess(
         &self,
         positions: &mut Vec<Vec<f64>>,
+        share: f64,
         prices: &mut [f64],
         random: &mut Random,
     ) -> Option<Found> {
-        let mut shares = vec![SHARE; self.allowances.len()];
+        let mut shares = vec![share; self.allowances.len()];
         let mut best: Option<Found> = None;
+        // The first guess at a long program tries most of what cannot be, and the others
+        // need not.
+        let mut never = Vec::new();
         for round in 0..self.guesses + MORE {
             let enough = round >= self.guesses || self.tally.is_over();
             let over = round > 0 && self.tally.is_over();
@@ -109,18 +132,28 @@ impl Search<'_> {
             let states = self.motions.states(positions);
             let original = Nodes::new(&self.base.program, &states);
             let truth = outputs(self.full, &states);
-            let mut greedy = self.greedy(&original, &truth, &shares, prices);
+            let greedy = self.greedy(&original, &truth, &shares, prices);
+            never.resize(original.len(), Vec::new());
+            let mut greedy = greedy.knowing(std::mem::take(&mut never));
             let mut state = State {
                 edits: vec![None; original.len()],
                 nodes: original.clone(),
             };
             greedy.drop_all(&mut state, 0.0, random);
             greedy.settle(&mut state, &original, POLISH);
+            if self.hurries() {
+                never = std::mem::take(&mut greedy.never);
+            }
             for (price, used) in prices.iter_mut().zip(greedy.relative(&state)) {
                 *price *= 0.3 + used;
             }
             let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
             self.adversaries(&pruned.stages, positions, random);
+            if self.hurries() {
+                let most = self.settings.samples + ROUNDS * self.allowances.len();
+                let old = positions.len().saturating_sub(most);
+                positions.drain(self.settings.samples..self.settings.samples + old);
+            }
             let cheaper = best
                 .as_ref()
                 .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
@@ -198,6 +231,10 @@ impl Search<'_> {
             }
         }
         pruned
+    }
+
+    fn hurries(&self) -> bool {
+        self.settings.hurries(self.full.steps.len())
     }
 
     fn greedy<'t>(

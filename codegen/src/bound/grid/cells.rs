@@ -9,7 +9,7 @@ use crate::bound::work;
 use crate::interval::Interval;
 
 /// Terms that are put together in about the time of a point.
-const TERMS: usize = 64;
+pub(super) const TERMS: usize = 64;
 
 /// A bound where so many angles are put in, from the values there.
 pub(super) type Crude<'a> = dyn Fn(usize, &[f64]) -> f64 + 'a;

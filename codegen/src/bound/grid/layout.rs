@@ -130,19 +130,28 @@ impl Layout {
                     .collect(),
             );
             let rest = |key: Key| key & !bits(joint);
-            let mut after: Vec<Key> = terms.iter().map(|&key| rest(key)).collect();
-            after.sort_unstable_by_key(|&key| place(key));
-            after.dedup();
+            // In their new order, each with where it comes from.
+            let mut moved: Vec<((Key, Key), usize)> = (terms.iter().enumerate())
+                .map(|(from, &key)| (place(rest(key)), from))
+                .collect();
+            moved.sort_unstable();
+            let mut after: Vec<Key> = Vec::new();
+            let mut to = vec![0; terms.len()];
+            for ((_, key), from) in moved {
+                if after.last() != Some(&key) {
+                    after.push(key);
+                }
+                to[from] = after.len() as u32 - 1;
+            }
             let mut fold = Vec::new();
-            for &key in &terms {
+            for (&key, to) in terms.iter().zip(to) {
                 let of = multiple(key, joint);
                 let base = bases[k].iter().position(|&b| b == of);
                 let base = base.unwrap_or_else(|| {
                     bases[k].push(of);
                     bases[k].len() - 1
                 });
-                let to = after.partition_point(|&other| place(other) < place(rest(key)));
-                fold.push([base as u32, to as u32]);
+                fold.push([base as u32, to]);
             }
             terms = after;
             folds.push((fold, terms.len()));

@@ -16,7 +16,7 @@
 
 use std::cell::RefCell;
 
-use super::cells::Cells;
+use super::cells::{Cells, TERMS};
 use super::harmonics::multiple;
 use super::layout::Layout;
 use super::{GridEffort, climb, least_shown, range, tries};
@@ -39,6 +39,9 @@ const MAX_TERMS: usize = 200_000;
 
 /// What the smallest terms of a factor may come to, against the factor.
 const SMALL: f64 = 0.01;
+
+/// A grid of fewer points, all angles put in, is none.
+const FEW: usize = 16;
 
 /// Points of a climb that ranks an angle.
 const QUICK_POINTS: usize = 1 << 12;
@@ -89,7 +92,12 @@ impl Products<'_> {
         if self.limits.joints() > MAX_JOINTS || closeness.points == 0 {
             return None;
         }
-        let sizes = Sum::new(self, products)?.taken(self.limits, closeness);
+        let all = Sum::new(self, products)?;
+        // A few points that take all there are show nothing.
+        if all.terms.len() * FEW > closeness.points * TERMS {
+            return None;
+        }
+        let sizes = all.taken(self.limits, closeness);
         // Which caps count is decided once: where the sum is about largest.
         let is_capped = |product: &Product| {
             let size = product.left.map_or(0.0, |place| sizes[place]);

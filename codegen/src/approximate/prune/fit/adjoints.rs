@@ -6,47 +6,51 @@
 //! through an operation together.
 
 use crate::approximate::prune::columns::{Nodes, Value};
+use crate::program::Output;
 
-/// ∂output/∂node at every sample: output after output, node after node.
-pub(super) fn adjoints(nodes: &Nodes, edits: &[Option<Value>], columns: &[f64]) -> Vec<f64> {
+/// ∂output/∂node at every sample, node after node; `of` is where it is written: what
+/// many outputs share need not be had from the system for each.
+pub(super) fn adjoints(
+    nodes: &Nodes,
+    edits: &[Option<Value>],
+    columns: &[f64],
+    output: &Output<f64, usize>,
+    of: &mut Vec<f64>,
+) {
     let (m, inputs) = (nodes.samples, nodes.inputs.len());
-    let stride = nodes.len() * m;
-    let mut adjoints = vec![0.0; stride * nodes.outputs.len()];
-    for (index, output) in nodes.outputs.iter().enumerate() {
-        let of = &mut adjoints[index * stride..][..stride];
-        let Some(top) = nodes.node_of(&output.value) else {
+    of.clear();
+    of.resize(nodes.len() * m, 0.0);
+    let Some(top) = nodes.node_of(&output.value) else {
+        return;
+    };
+    of[top * m..][..m].fill(if output.negative { -1.0 } else { 1.0 });
+    for node in (0..=top).rev() {
+        let (before, rest) = of.split_at_mut(node * m);
+        let adjoint = &rest[..m];
+        if adjoint.iter().all(|x| *x == 0.0) {
             continue;
-        };
-        of[top * m..][..m].fill(if output.negative { -1.0 } else { 1.0 });
-        for node in (0..=top).rev() {
-            let (before, rest) = of.split_at_mut(node * m);
-            let adjoint = &rest[..m];
-            if adjoint.iter().all(|x| *x == 0.0) {
-                continue;
-            }
-            match edits[node] {
-                Some(Value::Known(_)) => {}
-                Some(Value::Node(other, negative)) => {
-                    let sign = if negative { -1.0 } else { 1.0 };
-                    let out = &mut before[other as usize * m..][..m];
-                    for (out, adjoint) in out.iter_mut().zip(adjoint) {
-                        *out += sign * adjoint;
-                    }
+        }
+        match edits[node] {
+            Some(Value::Known(_)) => {}
+            Some(Value::Node(other, negative)) => {
+                let sign = if negative { -1.0 } else { 1.0 };
+                let out = &mut before[other as usize * m..][..m];
+                for (out, adjoint) in out.iter_mut().zip(adjoint) {
+                    *out += sign * adjoint;
                 }
-                None if node < inputs => {}
-                None => {
-                    let step = &nodes.steps[node - inputs];
-                    let operands = [&step.left, &step.right];
-                    let read = operands.map(|operand| nodes.column(operand, columns));
-                    for (side, operand) in operands.into_iter().enumerate() {
-                        if let Some(to) = nodes.node_of(operand) {
-                            let sums = &mut before[to * m..][..m];
-                            step.operation.add_parts(side, adjoint, read, sums);
-                        }
+            }
+            None if node < inputs => {}
+            None => {
+                let step = &nodes.steps[node - inputs];
+                let operands = [&step.left, &step.right];
+                let read = operands.map(|operand| nodes.column(operand, columns));
+                for (side, operand) in operands.into_iter().enumerate() {
+                    if let Some(to) = nodes.node_of(operand) {
+                        let sums = &mut before[to * m..][..m];
+                        step.operation.add_parts(side, adjoint, read, sums);
                     }
                 }
             }
         }
     }
-    adjoints
 }

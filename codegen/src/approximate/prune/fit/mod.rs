@@ -53,10 +53,9 @@ impl Fit {
         motions: &Motions,
         weights: &[f64],
     ) -> Fit {
-        let mut all = Vec::new();
-        let adjoints = adjoints(nodes, edits, columns);
         let (m, inputs) = (nodes.samples, nodes.inputs.len());
-        let (stride, outputs) = (nodes.len() * m, nodes.outputs.len());
+        let rows = nodes.outputs.len() * m;
+        let mut all = Vec::new();
         for (index, step) in nodes.steps.iter().enumerate() {
             let node = inputs + index;
             if !live[node] || edits[node].is_some() {
@@ -68,20 +67,25 @@ impl Fit {
                 (_, Operand::Constant(c)) => (true, c),
                 _ => continue,
             };
-            let side = usize::from(right);
-            let read = [&step.left, &step.right].map(|operand| nodes.column(operand, columns));
-            let mut column = vec![0.0; outputs * m];
-            for output in 0..outputs {
-                let adjoint = &adjoints[output * stride + node * m..][..m];
+            let inertia = INERTIA / constant.abs().max(1e-9);
+            all.push(((index, right), vec![0.0; rows], inertia));
+        }
+        let mut adjoint = Vec::new();
+        for (output, top) in nodes.outputs.iter().enumerate() {
+            adjoints(nodes, edits, columns, top, &mut adjoint);
+            for ((index, right), column, _) in &mut all {
+                let step = &nodes.steps[*index];
+                let read = [&step.left, &step.right].map(|operand| nodes.column(operand, columns));
+                let of = &adjoint[(inputs + *index) * m..][..m];
                 let out = &mut column[output * m..][..m];
-                step.operation.add_parts(side, adjoint, read, out);
+                step.operation.add_parts(usize::from(*right), of, read, out);
             }
-            motions.monomials(&mut column);
+        }
+        for (_, column, _) in &mut all {
+            motions.monomials(column);
             for (x, w) in column.iter_mut().zip(weights) {
                 *x *= w;
             }
-            let inertia = INERTIA / constant.abs().max(1e-9);
-            all.push(((index, right), column, inertia));
         }
         Fit::of(all)
     }
@@ -160,14 +164,14 @@ impl Fit {
         }
     }
 
-    /// The changes of constants that do so, none gone.
-    pub(super) fn changes(&self, errors: &[f64]) -> Vec<((usize, bool), f64)> {
+    /// The changes of constants that do so; of those in `gone` none.
+    pub(super) fn changes(&self, errors: &[f64], gone: &[usize]) -> Vec<((usize, bool), f64)> {
         let products = self
             .columns
             .columns
             .iter()
             .map(|column| dot(column, errors));
-        let least = self.solve(products.collect());
+        let least = self.without(self.solve(products.collect()), gone);
         let places = self.places.iter().copied();
         places.zip(least.iter().map(|x| -x)).collect()
     }

@@ -11,6 +11,7 @@ mod rank;
 
 use super::PruneSettings;
 use super::columns::{Nodes, Value};
+use super::fit::LANES;
 use super::motions::Motions;
 use super::price::{Scratch, price};
 use crate::edits::Edit;
@@ -40,10 +41,16 @@ pub(super) struct Greedy<'a> {
     dirty: Vec<bool>,
     /// What cannot stand in each node's place.
     hopeless: Vec<Vec<Value>>,
+    /// What could not if errors counted half.
+    pub(super) never: Vec<Vec<Value>>,
     /// What an output's error weighs in the ranking.
     prices: Vec<f64>,
     /// Whether constants are corrected.
     refit: bool,
+    /// Edits in a row that are corrected with the derivatives from before them.
+    reuses: usize,
+    /// The candidates that are ranked again before one is taken.
+    ranked_again: usize,
     /// How many other values are tried in a value's place.
     alike: usize,
 }
@@ -56,7 +63,8 @@ struct Ranked {
     score: f64,
 }
 
-/// The candidates that are ranked again before one is taken.
+/// The candidates that are ranked again before one is taken; of long programs, as many as
+/// are corrected side by side.
 const RANKED_AGAIN: usize = 24;
 
 /// In place of an allowance of zero, where nothing may go.
@@ -66,6 +74,11 @@ const TINY: f64 = 1e-12;
 /// values, since each changes the less about the others.
 const FRESH: usize = 10;
 const FRESH_PART: usize = 32;
+
+/// Of long programs, each edit changes little about what constants can do: their
+/// derivatives, of which one set takes as long as a choice, serve for so many more
+/// edits, as long as constants corrected by them make up for these.
+const REUSES: usize = 3;
 
 impl<'a> Greedy<'a> {
     pub(super) fn new(
@@ -77,6 +90,7 @@ impl<'a> Greedy<'a> {
         settings: &PruneSettings,
     ) -> Self {
         let m = nodes.samples;
+        let hurries = settings.hurries(nodes.steps.len());
         let weights: Vec<f64> = allowances
             .iter()
             .flat_map(|a| vec![1.0 / a.max(TINY); m])
@@ -91,10 +105,21 @@ impl<'a> Greedy<'a> {
             trial: vec![0.0; nodes.len() * m],
             dirty: Vec::new(),
             hopeless: vec![Vec::new(); nodes.len()],
+            never: vec![Vec::new(); nodes.len()],
             prices,
             refit: settings.refit,
+            reuses: if hurries { REUSES } else { 0 },
+            ranked_again: if hurries { LANES } else { RANKED_AGAIN },
             alike: settings.alike,
         }
+    }
+
+    /// Knows from a search over the same nodes what cannot stand in their places: as
+    /// far as no larger shares of the allowances would change that.
+    pub(super) fn knowing(mut self, never: Vec<Vec<Value>>) -> Self {
+        self.hopeless.clone_from(&never);
+        self.never = never;
+        self
     }
 
     pub(super) fn price(&mut self, state: &State) -> u32 {
@@ -108,6 +133,7 @@ impl<'a> Greedy<'a> {
         let mut fit = self.fit(state, &columns);
         let mut refused = vec![false; state.nodes.len()];
         let fresh = FRESH.max(state.nodes.len() / FRESH_PART);
+        let mut reused = 0;
         loop {
             let mut ranked = self.rank_all(state, &columns, &fit, &refused, noise, random);
             if ranked.is_empty() {
@@ -122,7 +148,7 @@ impl<'a> Greedy<'a> {
                 let live = self.scratch.live().to_vec();
                 ranked
                     .retain(|c| state.edits[c.node].is_none() && live[c.node] && !refused[c.node]);
-                let count = RANKED_AGAIN.min(ranked.len());
+                let count = self.ranked_again.min(ranked.len());
                 let first = &mut ranked[..count];
                 let again: Vec<_> = first.iter().map(|c| (c.node, c.value)).collect();
                 let scores = self.scores(state, &columns, &fit, &again, (before, paid));
@@ -139,9 +165,19 @@ impl<'a> Greedy<'a> {
                 };
                 let kept = state.nodes.steps.clone();
                 state.edits[node] = Some(value);
+                if reused < self.reuses
+                    && let Some(corrected) = self.corrected(state, &fit)
+                {
+                    (columns, reused) = (corrected, reused + 1);
+                    taken += 1;
+                    ranked.retain(|c| c.score.is_finite());
+                    ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
+                    continue;
+                }
+                reused = 0;
                 let edited = state.nodes.run(&state.edits);
                 let refitted = self.fit(state, &edited);
-                columns = self.correct(state, edited, &refitted);
+                columns = self.correct(state, edited, &refitted, &[]);
                 if self.potential(&self.errors(&state.nodes, &columns)).worst > 1.0 {
                     // Constants cannot make up for it as hoped.
                     state.edits[node] = None;

@@ -16,7 +16,7 @@ impl Greedy<'_> {
         let mut best = (worst, state.nodes.steps.clone());
         for _ in 0..rounds {
             let fit = self.fit(state, &columns);
-            columns = self.correct(state, columns, &fit);
+            columns = self.correct(state, columns, &fit, &[]);
             let errors = self.errors(&state.nodes, &columns);
             let worst = self.potential(&errors).worst;
             if worst < best.0 {
@@ -70,13 +70,30 @@ impl Greedy<'_> {
         })
     }
 
-    /// Changes constants against the errors of the edits; the new columns from
-    /// the present ones.
+    /// The columns under edits that came after a fit, constants corrected by it; `None`,
+    /// and constants as they were, if they cannot make up for the edits so.
+    pub(super) fn corrected(&mut self, state: &mut State, fit: &Option<Fit>) -> Option<Vec<f64>> {
+        self.price(state);
+        let (live, inputs) = (self.scratch.live(), state.nodes.inputs.len());
+        let gone = fit.as_ref()?.of_ops(|op| !live[inputs + op]);
+        let kept = state.nodes.steps.clone();
+        let edited = state.nodes.run(&state.edits);
+        let columns = self.correct(state, edited, fit, &gone);
+        if self.potential(&self.errors(&state.nodes, &columns)).worst <= 1.0 {
+            return Some(columns);
+        }
+        state.nodes.steps = kept;
+        None
+    }
+
+    /// Changes constants against the errors of the edits, but those `gone` from the fit;
+    /// the new columns from the present ones.
     pub(super) fn correct(
         &self,
         state: &mut State,
         columns: Vec<f64>,
         fit: &Option<Fit>,
+        gone: &[usize],
     ) -> Vec<f64> {
         let Some(fit) = fit else { return columns };
         let mut errors = self.errors(&state.nodes, &columns);
@@ -85,7 +102,7 @@ impl Greedy<'_> {
             *error *= weight;
         }
         let kept = state.nodes.steps.clone();
-        for ((step, right), change) in fit.changes(&errors) {
+        for ((step, right), change) in fit.changes(&errors, gone) {
             let step = &mut state.nodes.steps[step];
             let operand = match right {
                 true => &mut step.right,

@@ -12,6 +12,9 @@ use crate::random::Random;
 /// more: the other edits' are at most one, and cannot make up for it.
 const HOPELESS: f64 = 5.0;
 
+/// Shares of the allowances grow from one guess to the next by less than this.
+const MARGIN: f64 = 2.0;
+
 impl Greedy<'_> {
     /// Every admissible candidate.
     pub(super) fn rank_all(
@@ -87,6 +90,9 @@ impl Greedy<'_> {
                     scores[index] = Some(growth / saved);
                 } else if potential.worst > HOPELESS {
                     self.hopeless[node].push(value);
+                    if potential.worst > MARGIN * HOPELESS {
+                        self.never[node].push(value);
+                    }
                 }
             }
         }
