@@ -52,13 +52,13 @@ pub mod bound {
         pub use crate::bound::ranges::{Finding, ranges};
     }
     pub mod sample {
-        pub use crate::bound::sample::draw;
+        pub use crate::bound::sample::{climb, draw};
     }
     pub mod scale {
         pub use crate::bound::scale::{actuator, range};
     }
     pub mod sensitivity {
-        pub use crate::bound::sensitivity::{BoundEffort, Sensitivity};
+        pub use crate::bound::sensitivity::{BoundEffort, Sensitivity, rounding};
     }
 }
 

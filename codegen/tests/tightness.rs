@@ -12,20 +12,20 @@
 
 use std::time::Instant;
 
-use dalembert_codegen::approximate::choose::ErrorBudget;
-use dalembert_codegen::approximate::prune::{PruneSettings, prune};
-use dalembert_codegen::bound::input_box::InputBox;
-use dalembert_codegen::bound::{sample, sensitivity};
-use dalembert_codegen::certificate::Certificate;
-use dalembert_codegen::edits::Stage;
-use dalembert_codegen::falsify::falsify;
-use dalembert_codegen::function::Function;
-use dalembert_codegen::generate::{Request, generate};
-use dalembert_codegen::interval::Interval;
-use dalembert_codegen::program::{Program, ScalarType};
-use dalembert_codegen::random::Random;
-use dalembert_codegen::scene::SceneRobot;
-use dalembert_codegen::states::JointState;
+use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
+use dalembert_codegen::workspace::approximate::prune::{PruneSettings, prune};
+use dalembert_codegen::workspace::bound::input_box::InputBox;
+use dalembert_codegen::workspace::bound::{sample, sensitivity};
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::edits::Stage;
+use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::interval::Interval;
+use dalembert_codegen::workspace::program::{Program, ScalarType};
+use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states::JointState;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::{JointKind, Position, Robot};

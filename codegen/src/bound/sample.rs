@@ -48,7 +48,7 @@ fn inside(x: Interval, t: f64) -> f64 {
 
 /// Climbs from a state: one coordinate at a time to its ends or by a shrinking
 /// step, as long as the error grows. Returns the state and its error.
-pub(crate) fn climb(
+pub fn climb(
     limits: &InputBox,
     from: JointState,
     moves: usize,

@@ -203,7 +203,7 @@ impl Poly {
 
     /// Σ a_k·T_k for k up to a degree, as Σ c_k·x^k.
     #[must_use]
-    pub(crate) fn from_chebyshev(&self, degree: usize) -> Poly {
+    pub(crate) fn in_powers(&self, degree: usize) -> Poly {
         let two_x = Poly::integers(vec![BigInt::zero(), BigInt::from(2)]);
         let (mut low, mut high) = (Poly::integers(vec![BigInt::one()]), Poly::variable());
         let mut sum = Poly::integers(Vec::new());
@@ -292,7 +292,7 @@ mod tests {
     fn chebyshev_there_and_back() {
         let p = of(&[0.1, -3.0, 0.5, 7.0, -0.3, 2.0]);
         let t = p.chebyshev();
-        assert_eq!(t.from_chebyshev(5).trimmed(), p);
+        assert_eq!(t.in_powers(5).trimmed(), p);
         // x³ = (3 T_1 + T_3)/4, and on [−1, 1] it is at most one.
         let cube = of(&[0.0, 0.0, 0.0, 1.0]).chebyshev();
         assert_eq!(cube.coefficient(1), Rational::new(3.into(), 4.into()));

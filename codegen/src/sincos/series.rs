@@ -133,7 +133,7 @@ impl Fit {
         factor: &Rational,
         scalar: ScalarType,
     ) -> Vec<f64> {
-        let cut = self.series(wave).from_chebyshev(degree);
+        let cut = self.series(wave).in_powers(degree);
         let radius = Rational::from_float(self.radius).unwrap_or_else(Rational::one);
         let mut scale = factor / Rational::from_integer(self.factorial.clone());
         (0..=degree)

@@ -103,7 +103,7 @@ impl Rounding {
 /// Quick bounds over a box, one an output, from at most `boxes` sub-boxes.
 /// Sines are libm's where there are no polynomials for them, whose errors are as
 /// they are claimed.
-pub(crate) fn rounding(
+pub fn rounding(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],
