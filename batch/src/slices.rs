@@ -1,8 +1,8 @@
 //! From slices to lanes and back.
 //!
-//! Loops stand here in place of closures and iterators that take them: all of
-//! it must be compiled for the same vectors as the function is, and only what is
-//! inlined for certain is.
+//! Loops over indices stand here in place of closures and iterators: all of it must be
+//! compiled for the same vectors as the function is, and only what is inlined for
+//! certain is. (`zip` is not, without link-time optimisation of a crate's parts.)
 
 use crate::{Function, Slice, Unequal};
 
@@ -79,16 +79,20 @@ pub(crate) fn run_states<F, const L: usize, const A: usize, const N: usize, cons
 {
     let mut lanes = [[[F::Scalar::default(); L]; N]; A];
     let mut start = 0;
-    for results in results.chunks_mut(L) {
-        let count = results.len();
-        for (lanes, argument) in lanes.iter_mut().zip(arguments) {
-            if let Some(states) = argument.get(start..start + count) {
-                load(lanes, states);
+    while let Some(results) = results.get_mut(start..).filter(|rest| !rest.is_empty()) {
+        let count = results.len().min(L);
+        let mut argument = 0;
+        while argument < A {
+            if let Some(states) = arguments[argument].get(start..start + count) {
+                load(&mut lanes[argument], states);
             }
+            argument += 1;
         }
         let found = F::lanes(&lanes);
-        for (l, result) in results.iter_mut().enumerate() {
-            *result = F::state(&found, l);
+        let mut lane = 0;
+        while lane < count {
+            results[lane] = F::state(&found, lane);
+            lane += 1;
         }
         start += L;
     }
@@ -101,10 +105,14 @@ pub(crate) fn run_states<F, const L: usize, const A: usize, const N: usize, cons
 fn load<T: Copy, const L: usize, const N: usize>(lanes: &mut [[T; L]; N], states: &[[T; N]]) {
     match states.first_chunk::<L>() {
         Some(states) => {
-            for (l, state) in states.iter().enumerate() {
-                for (lane, value) in lanes.iter_mut().zip(state) {
-                    lane[l] = *value;
+            let mut lane = 0;
+            while lane < L {
+                let mut entry = 0;
+                while entry < N {
+                    lanes[entry][lane] = states[lane][entry];
+                    entry += 1;
                 }
+                lane += 1;
             }
         }
         None => {
@@ -131,25 +139,27 @@ pub(crate) fn run_columns<F, const L: usize, const A: usize, const N: usize, con
     let mut lanes = [[[F::Scalar::default(); L]; N]; A];
     let mut start = 0;
     while start < states {
-        for (lanes, argument) in lanes.iter_mut().zip(arguments) {
-            for (lane, column) in lanes.iter_mut().zip(argument) {
-                if let Some(rest) = column.get(start..) {
-                    fill(lane, rest);
+        let mut argument = 0;
+        while argument < A {
+            let mut entry = 0;
+            while entry < N {
+                if let Some(rest) = arguments[argument][entry].get(start..) {
+                    fill(&mut lanes[argument][entry], rest);
                 }
+                entry += 1;
             }
+            argument += 1;
         }
         let found = F::columns(&F::lanes(&lanes));
-        for (column, found) in results.iter_mut().zip(&found) {
-            if let Some(rest) = column.get_mut(start..) {
+        let mut result = 0;
+        while result < M {
+            if let Some(rest) = results[result].get_mut(start..) {
                 match rest.first_chunk_mut::<L>() {
-                    Some(place) => *place = *found,
-                    None => {
-                        for (place, value) in rest.iter_mut().zip(found) {
-                            *place = *value;
-                        }
-                    }
+                    Some(place) => *place = found[result],
+                    None => rest.copy_from_slice(&found[result][..rest.len()]),
                 }
             }
+            result += 1;
         }
         start += L;
     }
