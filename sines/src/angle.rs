@@ -117,7 +117,7 @@ pub(crate) fn together<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T
         usual &= from(angles, &mut sines, &mut cosines, start);
         start += LANES;
     }
-    if N % LANES > 0 {
+    if !N.is_multiple_of(LANES) {
         usual &= from(angles, &mut sines, &mut cosines, N - N % LANES);
     }
     if !usual {
