@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{golden, robot, run, temporary};
+use crate::support::{arm, golden, robot, run, temporary};
 use serde_json::Value;
 
 #[test]
@@ -98,10 +98,8 @@ fn parameters_are_asked_for() {
     );
     let counted = run(&[&["count", &planar][..], &asked].concat());
     assert!(counted.out.contains("load") && counted.out.contains("gravity"));
-    let folder = temporary("parameters");
-    let arm = folder.join("arm.toml");
-    fs::copy(&planar, &arm).unwrap();
-    let kept = [&["generate", arm.to_str().unwrap()][..], &asked].concat();
+    let (folder, arm) = arm("parameters", "planar2r", "");
+    let kept = [&["generate", &arm][..], &asked].concat();
     let ran = run(&[&kept[..], &["--save-plan"]].concat());
     assert_eq!(ran.code, 0, "{}", ran.err);
     let plan = fs::read_to_string(folder.join("arm.plan")).unwrap();

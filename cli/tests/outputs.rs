@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::{Ran, robot, run, temporary};
+use crate::support::{self, Ran, run};
 
 const SCENE: &str = r#"
 [scene.hold]
@@ -15,12 +15,7 @@ scalar = "f64"
 
 /// A folder with a robot file.
 fn arm(name: &str) -> (PathBuf, String) {
-    let folder = temporary(name);
-    let file = folder.join("arm.toml");
-    let planar = fs::read_to_string(robot("planar2r")).unwrap();
-    fs::write(&file, format!("{planar}{SCENE}")).unwrap();
-    let name = file.to_str().unwrap().to_owned();
-    (folder, name)
+    support::arm(name, "planar2r", SCENE)
 }
 
 fn hold(arm: &str, arguments: &[&str]) -> Ran {

@@ -46,3 +46,13 @@ pub fn temporary(name: &str) -> PathBuf {
     fs::create_dir_all(&folder).unwrap();
     folder
 }
+
+/// A checked-in robot with more in its file, in a folder of its own, and the file's name.
+pub fn arm(folder: &str, of: &str, more: &str) -> (PathBuf, String) {
+    let folder = temporary(folder);
+    let file = folder.join("arm.toml");
+    let robot = fs::read_to_string(robot(of)).unwrap();
+    fs::write(&file, format!("{robot}{more}")).unwrap();
+    let name = file.to_str().unwrap().to_owned();
+    (folder, name)
+}

@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::{robot, temporary};
-
 /// Two joints that need little, so that a search is quick.
 const SCENES: &str = r#"
 [scene.pick]
@@ -28,12 +26,7 @@ tolerance = { value = [1e-3, 1e-3, 1e-2], relative_to = "range" }
 
 /// The planar arm of three joints with scenes, in a folder of its own.
 pub fn arm(name: &str) -> (PathBuf, String) {
-    let folder = temporary(name);
-    let file = folder.join("arm.toml");
-    let planar = fs::read_to_string(robot("planar3r")).unwrap();
-    fs::write(&file, format!("{planar}{SCENES}")).unwrap();
-    let name = file.to_str().unwrap().to_owned();
-    (folder, name)
+    super::arm(name, "planar3r", SCENES)
 }
 
 pub fn path(folder: &Path, name: &str) -> String {
