@@ -2,6 +2,7 @@
 
 COLOURS = {
     "dalembert": "#2f7fd6",
+    "each rounded": "#7fb0e6",
     "CasADi, gcc": "#d9822b",
     "CasADi, clang": "#b5651d",
     "dynibo": "#8a63b8",

@@ -2,12 +2,22 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use crate::lanes::{LANES, Lanes, Number};
+use crate::number::{Floats, Number};
+use crate::vectors::Vector;
 
 /// A float that angles are in.
 pub trait Angle:
-    Number<Self> + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Floats<Self> + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
+    /// What one or two angles are put into, or of f32 up to four.
+    #[doc(hidden)]
+    type Narrow: Vector<Self>;
+    /// What all others are put into.
+    #[doc(hidden)]
+    type Wide: Vector<Self>;
+
+    /// Which bit is the sign.
+    const SIGN: usize;
     /// Up to here, in magnitude, the polynomials are for.
     const LARGEST: Self;
     /// 2/π
@@ -24,15 +34,6 @@ pub trait Angle:
 
     /// (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
     fn polynomials<V: Number<Self>>(z: V, w: V) -> (V, V);
-
-    /// Sine and cosine of the angle from those of what is left of it. The last
-    /// two bits of the shifted count say by how many quarter turns: an odd one
-    /// exchanges them, the second bit is the sine's sign, and that of the
-    /// count plus one the cosine's.
-    fn turned(shifted: Self, sin: Self, cos: Self) -> (Self, Self);
-
-    /// Whether the polynomials are for this angle; they are not for NaN.
-    fn is_usual(self) -> bool;
 
     /// What is right for every angle.
     fn library(self) -> (Self, Self);
@@ -64,91 +65,72 @@ pub fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
     (shifted, sin, cos)
 }
 
-/// Sines and cosines of as many angles as there are lanes, and whether the
-/// polynomials were for all of them.
+/// Sine and cosine of the angle from those of what is left of it. The last
+/// two bits of the shifted count say by how many quarter turns: an odd one
+/// exchanges them, the second bit is the sine's sign, and that of the
+/// count plus one the cosine's.
 #[inline(always)]
-fn lanes<T: Angle>(angles: [T; LANES]) -> ([T; LANES], [T; LANES], bool) {
-    let (shifted, sin, cos) = rest(Lanes(angles));
-    let (mut sines, mut cosines) = ([T::default(); LANES], [T::default(); LANES]);
-    let mut usual = true;
-    let mut lane = 0;
-    while lane < LANES {
-        (sines[lane], cosines[lane]) = T::turned(shifted.0[lane], sin.0[lane], cos.0[lane]);
-        usual &= angles[lane].is_usual();
-        lane += 1;
-    }
-    (sines, cosines, usual)
+pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, V) {
+    let (count, sin, cos) = (shifted.bits(), sin.bits(), cos.bits());
+    let one = V::power(0);
+    // None of the bits for an odd count, all that differ for an even one.
+    let kept = (sin ^ cos) & ((count & one) - one);
+    let half_turn = V::shifted(count, T::SIGN - 1);
+    let next = half_turn + V::power(T::SIGN - 1);
+    let sign = V::power(T::SIGN);
+    (
+        V::of_bits(cos ^ kept ^ (half_turn & sign)),
+        V::of_bits(sin ^ kept ^ (next & sign)),
+    )
 }
 
-/// Sines and cosines of any number of angles.
+/// Sines and cosines of any number of angles: in vectors where the processor has some
+/// and code is optimised, so that the angles are put into them where they are computed
+/// and their sines are taken out where they are needed; else by a call.
 #[inline(always)]
-pub fn all<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
-    match cfg!(debug_assertions) {
-        true => singly(angles),
-        false => together(angles),
+pub(crate) fn all<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+    const VECTORS: bool = cfg!(any(
+        target_feature = "sse2",
+        target_feature = "neon",
+        target_feature = "simd128"
+    ));
+    match VECTORS && !cfg!(debug_assertions) {
+        true => together(angles),
+        false => singly(angles),
     }
 }
 
-/// One after the other, to the same bits: where nothing is optimised, lanes
-/// would take eight times as long.
+/// One after the other, to the same bits.
+#[inline(never)]
 pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
     for ((angle, sine), cosine) in angles.iter().zip(&mut sines).zip(&mut cosines) {
         let (shifted, sin, cos) = rest::<T, T>(*angle);
-        (*sine, *cosine) = match angle.is_usual() {
-            true => T::turned(shifted, sin, cos),
+        (*sine, *cosine) = match angle.are_usual() {
+            true => turned(shifted, sin, cos),
             false => angle.library(),
         };
     }
     (sines, cosines)
 }
 
-/// As many at a time as there are lanes.
-///
-/// Loops over indices, not iterators: where a call of one of these is not inlined, as
-/// happens without link-time optimisation of a crate's parts, no length is known any
-/// more, and the lanes of no angle are computed, too (four angles: 43 ns for 15).
+/// As many at a time as a vector holds, the last few in a narrow one if that has room.
 #[inline(always)]
 pub(crate) fn together<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
     let mut usual = true;
     let mut start = 0;
-    while start + LANES <= N {
-        usual &= from(angles, &mut sines, &mut cosines, start);
-        start += LANES;
+    while start + T::Narrow::LANES < N {
+        usual &= T::Wide::sincos(angles, &mut sines, &mut cosines, start);
+        start += T::Wide::LANES;
     }
-    if !N.is_multiple_of(LANES) {
-        usual &= from(angles, &mut sines, &mut cosines, N - N % LANES);
+    if start < N {
+        usual &= T::Narrow::sincos(angles, &mut sines, &mut cosines, start);
     }
     if !usual {
         unusual(angles, &mut sines, &mut cosines);
     }
     (sines, cosines)
-}
-
-/// As many as there are lanes, or as are left, from one on. The other lanes are zeros,
-/// which an optimising compiler leaves out.
-#[inline(always)]
-fn from<T: Angle, const N: usize>(
-    angles: &[T; N],
-    sines: &mut [T; N],
-    cosines: &mut [T; N],
-    start: usize,
-) -> bool {
-    let mut taken = [T::default(); LANES];
-    let mut lane = 0;
-    while lane < LANES && start + lane < N {
-        taken[lane] = angles[start + lane];
-        lane += 1;
-    }
-    let (sin, cos, usual) = lanes(taken);
-    let mut lane = 0;
-    while lane < LANES && start + lane < N {
-        sines[start + lane] = sin[lane];
-        cosines[start + lane] = cos[lane];
-        lane += 1;
-    }
-    usual
 }
 
 /// Sines and cosines of any number of angles in every lane of a caller: a loop
@@ -166,8 +148,8 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
         while lane < L {
             let x = angles[angle][lane];
             let (shifted, sin, cos) = rest::<T, T>(x);
-            (sines[angle][lane], cosines[angle][lane]) = T::turned(shifted, sin, cos);
-            usual &= x.is_usual();
+            (sines[angle][lane], cosines[angle][lane]) = turned(shifted, sin, cos);
+            usual &= x.are_usual();
             lane += 1;
         }
         angle += 1;
@@ -185,7 +167,7 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
 #[inline(never)]
 fn unusual<T: Angle>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
     for ((angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
-        if !angle.is_usual() {
+        if !angle.are_usual() {
             (*sin, *cos) = angle.library();
         }
     }

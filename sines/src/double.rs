@@ -6,7 +6,8 @@
 //! the cosine, absolute, below 2⁻⁶⁴·¹⁸ (`tests/polynomials.rs`).
 
 use crate::angle::Angle;
-use crate::lanes::Number;
+use crate::number::Number;
+use crate::vectors::{FourDoubles, TwoDoubles};
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f64; 6] = [
@@ -36,6 +37,10 @@ fn polynomial<V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {
 }
 
 impl Angle for f64 {
+    type Narrow = TwoDoubles;
+    type Wide = FourDoubles;
+
+    const SIGN: usize = 63;
     const LARGEST: f64 = crate::LARGEST;
     const INVERSE: f64 = core::f64::consts::FRAC_2_PI;
     const SHIFT: f64 = 6755399441055744.0;
@@ -50,24 +55,6 @@ impl Angle for f64 {
     #[inline(always)]
     fn polynomials<V: Number<f64>>(z: V, w: V) -> (V, V) {
         (polynomial(SINE, z, w), polynomial(COSINE, z, w))
-    }
-
-    #[inline(always)]
-    fn turned(shifted: f64, sin: f64, cos: f64) -> (f64, f64) {
-        const SIGN: u64 = 1 << 63;
-        let (count, sin, cos) = (shifted.to_bits(), sin.to_bits(), cos.to_bits());
-        let exchanged = (sin ^ cos) & 0u64.wrapping_sub(count & 1);
-        let half_turn = count << 62;
-        let (of_sin, of_cos) = (half_turn, half_turn.wrapping_add(1 << 62));
-        (
-            f64::from_bits(sin ^ exchanged ^ (of_sin & SIGN)),
-            f64::from_bits(cos ^ exchanged ^ (of_cos & SIGN)),
-        )
-    }
-
-    #[inline(always)]
-    fn is_usual(self) -> bool {
-        self.abs() <= Self::LARGEST
     }
 
     fn library(self) -> (f64, f64) {

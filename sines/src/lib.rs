@@ -8,16 +8,21 @@
 //! ```
 //!
 //! A library's sine has branches: which quarter turn, how large. Here there are
-//! none up to [`LARGEST`] ([`LARGEST_F32`]), so that a compiler makes vector
-//! instructions of it, as many angles at a time as the processor's have room
-//! for. Beyond, and for what is no number, the answer is libm's: exact reduction
+//! none up to [`LARGEST`] ([`LARGEST_F32`]), so that one vector instruction computes
+//! as many angles as the processor has room for: two or four doubles, four or eight
+//! floats. Beyond, and for what is no number, the answer is libm's: exact reduction
 //! by Payne and Hanek's method, NaN for NaN and the infinities. One comparison
 //! for all angles together says whether that is needed.
 //!
-//! These are calls, never inlined: next to scalar arithmetic, LLVM tears the
-//! vectors apart (with AVX-512, a PUMA's torques took 102 ns that way and 44 ns
-//! this way). Where nothing is optimised there are no vectors: 2.8 times libm's
-//! time.
+//! The vectors are those of the crate `wide`, and all is inlined: what a compiler
+//! makes of loops over arrays, it tears apart next to scalar arithmetic (with AVX-512,
+//! a PUMA's torques took 102 ns that way), and a call waits for angles that were
+//! stored one by one and are loaded together. Against such calls, torques of the
+//! PUMA, the Stanford arm, the UR10 and the Panda took 41, 38, 43 and 68 ns for 44, 55,
+//! 50 and 74 with AVX-512, and 50, 39, 52 and 83 ns for 45, 55, 56 and 85 in a plain build.
+//!
+//! Where nothing is optimised, or the processor has no vectors, they are computed one
+//! after the other in a call: not optimised, in 2.8 times libm's time.
 //!
 //! Each angle is computed for itself: among others it gets the bits that it
 //! gets alone. Nothing fuses a multiplication with an addition and no
@@ -101,17 +106,18 @@
 
 mod angle;
 mod double;
-mod lanes;
+mod number;
 mod single;
 #[cfg(test)]
 mod tests;
+mod vectors;
 
 /// The computation as it stands, generic over numbers: what the generator's proof of
 /// its error reads.
 #[doc(hidden)]
 pub mod text {
     pub use crate::angle::{Angle, rest};
-    pub use crate::lanes::Number;
+    pub use crate::number::Number;
 }
 
 /// Roots, correctly rounded: libm's, for code that has all from here.
@@ -132,7 +138,7 @@ pub const LARGEST_F32: f32 = 100.0;
 /// assert_eq!(cos[..2], [1.0, 1.0]);
 /// assert!(sin[0].is_sign_positive() && sin[1].is_sign_negative());
 /// ```
-#[inline(never)]
+#[inline(always)]
 #[must_use]
 pub fn sincos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     angle::all(angles)
@@ -144,7 +150,7 @@ pub fn sincos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
 /// let ([sin], [cos]) = dalembert_sines::sincosf(&[100.5f32]);
 /// assert_eq!((sin, cos), libm::sincosf(100.5));
 /// ```
-#[inline(never)]
+#[inline(always)]
 #[must_use]
 pub fn sincosf<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
     angle::all(angles)

@@ -6,7 +6,8 @@
 //! cosine, absolute, below 2⁻³³·¹ (`tests/polynomials.rs`).
 
 use crate::angle::Angle;
-use crate::lanes::Number;
+use crate::number::Number;
+use crate::vectors::{EightFloats, FourFloats};
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f32; 3] = [0.16666655, -0.008332189, 0.00019518287];
@@ -20,6 +21,10 @@ fn polynomial<V: Number<f32>>(c: [f32; 3], z: V) -> V {
 }
 
 impl Angle for f32 {
+    type Narrow = FourFloats;
+    type Wide = EightFloats;
+
+    const SIGN: usize = 31;
     const LARGEST: f32 = crate::LARGEST_F32;
     const INVERSE: f32 = core::f32::consts::FRAC_2_PI;
     const SHIFT: f32 = 12582912.0;
@@ -30,24 +35,6 @@ impl Angle for f32 {
     #[inline(always)]
     fn polynomials<V: Number<f32>>(z: V, _: V) -> (V, V) {
         (polynomial(SINE, z), polynomial(COSINE, z))
-    }
-
-    #[inline(always)]
-    fn turned(shifted: f32, sin: f32, cos: f32) -> (f32, f32) {
-        const SIGN: u32 = 1 << 31;
-        let (count, sin, cos) = (shifted.to_bits(), sin.to_bits(), cos.to_bits());
-        let exchanged = (sin ^ cos) & 0u32.wrapping_sub(count & 1);
-        let half_turn = count << 30;
-        let (of_sin, of_cos) = (half_turn, half_turn.wrapping_add(1 << 30));
-        (
-            f32::from_bits(sin ^ exchanged ^ (of_sin & SIGN)),
-            f32::from_bits(cos ^ exchanged ^ (of_cos & SIGN)),
-        )
-    }
-
-    #[inline(always)]
-    fn is_usual(self) -> bool {
-        self.abs() <= Self::LARGEST
     }
 
     fn library(self) -> (f32, f32) {

@@ -8,6 +8,10 @@ include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
 include!(concat!(env!("OUT_DIR"), "/stanford.rs"));
 include!(concat!(env!("OUT_DIR"), "/ur10.rs"));
 include!(concat!(env!("OUT_DIR"), "/panda.rs"));
+include!(concat!(env!("OUT_DIR"), "/puma560_fma.rs"));
+include!(concat!(env!("OUT_DIR"), "/stanford_fma.rs"));
+include!(concat!(env!("OUT_DIR"), "/ur10_fma.rs"));
+include!(concat!(env!("OUT_DIR"), "/panda_fma.rs"));
 
 /// A joint vector of the right length.
 fn joints<const N: usize>(x: &[f64]) -> [f64; N] {
@@ -66,13 +70,17 @@ macro_rules! robot {
     };
 }
 
-/// The function of a robot; none if there is no such.
-pub fn ready(robot: &str, function: &str) -> Option<Ready> {
-    match robot {
-        "puma560" => robot!(puma560, function),
-        "stanford" => robot!(stanford, function),
-        "ur10" => robot!(ur10, function),
-        "panda" => robot!(panda, function),
+/// The function of a robot, with `mul_add` or without; none if there is no such.
+pub fn ready(robot: &str, function: &str, fma: bool) -> Option<Ready> {
+    match (robot, fma) {
+        ("puma560", false) => robot!(puma560, function),
+        ("puma560", true) => robot!(puma560_fma, function),
+        ("stanford", false) => robot!(stanford, function),
+        ("stanford", true) => robot!(stanford_fma, function),
+        ("ur10", false) => robot!(ur10, function),
+        ("ur10", true) => robot!(ur10_fma, function),
+        ("panda", false) => robot!(panda, function),
+        ("panda", true) => robot!(panda_fma, function),
         _ => None,
     }
 }

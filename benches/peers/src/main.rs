@@ -2,8 +2,8 @@
 //! states of `FOLDER/states`, a line a state; `peers time …` prints the nanoseconds
 //! that it takes a state, the median of many batches.
 //!
-//! A library is `dalembert`, or one of the crates that read `FOLDER/ROBOT.urdf` or
-//! `FOLDER/ROBOT.chain` at run time.
+//! A library is `dalembert`, `dalembert_fma` for code with `mul_add`, or one of the
+//! crates that read `FOLDER/ROBOT.urdf` or `FOLDER/ROBOT.chain` at run time.
 
 mod chain;
 mod generated;
@@ -36,7 +36,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(folder);
     let states = read(&folder.join(format!("{robot}.states")))?;
     let mut ready = match library.as_str() {
-        "dalembert" => generated::ready(robot, function),
+        "dalembert" => generated::ready(robot, function, false),
+        "dalembert_fma" => generated::ready(robot, function, true),
         "dynibo" => chain::dynibo(&folder.join(format!("{robot}.urdf")), function)?,
         "phyz" => chain::phyz(&read(&folder.join(format!("{robot}.chain")))?, function),
         _ => None,

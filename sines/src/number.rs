@@ -1,0 +1,81 @@
+//! What the computation asks of a number, and of several at once.
+
+use core::num::Wrapping;
+use core::ops::{Add, BitAnd, BitXor, Mul, Sub};
+
+use crate::angle::Angle;
+
+/// A float, or one for each lane; the other operand may be one for all.
+pub trait Number<T>:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Add<T, Output = Self>
+    + Sub<T, Output = Self>
+    + Mul<T, Output = Self>
+{
+    /// The same in every lane.
+    fn all(value: T) -> Self;
+}
+
+/// Floats of known bits: one, or a vector of them.
+pub trait Floats<T: Angle>: Number<T> {
+    /// Their bits, as integers that wrap.
+    type Bits: Copy
+        + BitXor<Output = Self::Bits>
+        + BitAnd<Output = Self::Bits>
+        + Add<Output = Self::Bits>
+        + Sub<Output = Self::Bits>;
+
+    fn bits(self) -> Self::Bits;
+    fn of_bits(bits: Self::Bits) -> Self;
+    /// Powers of two in every lane; of the exponent that the sign's bit has,
+    /// the sign's.
+    fn power(exponent: usize) -> Self::Bits;
+    fn shifted(bits: Self::Bits, by: usize) -> Self::Bits;
+    /// Whether the polynomials are for each of these angles.
+    fn are_usual(self) -> bool;
+}
+
+macro_rules! scalar {
+    ($float:ident, $bits:ident) => {
+        impl Number<$float> for $float {
+            #[inline(always)]
+            fn all(value: $float) -> $float {
+                value
+            }
+        }
+
+        impl Floats<$float> for $float {
+            type Bits = Wrapping<$bits>;
+
+            #[inline(always)]
+            fn bits(self) -> Self::Bits {
+                Wrapping(self.to_bits())
+            }
+
+            #[inline(always)]
+            fn of_bits(bits: Self::Bits) -> $float {
+                $float::from_bits(bits.0)
+            }
+
+            #[inline(always)]
+            fn power(exponent: usize) -> Self::Bits {
+                Wrapping(1 << exponent)
+            }
+
+            #[inline(always)]
+            fn shifted(bits: Self::Bits, by: usize) -> Self::Bits {
+                bits << by
+            }
+
+            #[inline(always)]
+            fn are_usual(self) -> bool {
+                self.abs() <= $float::LARGEST
+            }
+        }
+    };
+}
+scalar!(f64, u64);
+scalar!(f32, u32);
