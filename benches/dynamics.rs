@@ -1,5 +1,6 @@
-//! Generated functions against the generic recursion, and f64 against f32, in
-//! one run: read the ratios, the times are this machine's.
+//! Generated functions against the generic recursion, and against that recursion in
+//! symbols, unsimplified; f64 against f32; in one run: read the ratios, the times are
+//! this machine's.
 //!
 //! `cargo bench --bench dynamics`
 
@@ -11,6 +12,10 @@ use dalembert_generated::{panda, puma560, puma560_f32, stanford, ur10};
 use dalembert_model::read;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
+
+#[rustfmt::skip] // As the generator writes it.
+#[path = "generated/recursion.rs"]
+mod symbolic;
 
 /// The generic runtime of a checked-in robot.
 fn reference(name: &str) -> Reference<f64> {
@@ -40,6 +45,11 @@ macro_rules! inverse_dynamics {
         );
         group.bench_function("generated f64", |b| {
             b.iter(|| $robot::inverse_dynamics(black_box(&q), black_box(&qd), black_box(&qdd)))
+        });
+        group.bench_function("symbolic recursion f64, unsimplified", |b| {
+            b.iter(|| {
+                symbolic::$robot::inverse_dynamics(black_box(&q), black_box(&qd), black_box(&qdd))
+            })
         });
         let generic = reference(stringify!($robot));
         let [q, qd, qdd] = [q, qd, qdd].map(|x| DVector::from_column_slice(&x));
