@@ -6,12 +6,15 @@
 //! formula, which is executed anew at each state. Its own error is bounded along with
 //! it, by `Known`.
 
+use std::cell::RefCell;
+
 use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Angle, Exact, Rational, Wide};
 use dalembert_model::outputs::Axis;
 use dalembert_model::scalar::{Divide, Scalar, SinCosPair};
 use num_traits::Zero;
+use rustc_hash::FxHashMap;
 
 use crate::function::{Argument, Columns, Function, Quantity};
 use crate::program::{AngleSum, Input};
@@ -27,7 +30,13 @@ const LOST: f64 = 6.3e-61;
 pub struct Reference<'s> {
     scene_robot: &'s SceneRobot,
     arm: Arm<Known>,
+    /// Of angles that were asked for, by their bits: several functions are run at the
+    /// same states.
+    pairs: RefCell<FxHashMap<u64, SinCosPair<Wide>>>,
 }
+
+/// Pairs that are kept, about a megabyte.
+const MAX_PAIRS: usize = 1 << 13;
 
 /// A true value, and how far it may be off.
 #[derive(Clone, Debug)]
@@ -67,6 +76,7 @@ impl<'s> Reference<'s> {
         Reference {
             scene_robot,
             arm: Arm::from_robot(robot, &mut Known::of),
+            pairs: RefCell::default(),
         }
     }
 
@@ -79,7 +89,7 @@ impl<'s> Reference<'s> {
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let finite = |x: f64| Wide::from_f64(x).unwrap_or_else(Wide::zero);
-        let pairs: Vec<SinCosPair<Wide>> = state.q.iter().map(|&q| pair(q)).collect();
+        let pairs: Vec<SinCosPair<Wide>> = state.q.iter().map(|&q| self.pair(q)).collect();
         // A motion reads the angles of single joints only.
         let joint = |angle: AngleSum| angle.terms().map(|(joint, _)| joint).sum::<usize>();
         let input = |input| match input {
@@ -101,6 +111,18 @@ impl<'s> Reference<'s> {
         };
         results.into_iter().map(known).collect()
     }
+
+    fn pair(&self, q: f64) -> SinCosPair<Wide> {
+        let mut pairs = self.pairs.borrow_mut();
+        if pairs.len() >= MAX_PAIRS {
+            pairs.clear();
+        }
+        let known = pairs.entry(q.to_bits()).or_insert_with(|| {
+            let angle = Rational::from_float(q).unwrap_or_else(Rational::zero);
+            Wide::sincos(&Angle::Radians(angle))
+        });
+        known.clone()
+    }
 }
 
 /// How many recursions a function takes: what a state costs.
@@ -121,18 +143,13 @@ pub(crate) fn recursions(function: Function, joints: usize) -> usize {
     function.quantities().iter().map(of).sum()
 }
 
-fn pair(q: f64) -> SinCosPair<Wide> {
-    let angle = Rational::from_float(q).unwrap_or_else(Rational::zero);
-    Wide::sincos(&Angle::Radians(angle))
-}
-
 /// A value, and how far it may be off, by Wilkinson's running error analysis as in
 /// [`running`](super::running): what the operands are off, carried through the operation, and
 /// what that rounds itself.
 #[derive(Clone, Debug)]
 struct Known {
     value: Wide,
-    /// |value|, rounded up.
+    /// |value| or a little more.
     size: f64,
     /// In units of [`LOST`].
     lost: f64,
@@ -150,7 +167,7 @@ impl Known {
 
     /// Rounded itself, with what its operands' errors make of it.
     fn rounded(value: Wide, carried: f64) -> Known {
-        let size = value.magnitude();
+        let size = value.bound();
         Known {
             value,
             size,

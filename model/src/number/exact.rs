@@ -15,6 +15,7 @@ use core::hash::{Hash, Hasher};
 
 use num_traits::{One, Signed, Zero};
 
+use super::small::{product, sum};
 use super::{Angle, Rational};
 use crate::scalar::Scalar;
 use crate::scalar::SinCosPair;
@@ -197,11 +198,18 @@ impl Exact {
     }
 
     fn scale(&self, factor: &Rational) -> Exact {
+        match factor.is_zero() {
+            true => Exact::zero(),
+            false => self.each(|coefficient| product(coefficient, factor)),
+        }
+    }
+
+    /// Every coefficient made another one; none of them zero.
+    fn each(&self, change: impl Fn(&Rational) -> Rational) -> Exact {
         match &self.0 {
-            Form::Rational(value) => Exact::from(value.as_ref() * factor),
-            Form::Polynomial(_) if factor.is_zero() => Exact::zero(),
+            Form::Rational(value) => Exact::from(change(value)),
             Form::Polynomial(terms) => Exact(Form::Polynomial(Arc::new(
-                terms.iter().map(|(m, c)| (m.clone(), c * factor)).collect(),
+                terms.iter().map(|(m, c)| (m.clone(), change(c))).collect(),
             ))),
         }
     }
@@ -227,13 +235,14 @@ impl Exact {
         Exact(Form::Polynomial(Arc::new(terms)))
     }
 
-    fn combine(&self, other: &Exact, sign: &Rational) -> Exact {
+    fn plus(&self, other: &Exact) -> Exact {
         if let (Form::Rational(a), Form::Rational(b)) = (&self.0, &other.0) {
-            return Exact::from(a.as_ref() + b.as_ref() * sign);
+            return Exact::from(sum(a, b));
         }
         let mut terms = self.to_terms();
         for (monomial, coefficient) in other.to_terms() {
-            *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient * sign;
+            let place = terms.entry(monomial).or_insert_with(Rational::zero);
+            *place = sum(place, &coefficient);
         }
         Exact::from_terms(terms)
     }
@@ -253,10 +262,10 @@ impl Scalar for Exact {
         Exact::from(Rational::one())
     }
     fn add(&self, other: &Self) -> Self {
-        self.combine(other, &Rational::one())
+        self.plus(other)
     }
     fn sub(&self, other: &Self) -> Self {
-        self.combine(other, &-Rational::one())
+        self.plus(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
         match (&self.0, &other.0) {
@@ -266,7 +275,7 @@ impl Scalar for Exact {
                 let mut terms = BTreeMap::new();
                 for (m, c) in a.iter() {
                     for (n, d) in b.iter() {
-                        multiply_into(&mut terms, m, n, &(c * d));
+                        multiply_into(&mut terms, m, n, &product(c, d));
                     }
                 }
                 Exact::from_terms(terms)
@@ -274,7 +283,7 @@ impl Scalar for Exact {
         }
     }
     fn neg(&self) -> Self {
-        self.scale(&-Rational::one())
+        self.each(|coefficient| -coefficient)
     }
     fn half(&self) -> Self {
         self.scale(&Rational::new(1.into(), 2.into()))

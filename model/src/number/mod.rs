@@ -12,6 +12,7 @@ mod exact;
 pub mod parse;
 pub mod recover;
 mod round;
+mod small;
 mod text;
 mod trig;
 mod wide;

@@ -118,15 +118,31 @@ impl Wide {
 
     /// |self|, rounded up to a double.
     pub fn magnitude(&self) -> f64 {
+        let [least, less, more, first] = self.significand;
+        let below = least | less | more | (first << f64::MANTISSA_DIGITS);
+        self.above(u64::from(below != 0))
+    }
+
+    /// |self| or a little more: one unit in a double's last place at most. It reads the
+    /// first limb only, which is there before the others.
+    pub fn bound(&self) -> f64 {
+        self.above(u64::from(!self.is_zero()))
+    }
+
+    /// The first bits of |self| and so many units in the last place of them.
+    fn above(&self, units: u64) -> f64 {
         const DROPPED: u32 = u64::BITS - f64::MANTISSA_DIGITS;
-        let [rest @ .., first] = &self.significand;
-        let is_exact = rest.iter().all(|x| *x == 0) && first.trailing_zeros() >= DROPPED;
-        let top = (first >> DROPPED) + u64::from(!is_exact && *first > 0);
+        let top = (self.significand[LIMBS - 1] >> DROPPED) + units;
         let dropped = BITS as i64 - i64::from(f64::MANTISSA_DIGITS);
         let exponent = self.exponent.saturating_add(dropped);
         let exponent = exponent.clamp(-4000, 4000) as i32;
         // At most 2⁵³: a double.
-        let value = libm::ldexp(top as f64, exponent);
+        let top = top as f64;
+        if exponent.unsigned_abs() < 960 {
+            // A power of two, and a product that is normal: nothing is rounded.
+            return top * f64::from_bits((1023 + i64::from(exponent)).unsigned_abs() << 52);
+        }
+        let value = libm::ldexp(top, exponent);
         // What is below the least normal double has been rounded on the way.
         if value < f64::MIN_POSITIVE && !self.is_zero() {
             value.next_up()
@@ -235,7 +251,8 @@ impl Scalar for Wide {
         }
     }
     fn is_zero(&self) -> bool {
-        self.significand == [0; LIMBS]
+        // The highest bit of what is not is one.
+        self.significand[LIMBS - 1] == 0
     }
 }
 
@@ -342,6 +359,7 @@ mod tests {
             let size = a.magnitude();
             let exact = Rational::from_float(size).unwrap();
             assert!(exact >= x.abs() && (size == 0.0) == a.is_zero());
+            assert!((size..=size.next_up()).contains(&a.bound()));
             assert_eq!(Wide::from_f64(size).unwrap().to_rational(), exact);
         }
     }

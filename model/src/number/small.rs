@@ -1,0 +1,100 @@
+//! Sums and products of rationals. The numbers of a robot file have a few digits, and
+//! most that come of them are as small: then words do what big integers would.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::Zero;
+
+use super::Rational;
+
+/// a · b
+pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
+    let (Some((p, q)), Some((r, s))) = (words(a), words(b)) else {
+        return a * b;
+    };
+    if p == 0 || r == 0 {
+        return Rational::zero();
+    }
+    // What they have in common goes first: p/q and r/s are in lowest terms, so
+    // the product is. Each factor is below 2⁶³.
+    let (first, second) = (common(p, s), common(r, q));
+    let numerator = (p / first) * (r / second);
+    let denominator = (q / second) * (s / first);
+    Rational::new_raw(BigInt::from(numerator), BigInt::from(denominator))
+}
+
+/// a + b
+pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
+    let (Some((p, q)), Some((r, s))) = (words(a), words(b)) else {
+        return a + b;
+    };
+    // Two products below 2¹²⁶ each.
+    let (numerator, denominator) = match q == s {
+        true => (p + r, q),
+        false => (p * s + r * q, q * s),
+    };
+    let common = common(numerator, denominator);
+    Rational::new_raw(
+        BigInt::from(numerator / common),
+        BigInt::from(denominator / common),
+    )
+}
+
+/// Numerator and denominator, if both are below 2⁶³ in magnitude.
+fn words(x: &Rational) -> Option<(i128, i128)> {
+    let word = |part: &BigInt| {
+        let word = i64::try_from(part).ok()?;
+        (word != i64::MIN).then_some(i128::from(word))
+    };
+    Some((word(x.numer())?, word(x.denom())?))
+}
+
+/// The greatest common divisor; where both fit, in half as wide words.
+fn common(a: i128, b: i128) -> i128 {
+    match (i64::try_from(a), i64::try_from(b)) {
+        (Ok(a), Ok(b)) => a.gcd(&b).into(),
+        _ => a.gcd(&b),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// What words compute is what big integers do, in the same form, up to the largest.
+    #[test]
+    fn words_and_big_integers_agree() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut draw = |most: u32| {
+            bits = bits
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let shift = 64 - (bits >> 40) as u32 % most - 1;
+            ((bits ^ (bits << 23)) as i64) >> shift.min(63)
+        };
+        let mut rational = |most: u32| {
+            let (numerator, denominator) = (draw(most), draw(most));
+            let denominator = if denominator == 0 { 1 } else { denominator };
+            Rational::new(numerator.into(), denominator.into())
+        };
+        let edges = [i64::MAX, i64::MIN, i64::MIN + 1, 0, 1, -1];
+        let edges = edges.map(|x| Rational::from_integer(x.into()));
+        let mut pairs: Vec<(Rational, Rational)> = (0..20_000)
+            .map(|k| (rational(1 + k % 63), rational(1 + (k / 7) % 63)))
+            .collect();
+        for a in &edges {
+            for b in &edges {
+                pairs.push((a.clone(), b.clone()));
+                let below = if b.is_zero() { a.clone() } else { b.recip() };
+                pairs.push((a.clone(), below));
+            }
+        }
+        for (a, b) in pairs {
+            for (found, expected) in [(product(&a, &b), &a * &b), (sum(&a, &b), &a + &b)] {
+                assert_eq!(found.numer(), expected.numer(), "{a} {b}");
+                assert_eq!(found.denom(), expected.denom(), "{a} {b}");
+            }
+        }
+    }
+}
