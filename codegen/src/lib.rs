@@ -7,6 +7,7 @@
 //! to it).
 //!
 //! - `random`: seeded random numbers, the same on every machine
+//! - `parallel`: work shared out among threads
 //! - `states`: joint states inside a robot's limits
 //! - `function`: the functions that can be generated
 //! - `program`: straight-line code, its inputs, scalars, counts and text
@@ -52,6 +53,7 @@ mod function;
 mod generate;
 mod graph;
 mod interval;
+mod parallel;
 mod plan;
 mod portfolio;
 mod program;

@@ -7,15 +7,12 @@
 //! samples; what comes out is an equal program like any other, and whoever
 //! uses it shows that again.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
 use crate::approximate::prune::{PruneSettings, appraise};
 use crate::bound::input_box::InputBox;
+use crate::parallel;
 use crate::portfolio;
 use crate::program::Program;
 use crate::scene::SceneRobot;
@@ -66,7 +63,7 @@ pub(super) fn descend(
         if round == 0 {
             regroupings.insert(0, from.clone());
         }
-        let mut looks = parallel(&regroupings, |regrouping| {
+        let looks = parallel::each(&regroupings, |regrouping| {
             if descent.is_over() {
                 return None;
             }
@@ -75,11 +72,10 @@ pub(super) fn descend(
             let program = program.with_graph(&graph);
             Some((descent.price(&program, LOOKS[0]), regrouping, program))
         });
+        let mut looks: Vec<_> = looks.into_iter().flatten().collect();
         looks.sort_by_key(|look| look.0);
         looks.truncate(CLOSER);
-        let prices = parallel(&looks, |(_, _, program)| {
-            Some(descent.price(program, LOOKS[1]))
-        });
+        let prices = parallel::each(&looks, |(_, _, program)| descent.price(program, LOOKS[1]));
         let pairs = prices.into_iter().zip(looks);
         let Some((found, (_, regrouping, program))) = pairs.min_by_key(|pair| pair.0) else {
             break;
@@ -116,35 +112,4 @@ impl Descent<'_> {
         };
         appraise(program, self.limits, &allowances, &settings)
     }
-}
-
-/// What a function makes of each, in their order, by as many threads as the
-/// machine runs at once: the result does not depend on how many.
-fn parallel<'t, T: Sync, R: Send>(
-    items: &'t [T],
-    function: impl Fn(&'t T) -> Option<R> + Sync,
-) -> Vec<R> {
-    let next = AtomicUsize::new(0);
-    let results = Mutex::new(Vec::new());
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, |n| n.get()) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(item) = items.get(index) else { break };
-                    let result = function(item);
-                    let mut results = results.lock().unwrap_or_else(|poison| poison.into_inner());
-                    results.push((index, result));
-                }
-            });
-        }
-    });
-    let mut results = results
-        .into_inner()
-        .unwrap_or_else(|poison| poison.into_inner());
-    results.sort_by_key(|(index, _)| *index);
-    results
-        .into_iter()
-        .filter_map(|(_, result)| result)
-        .collect()
 }

@@ -33,6 +33,7 @@ pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::{Columns, Function};
+use crate::parallel;
 use crate::program::{Lowered, ScalarType};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
 use crate::simplify::Effort;
@@ -206,13 +207,17 @@ fn all(scene_robot: &SceneRobot, request: &Request) -> Result<Found, GenerateErr
 }
 
 fn attempt(scene_robot: &SceneRobot, request: &Request) -> Result<Found, GenerateError> {
-    let mut functions = Vec::new();
+    let mut functions = Function::in_order(&request.functions);
     if scene_robot.has(RuntimeParameter::Payload) {
-        functions.push(one(scene_robot, Function::Load, request)?);
+        functions.insert(0, Function::Load);
     }
-    for function in Function::in_order(&request.functions) {
-        functions.push(one(scene_robot, function, request)?);
-    }
+    let one = |function: &Function| one(scene_robot, *function, request);
+    let found: Result<_, _> = match request.effort {
+        Effort::Quick => parallel::each(&functions, one).into_iter().collect(),
+        // Who watches a long search sees one function after the other.
+        Effort::Thorough => functions.iter().map(one).collect(),
+    };
+    let mut functions: Vec<GeneratedFunction> = found?;
     let scalars = tolerate(scene_robot, &mut functions, request)?;
     Ok((functions, scalars))
 }

@@ -1,0 +1,69 @@
+//! Work shared out among threads, whose number no result depends on.
+
+use std::num::NonZero;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// As much as a program's first thread has: the others run the same code.
+const STACK: usize = 8 << 20;
+
+/// What a function makes of each, in their order, by as many threads as the
+/// machine runs at once. A thread that the system refuses is done without. Work begins
+/// with the last: the long outputs come last, and none should be left alone at the end.
+pub(crate) fn each<'t, T: Sync, R: Send>(
+    items: &'t [T],
+    function: impl Fn(&'t T) -> R + Sync,
+) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.iter().nth_back(index) else {
+                break;
+            };
+            let result = function(item);
+            let mut results = results.lock().unwrap_or_else(|poison| poison.into_inner());
+            results.push((index, result));
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    thread::scope(|scope| {
+        for _ in 1..threads.min(items.len()) {
+            let thread = thread::Builder::new().stack_size(STACK);
+            if thread.spawn_scoped(scope, work).is_err() {
+                break;
+            }
+        }
+        work();
+    });
+    let mut results = results
+        .into_inner()
+        .unwrap_or_else(|poison| poison.into_inner());
+    results.sort_by_key(|(index, _)| *index);
+    results
+        .into_iter()
+        .rev()
+        .map(|(_, result)| result)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_in_the_order_of_their_items() {
+        let items: Vec<u64> = (0..100).collect();
+        // The first ones take longest.
+        let slow = |&k: &u64| {
+            (0..(100 - k) * 1000)
+                .fold(k, |x, n| std::hint::black_box(x ^ n))
+                .min(0)
+                + k
+        };
+        assert_eq!(each(&items, slow), items);
+        assert_eq!(each(&[], |k: &u64| *k), []);
+    }
+}
