@@ -1,13 +1,13 @@
 //! One function by all its entries in one run, f64 and f32: a state a call, the
 //! same with sines given, lanes, batches of 1024 states; in the vectors that the
-//! processor has, in those of AVX2 and in those of a plain build. Each is
-//! measured in turn with calls of one state, and the median of the ratios is
-//! printed: read these, the times are this machine's.
+//! processor has, in those of AVX2 and in those of a plain build. Read the ratios,
+//! the times are this machine's.
 //!
 //! `cargo bench --bench batch`
 
+mod rounds;
+
 use std::hint::black_box;
-use std::time::Instant;
 
 use dalembert::batch::{Function, columns_in_lanes, states_in_lanes};
 
@@ -15,6 +15,7 @@ use dalembert::batch::{Function, columns_in_lanes, states_in_lanes};
 #[path = "generated/puma560_batch.rs"]
 mod generated;
 use generated::{puma560, puma560_f32};
+use rounds::Rounds;
 
 /// States a batch.
 const STATES: usize = 1024;
@@ -75,48 +76,6 @@ fn with_avx2<F: pulp::NullaryFnOnce>(_: F) -> Option<F::Output> {
     None
 }
 
-/// The times of one variant after the other, round by round.
-#[derive(Default)]
-struct Rounds {
-    names: Vec<&'static str>,
-    times: Vec<Vec<f64>>,
-}
-
-impl Rounds {
-    fn time(&mut self, name: &'static str, run: impl FnOnce()) {
-        let start = Instant::now();
-        run();
-        let time = start.elapsed().as_secs_f64() * 1e9 / STATES as f64;
-        let place = self.names.iter().position(|known| *known == name);
-        let place = place.unwrap_or_else(|| {
-            self.names.push(name);
-            self.times.push(Vec::new());
-            self.names.len() - 1
-        });
-        self.times[place].push(time);
-    }
-
-    fn print(&self, what: &str) {
-        println!("\n{what}, of one state: ns a state, times as fast as a call a state");
-        for (name, times) in self.names.iter().zip(&self.times) {
-            let ratios = self.times[0]
-                .iter()
-                .zip(times)
-                .map(|(one, time)| one / time);
-            let median = |values: Vec<f64>| {
-                let mut values = values;
-                values.sort_by(f64::total_cmp);
-                values[values.len() / 2]
-            };
-            println!(
-                "{name:32} {:6.2} {:6.2}",
-                median(times.clone()),
-                median(ratios.collect())
-            );
-        }
-    }
-}
-
 macro_rules! bench {
     ($what:literal, $module:ident, $scalar:ty, $function:ident, $given:ident, $in_lanes:ident,
      $batch:ident, $columns:ident, $kind:ident, $avx2:literal) => {{
@@ -140,7 +99,7 @@ macro_rules! bench {
         let expected: Vec<[$scalar; 6]> = (0..STATES).map(single).collect();
         let mut found = vec![[0.0; 6]; STATES];
         let mut in_columns = [(); 6].map(|()| vec![0.0; STATES]);
-        let mut rounds = Rounds::default();
+        let mut rounds = Rounds::of(STATES);
         for _ in 0..ROUNDS {
             rounds.time("a call a state", || {
                 for k in 0..STATES {

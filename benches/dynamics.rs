@@ -1,21 +1,29 @@
-//! Generated functions against the generic recursion, and against that recursion in
-//! symbols, unsimplified; f64 against f32; in one run: read the ratios, the times are
-//! this machine's.
+//! Generated functions against the recursion in symbols, unsimplified, and against the
+//! generic recursion; what sharing saves; f64 against f32; with the sines of all angles
+//! together and with none to compute. Read the ratios, the times are this machine's.
 //!
 //! `cargo bench --bench dynamics`
+
+mod rounds;
 
 use std::hint::black_box;
 use std::path::Path;
 
-use criterion::{Criterion, criterion_group, criterion_main};
 use dalembert_generated::{panda, puma560, puma560_f32, stanford, ur10};
 use dalembert_model::read;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
+use rounds::Rounds;
 
 #[rustfmt::skip] // As the generator writes it.
 #[path = "generated/recursion.rs"]
 mod symbolic;
+
+/// Calls a run.
+const CALLS: usize = 200;
+
+/// Rounds in which each variant runs once.
+const ROUNDS: usize = 1001;
 
 /// The generic runtime of a checked-in robot.
 fn reference(name: &str) -> Reference<f64> {
@@ -29,67 +37,97 @@ fn reference(name: &str) -> Reference<f64> {
     Reference::from_robot(&reading.robot)
 }
 
-/// A state that no constant folds.
-fn state<const N: usize>(offset: f64) -> [f64; N] {
-    std::array::from_fn(|i| offset + 0.37 * i as f64)
+/// States that no constant folds and no branch of a sine is learnt from.
+fn states<const N: usize>(seed: u64) -> Vec<[f64; N]> {
+    let mut bits = seed;
+    let mut unit = || {
+        bits = bits
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let state = |_| [0.0; N].map(|_: f64| std::f64::consts::PI * unit());
+    (0..CALLS).map(state).collect()
 }
 
 macro_rules! inverse_dynamics {
-    ($criterion:expr, $robot:ident) => {
-        let mut group =
-            $criterion.benchmark_group(concat!(stringify!($robot), "/inverse_dynamics"));
-        let (q, qd, qdd) = (
-            state::<{ $robot::N }>(0.3),
-            state::<{ $robot::N }>(-0.5),
-            state::<{ $robot::N }>(1.1),
-        );
-        group.bench_function("generated f64", |b| {
-            b.iter(|| $robot::inverse_dynamics(black_box(&q), black_box(&qd), black_box(&qdd)))
-        });
-        group.bench_function("symbolic recursion f64, unsimplified", |b| {
-            b.iter(|| {
-                symbolic::$robot::inverse_dynamics(black_box(&q), black_box(&qd), black_box(&qdd))
-            })
-        });
+    ($robot:ident) => {{
+        const N: usize = $robot::N;
+        let (q, qd, qdd) = (states::<N>(1), states::<N>(2), states::<N>(3));
         let generic = reference(stringify!($robot));
-        let [q, qd, qdd] = [q, qd, qdd].map(|x| DVector::from_column_slice(&x));
-        group.bench_function("generic recursion f64", |b| {
-            b.iter(|| generic.inverse_dynamics(black_box(&q), black_box(&qd), black_box(&qdd)))
+        let vectors = [&q, &qd, &qdd].map(|states| {
+            let vector = |x: &[f64; N]| DVector::from_column_slice(x);
+            states.iter().map(vector).collect::<Vec<_>>()
         });
-        group.finish();
-    };
-}
-
-fn against_the_recursion(criterion: &mut Criterion) {
-    inverse_dynamics!(criterion, puma560);
-    inverse_dynamics!(criterion, stanford);
-    inverse_dynamics!(criterion, ur10);
-    inverse_dynamics!(criterion, panda);
+        let mut rounds = Rounds::of(CALLS);
+        for _ in 0..ROUNDS {
+            rounds.time("generated", || {
+                for k in 0..CALLS {
+                    black_box($robot::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k]));
+                }
+            });
+            rounds.time("recursion in symbols, unsimplified", || {
+                for k in 0..CALLS {
+                    let q = black_box(&q[k]);
+                    black_box(symbolic::$robot::inverse_dynamics(q, &qd[k], &qdd[k]));
+                }
+            });
+            rounds.time("generic recursion", || {
+                for k in 0..CALLS {
+                    let [q, qd, qdd] = [0, 1, 2].map(|i| &vectors[i][k]);
+                    let _ = black_box(generic.inverse_dynamics(black_box(q), qd, qdd));
+                }
+            });
+        }
+        rounds.print(concat!(stringify!($robot), " inverse_dynamics f64"));
+    }};
 }
 
 /// What sharing D, h and c saves, and what f32 does.
-fn variants(criterion: &mut Criterion) {
-    let (q, qd, qdd) = (state::<6>(0.3), state::<6>(-0.5), state::<6>(1.1));
-    let mut group = criterion.benchmark_group("puma560/variants");
-    group.bench_function("manipulator_equation", |b| {
-        b.iter(|| puma560::manipulator_equation(black_box(&q), black_box(&qd)))
+fn variants() {
+    let [q, qd, qdd] = [1, 2, 3].map(states::<6>);
+    let single = [&q, &qd, &qdd].map(|states| {
+        let single = |x: &[f64; 6]| x.map(|x| x as f32);
+        states.iter().map(single).collect::<Vec<_>>()
     });
-    group.bench_function("inertia, coriolis, gravity", |b| {
-        b.iter(|| {
-            let q = black_box(&q);
-            let h = puma560::coriolis(q, black_box(&qd));
-            (puma560::inertia(q), h, puma560::gravity(q))
-        })
-    });
-    group.bench_function("dynamic_coefficients", |b| {
-        b.iter(|| puma560::dynamic_coefficients(black_box(&q)))
-    });
-    let [q, qd, qdd] = [q, qd, qdd].map(|x| x.map(|x| x as f32));
-    group.bench_function("inverse_dynamics f32", |b| {
-        b.iter(|| puma560_f32::inverse_dynamics(black_box(&q), black_box(&qd), black_box(&qdd)))
-    });
-    group.finish();
+    let mut rounds = Rounds::of(CALLS);
+    for _ in 0..ROUNDS {
+        rounds.time("inertia, coriolis, gravity", || {
+            for (q, qd) in q.iter().zip(&qd) {
+                let q = black_box(q);
+                black_box((puma560::inertia(q), puma560::coriolis(q, qd)));
+                black_box(puma560::gravity(q));
+            }
+        });
+        rounds.time("manipulator_equation", || {
+            for (q, qd) in q.iter().zip(&qd) {
+                black_box(puma560::manipulator_equation(black_box(q), qd));
+            }
+        });
+        rounds.time("dynamic_coefficients", || {
+            for q in &q {
+                black_box(puma560::dynamic_coefficients(black_box(q)));
+            }
+        });
+        rounds.time("inverse_dynamics", || {
+            for k in 0..CALLS {
+                black_box(puma560::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k]));
+            }
+        });
+        rounds.time("inverse_dynamics f32", || {
+            for k in 0..CALLS {
+                let [q, qd, qdd] = [0, 1, 2].map(|i| &single[i][k]);
+                black_box(puma560_f32::inverse_dynamics(black_box(q), qd, qdd));
+            }
+        });
+    }
+    rounds.print("puma560, functions");
 }
 
-criterion_group!(benches, against_the_recursion, variants);
-criterion_main!(benches);
+fn main() {
+    inverse_dynamics!(puma560);
+    inverse_dynamics!(stanford);
+    inverse_dynamics!(ur10);
+    inverse_dynamics!(panda);
+    variants();
+}

@@ -1,20 +1,15 @@
-//! One program with four kinds of sines in one run: libm's, std's, those of all
-//! angles together, and polynomials that a certificate admits at 1e-6 of the actuators' limits.
-//! Read the ratios, the times are this machine's. The first line has those of
-//! rounds in turn, which hold on a busy machine too.
+//! One program with four kinds of sines: libm's, std's, those of all angles together,
+//! and polynomials that a certificate admits at 1e-6 of the actuators' limits. Then six
+//! angles' sines and cosines by `dalembert_sines`, against libm's for the same. Read the
+//! ratios, the times are this machine's.
 //!
-//! `cargo bench --bench sines`: polynomials take 0.53 of libm's time, all angles
-//! together 0.69, std's sines 1.24 (x86-64; the 0.69 from the same functions in a loop of
-//! its own, not yet from this bench).
-//!
-//! Then six angles' sines and cosines by `dalembert_sines`, of libm's time for
-//! the same: f64 0.29 and f32 0.20 in a plain build, 0.22 and 0.19 with
-//! `-C target-cpu=native` (AVX-512).
+//! `cargo bench --bench sines`
+
+mod rounds;
 
 use std::hint::black_box;
-use std::time::Instant;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use rounds::Rounds;
 
 #[rustfmt::skip] // As the generator writes it.
 #[path = "generated/puma560_sines.rs"]
@@ -67,97 +62,57 @@ fn states() -> Vec<State> {
 /// Rounds in which each variant runs once.
 const ROUNDS: usize = 301;
 
-/// Each variant's time over that of libm's sines in the same round, the median:
-/// what slows the machine down for a while slows all of them down.
-fn ratios(states: &[State]) {
-    let mut rounds = vec![Vec::new(); 3];
+/// The program with each of its sines.
+fn torques(states: &[State]) {
+    let mut rounds = Rounds::of(STATES);
     for _ in 0..ROUNDS {
         macro_rules! time {
-            ($name:ident) => {{
-                let start = Instant::now();
-                for [q, qd, qdd] in black_box(states) {
-                    black_box(variants::$name::inverse_dynamics(q, qd, qdd));
-                }
-                start.elapsed().as_secs_f64()
-            }};
-        }
-        let libm = time!(libm_sines);
-        rounds[0].push(time!(std_sines) / libm);
-        rounds[1].push(time!(together) / libm);
-        rounds[2].push(time!(polynomials) / libm);
-    }
-    let [std, together, polynomials] = [0, 1, 2].map(|variant| {
-        rounds[variant].sort_by(f64::total_cmp);
-        rounds[variant][ROUNDS / 2]
-    });
-    println!("of libm's time: std {std:.3}, together {together:.3}, polynomials {polynomials:.3}");
-}
-
-/// Six sines and cosines together, of libm's time: f64 and f32.
-fn together(states: &[State]) {
-    macro_rules! ratio {
-        ($scalar:ty, $together:path, $alone:path) => {{
-            #[inline(never)]
-            fn own(angles: &[$scalar; 6]) -> ([$scalar; 6], [$scalar; 6]) {
-                $together(angles)
-            }
-            #[inline(never)]
-            fn libms(angles: &[$scalar; 6]) -> ([$scalar; 6], [$scalar; 6]) {
-                let (mut sines, mut cosines) = ([0.0; 6], [0.0; 6]);
-                for ((angle, sin), cos) in angles.iter().zip(&mut sines).zip(&mut cosines) {
-                    (*sin, *cos) = $alone(*angle);
-                }
-                (sines, cosines)
-            }
-            let angles: Vec<_> = states
-                .iter()
-                .map(|[q, ..]| q.map(|x| x as $scalar))
-                .collect();
-            let mut rounds = Vec::new();
-            for _ in 0..ROUNDS {
-                let start = Instant::now();
-                for q in black_box(&angles) {
-                    black_box(libms(q));
-                }
-                let libm = start.elapsed().as_secs_f64();
-                let start = Instant::now();
-                for q in black_box(&angles) {
-                    black_box(own(q));
-                }
-                rounds.push(start.elapsed().as_secs_f64() / libm);
-            }
-            rounds.sort_by(f64::total_cmp);
-            rounds[ROUNDS / 2]
-        }};
-    }
-    let double = ratio!(f64, dalembert_sines::sincos, libm::sincos);
-    let single = ratio!(f32, dalembert_sines::sincosf, libm::sincosf);
-    println!("six angles together, of libm's time: f64 {double:.3}, f32 {single:.3}");
-}
-
-fn sines(criterion: &mut Criterion) {
-    let states = states();
-    ratios(&states);
-    together(&states);
-    let mut group = criterion.benchmark_group("puma560/inverse_dynamics/sines");
-    group.throughput(Throughput::Elements(STATES as u64));
-    macro_rules! variant {
-        ($name:ident) => {
-            group.bench_function(stringify!($name), |b| {
-                b.iter(|| {
-                    for [q, qd, qdd] in black_box(&states) {
+            ($($name:ident),*) => {$(
+                rounds.time(stringify!($name), || {
+                    for [q, qd, qdd] in black_box(states) {
                         black_box(variants::$name::inverse_dynamics(q, qd, qdd));
                     }
-                })
-            });
-        };
+                });
+            )*};
+        }
+        time!(libm_sines, std_sines, together, polynomials);
     }
-    variant!(libm_sines);
-    variant!(std_sines);
-    variant!(together);
-    variant!(polynomials);
-    group.finish();
+    rounds.print("puma560 inverse_dynamics f64, by its sines");
 }
 
-criterion_group!(benches, sines);
-criterion_main!(benches);
+/// Six sines and cosines together and one by one: f64 and f32.
+fn six_angles(states: &[State]) {
+    let single: Vec<[f32; 6]> = states.iter().map(|[q, ..]| q.map(|x| x as f32)).collect();
+    let mut rounds = [(); 2].map(|()| Rounds::of(STATES));
+    let [double_rounds, single_rounds] = &mut rounds;
+    for _ in 0..ROUNDS {
+        double_rounds.time("libm", || {
+            for [q, ..] in black_box(states) {
+                black_box(q.map(libm::sincos));
+            }
+        });
+        double_rounds.time("together", || {
+            for [q, ..] in black_box(states) {
+                black_box(dalembert_sines::sincos(q));
+            }
+        });
+        single_rounds.time("libm", || {
+            for q in black_box(&single) {
+                black_box(q.map(libm::sincosf));
+            }
+        });
+        single_rounds.time("together", || {
+            for q in black_box(&single) {
+                black_box(dalembert_sines::sincosf(q));
+            }
+        });
+    }
+    double_rounds.print("six angles f64");
+    single_rounds.print("six angles f32");
+}
+
+fn main() {
+    let states = states();
+    torques(&states);
+    six_angles(&states);
+}

@@ -1,0 +1,91 @@
+//! What generation and the check of certificates take: by a quick search without a
+//! plan, by a plan, and by `certify` with a run of the text. Read the ratios, the times
+//! are this machine's.
+//!
+//! `cargo bench --bench generation`
+
+mod rounds;
+
+use std::fs;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+
+use dalembert_codegen::workspace::certificate::format;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_model::read;
+use dalembert_model::robot::Robot;
+use rounds::Rounds;
+
+/// Rounds in which each variant runs once.
+const ROUNDS: usize = 7;
+
+/// States at which `certify` runs a text.
+const STATES: usize = 1000;
+
+fn file(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn robot(name: &str) -> Robot {
+    let file = file(&format!("generated/robots/{name}.toml"));
+    let source = fs::read_to_string(file).expect("a checked-in robot");
+    let reading = read::parse(&source, &read::Options::default());
+    reading.expect("a good robot").robot
+}
+
+fn searches(name: &str) {
+    let robot = robot(name);
+    let all = Request::default();
+    let torques = Request {
+        functions: vec![Function::InverseDynamics],
+        ..Request::default()
+    };
+    let toml = file(&format!("generated/robots/{name}.toml"));
+    let planned = Request {
+        plan: plan::file::beside(&toml).expect("a readable plan"),
+        ..torques.clone()
+    };
+    let mut rounds = Rounds::of(1);
+    for _ in 0..ROUNDS {
+        for (what, request) in [
+            ("six functions", &all),
+            ("inverse_dynamics", &torques),
+            ("inverse_dynamics, by its plan", &planned),
+        ] {
+            rounds.time(what, || {
+                black_box(generate(&robot, request).expect("code"));
+            });
+        }
+    }
+    rounds.print(&format!("{name}, generation"));
+}
+
+fn certificates() {
+    let robot = robot("puma560");
+    let scene_robot = SceneRobot::whole(&robot);
+    let mut rounds = Rounds::of(1);
+    for name in ["puma560-actuator-1e-3", "puma560-range-1e-2"] {
+        let path = file(&format!("generated/certificates/{name}.json"));
+        let text = fs::read_to_string(path).expect("a checked-in certificate");
+        let certificates = format::read(&text).expect("certificates");
+        for _ in 0..ROUNDS {
+            rounds.time(name, || {
+                for certificate in &certificates {
+                    black_box(certificate.check(&scene_robot).expect("it holds"));
+                    black_box(certificate.run(&scene_robot, STATES).expect("it holds"));
+                }
+            });
+        }
+    }
+    rounds.print("puma560, certify");
+}
+
+fn main() {
+    for name in ["puma560", "stanford", "ur10", "panda"] {
+        searches(name);
+    }
+    certificates();
+}

@@ -1,0 +1,57 @@
+//! Variants of one thing, timed in turn: what slows the machine down for a while slows
+//! all of them down, so that their ratios hold on a busy machine, too.
+
+use std::time::Instant;
+
+/// The times of one variant after the other, round by round.
+pub struct Rounds {
+    /// Calls, states or whatever a run does so many of.
+    units: usize,
+    names: Vec<&'static str>,
+    times: Vec<Vec<f64>>,
+}
+
+impl Rounds {
+    /// Of runs that do so many of the same each.
+    pub fn of(units: usize) -> Rounds {
+        Rounds {
+            units,
+            names: Vec::new(),
+            times: Vec::new(),
+        }
+    }
+
+    /// One run of a variant, once a round.
+    pub fn time(&mut self, name: &'static str, run: impl FnOnce()) {
+        let start = Instant::now();
+        run();
+        let time = start.elapsed().as_secs_f64() * 1e9 / self.units as f64;
+        let place = self.names.iter().position(|known| *known == name);
+        let place = place.unwrap_or_else(|| {
+            self.names.push(name);
+            self.times.push(Vec::new());
+            self.names.len() - 1
+        });
+        self.times[place].push(time);
+    }
+
+    /// Medians: of the times, and of how many times as fast as the first variant
+    /// in the same round each was.
+    pub fn print(&self, what: &str) {
+        println!("\n{what}: ns each, times as fast as the first");
+        for (name, times) in self.names.iter().zip(&self.times) {
+            let pairs = self.times[0].iter().zip(times);
+            let ratios = pairs.map(|(first, time)| first / time);
+            println!(
+                "{name:40} {:12.2} {:8.2}",
+                median(times.clone()),
+                median(ratios.collect())
+            );
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
