@@ -64,6 +64,6 @@ mod tests {
                 + k
         };
         assert_eq!(each(&items, slow), items);
-        assert_eq!(each(&[], |k: &u64| *k), []);
+        assert!(each(&[], slow).is_empty());
     }
 }
