@@ -1,0 +1,226 @@
+//! What a text computes, as polynomials: exactly as real numbers, and at most how far
+//! the floating-point values are from that.
+
+use crate::dynamics::State;
+use crate::fault::Fault;
+use crate::interval::{Interval, UNIT};
+use crate::polynomial::{MAX_JOINTS, Polynomial, Variable, Work};
+use crate::ring::Ring;
+use crate::scene::{Ranges, Setting};
+use crate::sines;
+use crate::text::{Argument, Node, Program, Source};
+
+/// Half an ulp of f32, relative.
+const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
+/// For sums of positive doubles that are rounded themselves.
+const SLACK: f64 = 1.000_001;
+
+/// A value of the text.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// The real number that it stands for, with the error of sines by polynomials as
+    /// variables.
+    pub exact: Polynomial,
+    /// The largest magnitude of that.
+    pub size: f64,
+    /// How far the computed number is from it at most.
+    pub error: f64,
+}
+
+/// What a node stands for: a number, or an angle that only sines may read.
+enum Meaning {
+    /// Joints that turn, and whether their angles are subtracted.
+    Angle(Vec<(usize, bool)>),
+    Number(Value),
+}
+
+/// The scalar that a text computes in.
+#[derive(Clone, Copy, Debug)]
+pub struct Scalar {
+    /// What rounding to nearest costs, relative.
+    pub unit: f64,
+    /// What it costs more where results underflow.
+    pub least: f64,
+    /// Where results overflow.
+    pub most: f64,
+}
+
+impl Scalar {
+    /// f32 or f64.
+    pub fn of(is_single: bool) -> Scalar {
+        match is_single {
+            true => Scalar { unit: SINGLE_UNIT, least: 1e-45, most: f64::from(f32::MAX) },
+            false => Scalar { unit: UNIT, least: f64::from_bits(1), most: f64::MAX },
+        }
+    }
+
+    /// How far the result of an operation is off: its operands' share, and rounding.
+    pub fn rounded(self, size: f64, inherited: f64) -> f64 {
+        let error = inherited + self.unit * (size + inherited) + self.least;
+        match (size + error) * SLACK < self.most {
+            true => error * SLACK,
+            false => f64::INFINITY,
+        }
+    }
+}
+
+struct Values<'a> {
+    ring: &'a Ring,
+    setting: &'a Setting,
+    ranges: &'a Ranges,
+    program: &'a Program,
+    scalar: Scalar,
+    /// How many errors of sines have a variable of their own.
+    errors: usize,
+}
+
+/// The outputs of a text over a box.
+///
+/// # Errors
+/// A text that reads what it may not, or polynomials that are too long.
+pub fn outputs(
+    program: &Program,
+    setting: &Setting,
+    ranges: &Ranges,
+    ring: &Ring,
+    work: &mut Work,
+) -> Result<Vec<Value>, Fault> {
+    let scalar = Scalar::of(program.is_single);
+    let mut values = Values { ring, setting, ranges, program, scalar, errors: 0 };
+    let mut all = Vec::with_capacity(program.nodes.len());
+    for &node in &program.nodes {
+        let meaning = values.meaning(node, &all, work)?;
+        all.push(meaning);
+    }
+    let output = |&node: &usize| number(&all, node).cloned();
+    program.outputs.iter().map(output).collect()
+}
+
+fn number(all: &[Meaning], node: usize) -> Result<&Value, Fault> {
+    match all.get(node) {
+        Some(Meaning::Number(value)) => Ok(value),
+        _ => Err(Fault::certificate("the text uses the angle of a joint as a number")),
+    }
+}
+
+impl Values<'_> {
+    fn meaning(&mut self, node: Node, all: &[Meaning], work: &mut Work) -> Result<Meaning, Fault> {
+        let angle = |node: usize| match &all[node] {
+            Meaning::Angle(joints) => Some(joints),
+            Meaning::Number(_) => None,
+        };
+        let value = match node {
+            Node::Constant(value) => exact(Polynomial::constant(value, 0.0), value.abs()),
+            Node::Input(argument, joint) => match self.input(argument, joint)? {
+                None => return Ok(Meaning::Angle(vec![(joint, false)])),
+                Some(value) => exact(value.clone(), self.ring.size(value)),
+            },
+            Node::Neg(a) => {
+                if let Some(joints) = angle(a) {
+                    return Ok(Meaning::Angle(joints.iter().map(|&(j, n)| (j, !n)).collect()));
+                }
+                let a = number(all, a)?;
+                Value { exact: a.exact.clone().negated(), ..*a }
+            }
+            Node::Add(a, b) | Node::Sub(a, b) => {
+                let minus = matches!(node, Node::Sub(..));
+                if let (Some(a), Some(b)) = (angle(a), angle(b)) {
+                    let behind = b.iter().map(|&(joint, negative)| (joint, negative != minus));
+                    let sum: Vec<(usize, bool)> = a.iter().copied().chain(behind).collect();
+                    if sum.len() > MAX_JOINTS {
+                        return Err(Fault::certificate("an angle is the sum of too many"));
+                    }
+                    return Ok(Meaning::Angle(sum));
+                }
+                let (a, b) = (number(all, a)?, number(all, b)?);
+                let negated = minus.then(|| b.exact.clone().negated());
+                let sum = a.exact.plus(negated.as_ref().unwrap_or(&b.exact));
+                let size = self.ring.size(&sum).min((a.size + b.size) * SLACK);
+                let error = self.scalar.rounded(size, a.error + b.error);
+                Value { exact: sum, size, error }
+            }
+            Node::Mul(a, b) => {
+                let (a, b) = (number(all, a)?, number(all, b)?);
+                let product = a.exact.times(&b.exact, work)?;
+                let size = self.ring.size(&product).min(a.size * b.size * SLACK);
+                let inherited = a.error * b.size + b.error * a.size + a.error * b.error;
+                let error = self.scalar.rounded(size, inherited * SLACK);
+                Value { exact: product, size, error }
+            }
+            Node::Sin(a, source) | Node::Cos(a, source) => {
+                let Some(joints) = angle(a) else {
+                    return Err(Fault::certificate("a sine of something that is no angle"));
+                };
+                let is_sine = matches!(node, Node::Sin(..));
+                self.sine(joints, is_sine, source, work)?
+            }
+        };
+        Ok(Meaning::Number(value))
+    }
+
+    /// An entry of an argument; `None` of an angle.
+    fn input(&self, argument: Argument, joint: usize) -> Result<Option<&Polynomial>, Fault> {
+        let State { position, velocity, acceleration, .. } = &self.ring.states[joint];
+        if self.setting.locks[joint].is_some() {
+            let why = format!("the text reads the state of joint {}, which is locked", joint + 1);
+            return Err(Fault::certificate(why));
+        }
+        Ok(match argument {
+            Argument::Position if self.setting.robot.joints[joint].turns => None,
+            Argument::Position => Some(position),
+            Argument::Velocity => Some(velocity),
+            Argument::Acceleration => Some(acceleration),
+        })
+    }
+
+    /// A sine or cosine of a sum of angles, with what it is off.
+    fn sine(
+        &mut self,
+        joints: &[(usize, bool)],
+        is_sine: bool,
+        source: Source,
+        work: &mut Work,
+    ) -> Result<Value, Fault> {
+        let (mut sin, mut cos) = (Polynomial::default(), Polynomial::constant(1.0, 0.0));
+        let mut range = Interval::point(0.0);
+        for &(joint, negative) in joints {
+            let State { sin: own, cos: own_cos, .. } = &self.ring.states[joint];
+            let [low, high] = self.ranges.position[joint];
+            let own_range = Interval::new(low, high);
+            range = range + if negative { -own_range } else { own_range };
+            let own = if negative { own.clone().negated() } else { own.clone() };
+            let turned = sin.times(own_cos, work)?.plus(&cos.times(&own, work)?);
+            cos = cos.times(own_cos, work)?.plus(&sin.times(&own, work)?.negated());
+            sin = turned;
+        }
+        // Each sum of angles is rounded, and a sine changes by no more than its angle.
+        let sums = (joints.len() - 1) as f64;
+        let rounded = 2.0 * sums * sums * self.scalar.unit * range.magnitude();
+        let mut exact = if is_sine { sin } else { cos };
+        let (error, mut size) = match source {
+            // An ulp of a number up to one is at most two units.
+            Source::Library => (2.0 * self.scalar.unit + rounded, 1.0),
+            Source::Block(block, result) => {
+                let (low, high) = (range.low - 2.0 * rounded, range.high + 2.0 * rounded);
+                let wider = Interval::new(low, high);
+                let block = &self.program.blocks[block];
+                let most = sines::error(block, result, is_sine, wider, self.scalar) + rounded;
+                let (index, joint) = (self.errors % 2, self.errors / 2);
+                if joint < MAX_JOINTS {
+                    self.errors += 1;
+                    let variable = [Variable::EvenError, Variable::OddError][index];
+                    exact = exact.plus(&Polynomial::variable(variable, joint, most));
+                } else {
+                    exact.rest += most;
+                }
+                (0.0, 1.0 + most)
+            }
+        };
+        size *= SLACK;
+        Ok(Value { exact, size, error: error * SLACK })
+    }
+}
+
+fn exact(exact: Polynomial, size: f64) -> Value {
+    Value { exact, size: size * SLACK, error: 0.0 }
+}
