@@ -4,34 +4,14 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
-use crate::scene::Ranges;
 
-/// The longest file.
+/// The longest file, and the most certificates in it.
 const MOST_BYTES: usize = 16 << 20;
-/// The most certificates of a file.
-const MOST_CERTIFICATES: usize = 16;
-
-/// The fields that are read; numbers are null where they are infinite.
-#[derive(Clone, Debug, Deserialize)]
-struct Document {
-    certificate: u32,
-    #[serde(default)]
-    scene: Option<String>,
-    function: String,
-    rows: Vec<usize>,
-    scalar: String,
-    position: Vec<[f64; 2]>,
-    velocity: Vec<[f64; 2]>,
-    acceleration: Vec<[f64; 2]>,
-    scale: Vec<Option<f64>>,
-    #[serde(default)]
-    relative_to: Option<String>,
-    total: Vec<Option<f64>>,
-    text: String,
-}
+const MOST_CLAIMS: usize = 16;
 
 /// The functions that are audited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Function {
     /// τ = D q̈ + h + c + b∘q̇
     InverseDynamics,
@@ -44,39 +24,73 @@ pub enum Function {
 }
 
 impl Function {
-    /// All of them with their names.
-    const NAMES: [(&'static str, Function); 4] = [
-        ("inverse_dynamics", Function::InverseDynamics),
-        ("gravity", Function::Gravity),
-        ("inertia", Function::Inertia),
-        ("coriolis", Function::Coriolis),
-    ];
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Function::InverseDynamics => "inverse_dynamics",
+            Function::Gravity => "gravity",
+            Function::Inertia => "inertia",
+            Function::Coriolis => "coriolis",
+        }
+    }
 }
 
 /// A claim: at every state of the box, each output of the text is within E·T of the
-/// function.
-#[derive(Clone, Debug)]
+/// function. Other fields of the file are not read.
+#[derive(Clone, Debug, Deserialize)]
 pub struct Claim {
+    /// The version of the format.
+    certificate: u32,
     /// The scene, if there is one.
+    #[serde(default)]
     pub scene: Option<String>,
-    /// The name of the function.
-    pub name: String,
-    /// The same.
+    /// The function.
     pub function: Function,
-    /// The joints, from zero, that results are over.
+    /// The joints, from one, that results are over.
     pub rows: Vec<usize>,
-    /// Whether it is in f32; else it is in f64.
-    pub is_single: bool,
-    /// The box.
-    pub ranges: Ranges,
+    /// `f64` or `f32`
+    pub scalar: String,
+    /// The ranges of q, rad or m.
+    pub position: Vec<[f64; 2]>,
+    /// The ranges of q̇, rad/s or m/s.
+    pub velocity: Vec<[f64; 2]>,
+    /// The ranges of q̈, rad/s² or m/s².
+    pub acceleration: Vec<[f64; 2]>,
     /// T, one an output, in the output's unit.
     pub scale: Vec<f64>,
     /// What T is: `actuator` or `range`.
+    #[serde(default)]
     pub relative_to: Option<String>,
-    /// E, one an output.
-    pub total: Vec<f64>,
+    /// E, one an output; null where nothing is claimed.
+    pub total: Vec<Option<f64>>,
     /// The text of the function.
     pub text: String,
+}
+
+impl Claim {
+    /// The joints, from zero, of an output: one, of an entry of D two.
+    pub fn joints(&self, output: usize) -> [usize; 2] {
+        let count = self.rows.len().max(1);
+        let row = |place: usize| self.rows.get(place).map_or(0, |row| row - 1);
+        match self.function {
+            Function::Inertia => [row(output / count), row(output % count)],
+            _ => [row(output); 2],
+        }
+    }
+
+    fn fault(&self) -> Option<&'static str> {
+        let count = self.rows.len();
+        let outputs = if self.function == Function::Inertia { count * count } else { count };
+        let known = ["f64", "f32"].contains(&self.scalar.as_str());
+        match () {
+            () if self.certificate != 2 => Some("`certificate`: expected format 2"),
+            () if !known => Some("`scalar`: expected f64 or f32"),
+            () if self.rows.contains(&0) => Some("`rows`: expected joints, from 1"),
+            () if self.scale.len() != outputs => Some("`scale`: expected one an output"),
+            () if self.total.len() != outputs => Some("`total`: expected one an output"),
+            () => None,
+        }
+    }
 }
 
 /// Reads a certificate, or a list of them.
@@ -87,61 +101,17 @@ pub fn read(text: &str) -> Result<Vec<Claim>, Fault> {
     if text.len() > MOST_BYTES {
         return Err(Fault::certificate(format!("more than {MOST_BYTES} bytes")));
     }
-    let documents: Result<Vec<Document>, serde_json::Error> = match text.trim_start().starts_with('[') {
+    let read: Result<Vec<Claim>, serde_json::Error> = match text.trim_start().starts_with('[') {
         true => serde_json::from_str(text),
         false => serde_json::from_str(text).map(|one| vec![one]),
     };
-    let documents = documents.map_err(|error| Fault::certificate(error.to_string()))?;
-    if !(1..=MOST_CERTIFICATES).contains(&documents.len()) {
-        let why = format!("1 to {MOST_CERTIFICATES} in a file, not {}", documents.len());
+    let claims = read.map_err(|error| Fault::certificate(error.to_string()))?;
+    if !(1..=MOST_CLAIMS).contains(&claims.len()) {
+        let why = format!("1 to {MOST_CLAIMS} in a file, not {}", claims.len());
         return Err(Fault::certificate(why));
     }
-    documents.into_iter().map(claim).collect()
-}
-
-fn claim(document: Document) -> Result<Claim, Fault> {
-    if document.certificate != 2 {
-        let why = format!("expected format 2, not {}", document.certificate);
-        return Err(Fault::certificate(why));
+    match claims.iter().find_map(Claim::fault) {
+        Some(why) => Err(Fault::certificate(why)),
+        None => Ok(claims),
     }
-    let name = document.function;
-    let function = Function::NAMES.iter().find(|(known, _)| *known == name);
-    let known: Vec<&str> = Function::NAMES.iter().map(|(known, _)| *known).collect();
-    let function = function.ok_or_else(|| {
-        let known = known.join(", ");
-        Fault::certificate(format!("`{name}` is not audited; these are: {known}"))
-    })?;
-    let is_single = match document.scalar.as_str() {
-        "f32" => true,
-        "f64" => false,
-        other => return Err(Fault::certificate(format!("`{other}` is neither f32 nor f64"))),
-    };
-    let joints = document.position.len();
-    let row = |&row: &usize| (1..=joints).contains(&row).then(|| row - 1);
-    let rows: Option<Vec<usize>> = document.rows.iter().map(row).collect();
-    let rows = rows.ok_or_else(|| Fault::certificate("`rows` are no joints"))?;
-    let outputs = match function.1 {
-        Function::Inertia => rows.len() * rows.len(),
-        _ => rows.len(),
-    };
-    let numbers = |list: Vec<Option<f64>>, field: &str| match list.len() == outputs {
-        true => Ok(list.into_iter().map(|x| x.unwrap_or(f64::INFINITY)).collect()),
-        false => Err(Fault::certificate(format!("`{field}`: expected {outputs} numbers"))),
-    };
-    Ok(Claim {
-        scene: document.scene,
-        function: function.1,
-        name,
-        rows,
-        is_single,
-        ranges: Ranges {
-            position: document.position,
-            velocity: document.velocity,
-            acceleration: document.acceleration,
-        },
-        scale: numbers(document.scale, "scale")?,
-        relative_to: document.relative_to,
-        total: numbers(document.total, "total")?,
-        text: document.text,
-    })
 }

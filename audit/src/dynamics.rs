@@ -7,177 +7,185 @@
 //! them. Vectors have three entries in the axes of one link's frame.
 
 use crate::fault::Fault;
-use crate::number::{Angle, Ball, Number};
-use crate::polynomial::Work;
-use crate::robot::{Body, Robot};
+use crate::polynomial::{Polynomial, Work};
+use crate::robot::{Body, Joint};
+use crate::scene::Setting;
 
-type Vector<T> = [T; 3];
+type Vector = [Polynomial; 3];
+/// A sine and a cosine.
+type Turn<'a> = [&'a Polynomial; 2];
 
-/// The state of one joint: sine and cosine of q if it turns, q itself if it slides.
-#[derive(Clone, Debug)]
-pub struct State<T> {
+/// The state of one joint.
+#[derive(Clone, Debug, Default)]
+pub struct State {
     /// sin q, of a joint that turns.
-    pub sin: T,
+    pub sin: Polynomial,
     /// cos q, of a joint that turns.
-    pub cos: T,
+    pub cos: Polynomial,
     /// q, m, of a joint that slides.
-    pub position: T,
+    pub position: Polynomial,
     /// q̇, rad/s or m/s
-    pub velocity: T,
+    pub velocity: Polynomial,
     /// q̈, rad/s² or m/s²
-    pub acceleration: T,
+    pub acceleration: Polynomial,
 }
 
-/// Arithmetic that counts its work.
-struct Arithmetic<'w>(&'w mut Work);
+fn sum(a: &Vector, b: &Vector) -> Vector {
+    [0, 1, 2].map(|i| a[i].plus(&b[i]))
+}
 
-impl Arithmetic<'_> {
-    fn times<T: Number>(&mut self, a: &T, b: &T) -> Result<T, Fault> {
-        a.times(b, self.0)
-    }
+fn zeros() -> Vector {
+    Default::default()
+}
 
+/// Products, which are counted.
+struct Products<'w>(&'w mut Work);
+
+impl Products<'_> {
     /// a·b + c·d
-    fn two<T: Number>(&mut self, a: &T, b: &T, c: &T, d: &T) -> Result<T, Fault> {
-        Ok(self.times(a, b)?.plus(&self.times(c, d)?))
+    fn two(
+        &mut self,
+        a: &Polynomial,
+        b: &Polynomial,
+        c: &Polynomial,
+        d: &Polynomial,
+    ) -> Result<Polynomial, Fault> {
+        Ok(a.times(b, self.0)?.plus(&c.times(d, self.0)?))
     }
 
-    fn cross<T: Number>(&mut self, a: &Vector<T>, b: &Vector<T>) -> Result<Vector<T>, Fault> {
+    fn cross(&mut self, a: &Vector, b: &Vector) -> Result<Vector, Fault> {
         let mut entry = |i: usize, k: usize| self.two(&a[i], &b[k], &a[k].negated(), &b[i]);
         Ok([entry(1, 2)?, entry(2, 0)?, entry(0, 1)?])
     }
 
-    fn dot<T: Number>(&mut self, a: &Vector<T>, b: &Vector<T>) -> Result<T, Fault> {
-        Ok(self.two(&a[0], &b[0], &a[1], &b[1])?.plus(&self.times(&a[2], &b[2])?))
+    fn dot(&mut self, a: &Vector, b: &Vector) -> Result<Polynomial, Fault> {
+        Ok(self.two(&a[0], &b[0], &a[1], &b[1])?.plus(&a[2].times(&b[2], self.0)?))
     }
 
-    fn scaled<T: Number>(&mut self, a: &T, b: &Vector<T>) -> Result<Vector<T>, Fault> {
-        Ok([self.times(a, &b[0])?, self.times(a, &b[1])?, self.times(a, &b[2])?])
+    fn scaled(&mut self, a: &Polynomial, b: &Vector) -> Result<Vector, Fault> {
+        Ok([a.times(&b[0], self.0)?, a.times(&b[1], self.0)?, a.times(&b[2], self.0)?])
     }
 
-    fn apply<T: Number>(&mut self, m: &[Vector<T>; 3], v: &Vector<T>) -> Result<Vector<T>, Fault> {
+    fn apply(&mut self, m: &[Vector; 3], v: &Vector) -> Result<Vector, Fault> {
         Ok([self.dot(&m[0], v)?, self.dot(&m[1], v)?, self.dot(&m[2], v)?])
     }
 
-    /// v turned by an angle in the plane of two axes, from the first to the second.
-    fn turned<T: Number>(
+    /// v turned about the axis before two others, from the first of them to the second.
+    fn turned(
         &mut self,
-        v: &Vector<T>,
-        [first, second]: [usize; 2],
-        [sin, cos]: [&T; 2],
-    ) -> Result<Vector<T>, Fault> {
+        v: &Vector,
+        [i, k]: [usize; 2],
+        [sin, cos]: Turn,
+    ) -> Result<Vector, Fault> {
         let mut turned = v.clone();
-        turned[first] = self.two(cos, &v[first], &sin.negated(), &v[second])?;
-        turned[second] = self.two(sin, &v[first], cos, &v[second])?;
+        turned[i] = self.two(cos, &v[i], &sin.negated(), &v[k])?;
+        turned[k] = self.two(sin, &v[i], cos, &v[k])?;
         Ok(turned)
     }
 }
 
-fn sum<T: Number>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
-    [0, 1, 2].map(|i| a[i].plus(&b[i]))
+const ABOUT_X: [usize; 2] = [1, 2];
+const ABOUT_Z: [usize; 2] = [0, 1];
+
+/// Mass, first moment and inertia about the origin.
+#[derive(Default)]
+struct Moments {
+    mass: Polynomial,
+    first: Vector,
+    second: [Vector; 3],
 }
 
-fn constants<T: Number, const N: usize>(values: [Ball; N]) -> [T; N] {
-    values.map(T::constant)
-}
-
-/// The mass of bodies, its first moment and its inertia about the origin of the frame
-/// that is twisted by α and shifted by a against the bodies' own.
-struct Moments<T> {
-    mass: T,
-    first: Vector<T>,
-    second: [Vector<T>; 3],
-}
-
-fn moments<T: Number>(
-    bodies: &[Body],
-    (alpha, a): (Angle, Ball),
-    math: &mut Arithmetic,
-) -> Result<Moments<T>, Fault> {
-    let zero = || T::constant(Ball::default());
-    let zeros = || [zero(), zero(), zero()];
-    let [sin, cos] = constants::<T, 2>(alpha.sin_cos().into());
-    let mut all = Moments { mass: zero(), first: zeros(), second: [zeros(), zeros(), zeros()] };
-    for body in bodies {
-        let mass = T::constant(body.mass);
-        let [xx, yy, zz, xy, yz, xz] = constants::<T, 6>(body.inertia);
-        let rows = [[xx, xy.clone(), xz.clone()], [xy, yy, yz.clone()], [xz, yz, zz]];
+impl Moments {
+    /// Adds a body that is given behind a twist and a shift along x.
+    fn add(
+        &mut self,
+        body: &Body,
+        [sin, cos]: Turn,
+        a: &Polynomial,
+        products: &mut Products,
+    ) -> Result<(), Fault> {
+        let [xx, yy, zz, xy, yz, xz] = body.inertia.each_ref().map(|x| x.clone());
+        let mut own = [[xx, xy.clone(), xz.clone()], [xy, yy, yz.clone()], [xz, yz, zz]];
         // R I Rᵀ: every row turned, then every column.
-        let (plane, turn) = ([1, 2], [&sin, &cos]);
-        let mut own = rows;
         for _ in 0..2 {
             for row in &mut own {
-                *row = math.turned(row, plane, turn)?;
+                *row = products.turned(row, ABOUT_X, [sin, cos])?;
             }
             own = [0, 1, 2].map(|i| [0, 1, 2].map(|k: usize| own[k][i].clone()));
         }
-        let com = math.turned(&constants(body.com), plane, turn)?;
-        let com = sum(&com, &[T::constant(a), zero(), zero()]);
-        let first = math.scaled(&mass, &com)?;
-        let square = math.dot(&com, &first)?;
+        let com = products.turned(&body.com, ABOUT_X, [sin, cos])?;
+        let com = sum(&com, &[a.clone(), Polynomial::default(), Polynomial::default()]);
+        let first = products.scaled(&body.mass, &com)?;
+        let square = products.dot(&com, &first)?;
         for i in 0..3 {
             for k in 0..3 {
                 // Steiner: m (c·c 1 − c cᵀ)
-                let mixed = math.times(&com[i], &first[k])?.negated();
-                let moved = if i == k { mixed.plus(&square) } else { mixed };
-                all.second[i][k] = all.second[i][k].plus(&own[i][k]).plus(&moved);
+                let mut moved = com[i].times(&first[k], products.0)?.negated();
+                moved = if i == k { moved.plus(&square) } else { moved };
+                self.second[i][k] = self.second[i][k].plus(&own[i][k]).plus(&moved);
             }
         }
-        all.mass = all.mass.plus(&mass);
-        all.first = sum(&all.first, &first);
+        self.mass = self.mass.plus(&body.mass);
+        self.first = sum(&self.first, &first);
+        Ok(())
     }
-    Ok(all)
+}
+
+/// How a link's frame lies in the one before, and what its motion takes.
+struct Link<'a> {
+    twist: Turn<'a>,
+    turn: [Polynomial; 2],
+    shift: Vector,
+    force: Vector,
+    moment: Vector,
 }
 
 /// The torques or forces τ = D q̈ + h + c + b∘q̇, one a joint, in N·m or N; `gravity` and
 /// `friction` say whether c and b∘q̇ are in them.
 ///
 /// # Errors
-/// As of the numbers' products.
-pub fn torques<T: Number>(
-    robot: &Robot,
-    states: &[State<T>],
+/// As of [`Polynomial::times`].
+pub fn torques(
+    setting: &Setting,
+    states: &[State],
     (gravity, friction): (bool, bool),
     work: &mut Work,
-) -> Result<Vec<T>, Fault> {
-    let math = &mut Arithmetic(work);
-    let zero = || T::constant(Ball::default());
-    let zeros = || [zero(), zero(), zero()];
-    let unmoved = (Angle::number(Ball::default()).unwrap_or_default(), Ball::default());
-    let (mut w, mut wd) = (zeros(), zeros());
-    // A base that is accelerated upward feels what one in gravity does.
-    let mut vd = if gravity { constants(robot.gravity).map(|g: T| g.negated()) } else { zeros() };
-    let mut before = unmoved;
-    let (mut frames, mut loads) = (Vec::new(), Vec::new());
-    for (joint, state) in robot.joints.iter().zip(states) {
-        let own = (joint.alpha, joint.a);
-        let (twist, behind) = if robot.modified { (own, unmoved) } else { (before, own) };
+) -> Result<Vec<Polynomial>, Fault> {
+    let products = &mut Products(work);
+    let (none, one) = (Polynomial::default(), Polynomial::constant(1.0, 0.0));
+    let (mut w, mut wd, mut vd) = (zeros(), zeros(), zeros());
+    if gravity {
+        // A base that is accelerated upward feels what one in gravity does.
+        vd = setting.gravity.each_ref().map(Polynomial::negated);
+    }
+    let unmoved = ([&none, &one], &none);
+    let (mut before, mut links) = (unmoved, Vec::new());
+    for (joint, state) in setting.joints.iter().zip(states) {
+        let own = ([&joint.alpha.sin, &joint.alpha.cos], &joint.a);
+        let ((twist, a), behind) = if setting.modified { (own, unmoved) } else { (before, own) };
         before = own;
-        let [sin_a, cos_a] = constants::<T, 2>(twist.0.sin_cos().into());
-        let [sin_o, cos_o] = constants::<T, 2>(joint.theta.sin_cos().into());
-        let constant = T::constant(joint.d);
-        let (sin, cos, d) = match joint.turns {
-            true => (
-                math.two(&state.sin, &cos_o, &state.cos, &sin_o)?,
-                math.two(&state.cos, &cos_o, &state.sin.negated(), &sin_o)?,
-                constant,
-            ),
-            false => (sin_o, cos_o, state.position.plus(&constant)),
+        let Joint { theta, d, .. } = joint;
+        let (turn, d) = match joint.turns {
+            true => {
+                let sin = products.two(&state.sin, &theta.cos, &state.cos, &theta.sin)?;
+                let minus = state.sin.negated();
+                let cos = products.two(&state.cos, &theta.cos, &minus, &theta.sin)?;
+                ([sin, cos], d.clone())
+            }
+            false => ([theta.sin.clone(), theta.cos.clone()], d.plus(&state.position)),
         };
-        let shift = [
-            T::constant(twist.1),
-            math.times(&sin_a, &d)?.negated(),
-            math.times(&cos_a, &d)?,
-        ];
-        let swing = math.cross(&w, &shift)?;
-        let carried = sum(&math.cross(&wd, &shift)?, &math.cross(&w, &swing)?);
-        let mut inward = |v: &Vector<T>| {
-            let v = math.turned(v, [1, 2], [&sin_a.negated(), &cos_a])?;
-            math.turned(&v, [0, 1], [&sin.negated(), &cos])
+        let back = [twist[0].negated(), turn[0].negated()];
+        let shift = [a.clone(), back[0].times(&d, products.0)?, twist[1].times(&d, products.0)?];
+        let swing = products.cross(&w, &shift)?;
+        let carried = sum(&products.cross(&wd, &shift)?, &products.cross(&w, &swing)?);
+        let mut inward = |v: &Vector| {
+            let v = products.turned(v, ABOUT_X, [&back[0], twist[1]])?;
+            products.turned(&v, ABOUT_Z, [&back[1], &turn[1]])
         };
         (vd, w, wd) = (inward(&sum(&vd, &carried))?, inward(&w)?, inward(&wd)?);
-        // w × z
-        let sideways = [w[1].clone(), w[0].negated(), zero()];
-        let sideways = math.scaled(&state.velocity, &sideways)?;
+        // w × z q̇
+        let sideways = [w[1].clone(), w[0].negated(), none.clone()];
+        let sideways = products.scaled(&state.velocity, &sideways)?;
         if joint.turns {
             wd = sum(&wd, &sideways);
             wd[2] = wd[2].plus(&state.acceleration);
@@ -186,35 +194,33 @@ pub fn torques<T: Number>(
             vd = sum(&vd, &sum(&sideways, &sideways));
             vd[2] = vd[2].plus(&state.acceleration);
         }
-        let body = moments(&joint.bodies, behind, math)?;
-        let swing = math.cross(&w, &body.first)?;
-        let force = sum(&math.cross(&wd, &body.first)?, &math.cross(&w, &swing)?);
-        let force = sum(&force, &math.scaled(&body.mass, &vd)?);
-        let spin = math.apply(&body.second, &w)?;
-        let moment = sum(&math.apply(&body.second, &wd)?, &math.cross(&w, &spin)?);
-        let moment = sum(&moment, &math.cross(&body.first, &vd)?);
-        loads.push((force, moment));
-        frames.push(([sin_a, cos_a], [sin, cos], shift));
+        let mut body = Moments::default();
+        for own in &joint.bodies {
+            body.add(own, behind.0, behind.1, products)?;
+        }
+        let swing = products.cross(&w, &body.first)?;
+        let force = sum(&products.cross(&wd, &body.first)?, &products.cross(&w, &swing)?);
+        let force = sum(&force, &products.scaled(&body.mass, &vd)?);
+        let spin = products.apply(&body.second, &w)?;
+        let moment = sum(&products.apply(&body.second, &wd)?, &products.cross(&w, &spin)?);
+        let moment = sum(&moment, &products.cross(&body.first, &vd)?);
+        links.push(Link { twist, turn, shift, force, moment });
     }
-    let (mut f, mut n) = (zeros(), zeros());
-    let mut torques = Vec::new();
-    for (i, joint) in robot.joints.iter().enumerate().rev() {
-        (f, n) = (sum(&f, &loads[i].0), sum(&n, &loads[i].1));
+    let (mut f, mut n, mut torques) = (zeros(), zeros(), Vec::new());
+    for ((link, joint), state) in links.iter().zip(&setting.joints).zip(states).rev() {
+        (f, n) = (sum(&f, &link.force), sum(&n, &link.moment));
         let mut torque = if joint.turns { n[2].clone() } else { f[2].clone() };
-        let drive = math.times(&T::constant(joint.armature), &states[i].acceleration)?;
-        torque = torque.plus(&drive);
+        torque = torque.plus(&joint.armature.times(&state.acceleration, products.0)?);
         if friction {
-            let rubbing = math.times(&T::constant(joint.viscous), &states[i].velocity)?;
-            torque = torque.plus(&rubbing);
+            torque = torque.plus(&joint.viscous.times(&state.velocity, products.0)?);
         }
         torques.push(torque);
-        let ([sin_a, cos_a], [sin, cos], shift) = &frames[i];
-        let mut outward = |v: &Vector<T>| {
-            let v = math.turned(v, [0, 1], [sin, cos])?;
-            math.turned(&v, [1, 2], [sin_a, cos_a])
+        let mut outward = |v: &Vector| {
+            let v = products.turned(v, ABOUT_Z, [&link.turn[0], &link.turn[1]])?;
+            products.turned(&v, ABOUT_X, link.twist)
         };
         (f, n) = (outward(&f)?, outward(&n)?);
-        n = sum(&n, &math.cross(shift, &f)?);
+        n = sum(&n, &products.cross(&link.shift, &f)?);
     }
     torques.reverse();
     Ok(torques)

@@ -20,10 +20,7 @@ impl Interval {
     pub fn new(low: f64, high: f64) -> Interval {
         match low <= high {
             true => Interval { low, high },
-            false => Interval {
-                low: f64::NEG_INFINITY,
-                high: f64::INFINITY,
-            },
+            false => Interval { low: f64::NEG_INFINITY, high: f64::INFINITY },
         }
     }
 
@@ -40,17 +37,6 @@ impl Interval {
     /// The largest magnitude in it.
     pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
-    }
-
-    /// Some number in it: its middle, if it has one.
-    pub fn middle(self) -> f64 {
-        (0.5 * self.low + 0.5 * self.high).clamp(self.low, self.high)
-    }
-
-    /// How far the ends are from the middle, rounded up.
-    pub fn radius(self) -> f64 {
-        let middle = self.middle();
-        (self.high - middle).max(middle - self.low).next_up()
     }
 
     /// One step outward: an operation on the ends was rounded to nearest.

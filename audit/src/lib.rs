@@ -6,7 +6,7 @@
 //! and shows the claim with its own means, or says how far its own bound is from it:
 //!
 //! 1. `robot`, `scene`: the robot file, every number as an interval about a double
-//! 2. `lexer`, `text`: the text, by a small strict grammar
+//! 2. `text`: the text, by a small strict grammar
 //! 3. `dynamics`: the recursion of Newton and Euler
 //! 4. `polynomial`, `ring`, `values`, `sines`: text and recursion as polynomials in
 //!    sines, cosines and rates; all that was not edited cancels in their difference
@@ -25,9 +25,7 @@ mod certificate;
 mod dynamics;
 mod fault;
 mod interval;
-mod lexer;
 mod maximum;
-mod number;
 mod polynomial;
 mod ring;
 mod robot;

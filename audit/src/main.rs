@@ -46,7 +46,7 @@ fn run(certificate: &str, robot: &str, text: Option<&str>) -> Result<bool, Strin
         if let Some(text) = &text
             && !text.contains(claim.text.trim())
         {
-            return Err(format!("the text has not the certificate's `{}`", claim.name));
+            return Err(format!("the text has not the certificate's `{}`", claim.function.name()));
         }
         let verdict = audit(&claim, &robot).map_err(|fault| fault.to_string())?;
         print!("{verdict}");

@@ -23,7 +23,7 @@ use crate::polynomial::{ANGLES, Key, Polynomial, Variable, exponent, key};
 use crate::ring::Ring;
 
 /// The most multiplications of one attempt.
-const MOST_STEPS: u64 = 200_000_000;
+const MOST_STEPS: u64 = 2_500_000_000;
 /// Cells narrower than this are not cut: what they would show is shown by a larger B.
 const NARROWEST: f64 = 1e-3;
 /// By how much B grows where it was not shown.
@@ -31,7 +31,6 @@ const GROWTH: [f64; 10] = [1.002, 1.005, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 4
 
 /// One angle's turn: what its powers are multiplied with, and where that is added to.
 struct Level {
-    joint: usize,
     degree: f64,
     range: Option<[f64; 2]>,
     /// Powers of sin and cos that occur.
@@ -68,24 +67,30 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     if norm + rest <= wanted || first.is_empty() || !(norm + rest).is_finite() {
         return norm + rest;
     }
-    let mut least = wanted - rest;
+    let mut least = (wanted - rest).next_down();
     let seen = search.climb();
+    let mut shown = wanted;
     if !(seen <= least) {
         least = seen * GROWTH[0];
+        shown = f64::INFINITY;
     }
     for growth in GROWTH {
         search.steps = 0;
         for _ in 0..20 {
-            match search.shows(0, least) {
+            let result = search.shows(0, least);
+            match result {
+                Ok(()) if shown == wanted => return wanted,
                 Ok(()) => return (least + rest) * (1.0 + 1e-12),
                 Err(Unshown::Larger(found)) => least = (found * 1.0005).max(least * 1.0005),
                 Err(Unshown::Steps) => break,
             }
+            shown = f64::INFINITY;
         }
         if !(least * growth < norm) {
             break;
         }
         least *= growth;
+        shown = f64::INFINITY;
     }
     norm + rest
 }
@@ -136,9 +141,10 @@ impl Search {
             powers.dedup();
             let place = |found: Result<usize, usize>| found.unwrap_or_default() as u32;
             let moves = each.iter().zip(&targets);
-            let moves = moves.map(|(own, target)| (place(powers.binary_search(own)), place(next.binary_search(target))));
+            let moves = moves.map(|(own, target)| {
+                (place(powers.binary_search(own)), place(next.binary_search(target)))
+            });
             search.levels.push(Level {
-                joint,
                 degree: f64::from(degree(joint, &keys)),
                 range: ring.angles[joint],
                 moves: moves.collect(),
@@ -219,7 +225,8 @@ impl Search {
         let count = self.levels.len();
         let mut best = 0.0f64;
         for start in 0..12 {
-            let mut at: Vec<f64> = (0..count).map(|k| ((start * 7 + k * 3) as f64).sin() * PI).collect();
+            let mut at: Vec<f64> =
+                (0..count).map(|k| ((start * 7 + k * 3) as f64).sin() * PI).collect();
             let mut own = 0.0f64;
             let mut step = 1.0;
             while step > 1e-3 {

@@ -116,9 +116,9 @@ impl Polynomial {
 
     /// With the opposite sign.
     #[must_use]
-    pub fn negated(mut self) -> Polynomial {
-        self.terms.iter_mut().for_each(|(_, c)| *c = -*c);
-        self
+    pub fn negated(&self) -> Polynomial {
+        let terms = self.terms.iter().map(|&(key, c)| (key, -c)).collect();
+        Polynomial { terms, rest: self.rest }
     }
 
     /// The sum of two.

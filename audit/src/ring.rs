@@ -6,11 +6,11 @@
 //! is done only where the second joint goes all the way round: as q does so does φ, at
 //! every angle of the joint before, so that the box of the φ is the box of the q.
 
+use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
-use crate::number::{Angle, Number};
-use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
-use crate::scene::{Lock, Ranges, Setting};
+use crate::polynomial::{Key, Polynomial, Variable, Work, exponent};
+use crate::scene::Setting;
 
 /// A range of at least so much counts as all angles.
 const WHOLE_TURN: f64 = 6.28;
@@ -19,12 +19,12 @@ const WHOLE_TURN: f64 = 6.28;
 #[derive(Clone, Debug)]
 pub struct Ring {
     /// The state of each joint.
-    pub states: Vec<State<Polynomial>>,
+    pub states: Vec<State>,
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
     /// stands for a position between two ends.
     pub angles: Vec<Option<[f64; 2]>>,
     /// The ranges of q̇ and of q̈ in their units.
-    pub rates: [Vec<[f64; 2]>; 2],
+    rates: [Vec<[f64; 2]>; 2],
 }
 
 /// The least power of two that is not below a size, which is not zero.
@@ -39,107 +39,87 @@ fn unit(size: f64) -> f64 {
     unit
 }
 
-fn is_whole(range: [f64; 2]) -> bool {
-    range[1] - range[0] >= WHOLE_TURN
-}
-
 impl Ring {
-    /// The variables of a setting's joints over these ranges.
+    /// The variables of a setting's joints over the ranges of a claim.
     ///
     /// # Errors
-    /// Ranges that are none: not of one length, not finite, or with ends in the wrong
-    /// order.
-    pub fn new(setting: &Setting, ranges: &Ranges, work: &mut Work) -> Result<Ring, Fault> {
-        let count = setting.robot.joints.len();
-        let all = [&ranges.position, &ranges.velocity, &ranges.acceleration];
+    /// Ranges that are none: not one a joint, not finite, or with ends in the wrong order.
+    pub fn new(setting: &Setting, claim: &Claim, work: &mut Work) -> Result<Ring, Fault> {
+        let count = setting.joints.len();
         let good = |range: &[f64; 2]| range[0] <= range[1] && range.iter().all(|x| x.abs() < 1e30);
-        if all.iter().any(|list| list.len() != count || !list.iter().all(good)) {
-            let why = format!("expected {count} finite ranges [lowest, highest] of each of q, qd, qdd");
-            return Err(Fault::certificate(why));
+        for list in [&claim.position, &claim.velocity, &claim.acceleration] {
+            if list.len() != count || !list.iter().all(good) {
+                return Err(Fault::certificate(format!(
+                    "expected {count} finite ranges of q, qd, qdd"
+                )));
+            }
         }
-        let mut ring = Ring {
-            states: Vec::new(),
-            angles: vec![None; count],
-            rates: [vec![[0.0; 2]; MAX_JOINTS], vec![[0.0; 2]; MAX_JOINTS]],
-        };
+        let mut ring =
+            Ring { states: Vec::new(), angles: Vec::new(), rates: [Vec::new(), Vec::new()] };
         for joint in 0..count {
-            let mut rate = |which: usize, list: &[[f64; 2]]| {
-                let [low, high] = list[joint];
+            let mut rate = |which: usize, [low, high]: [f64; 2]| {
                 let size = low.abs().max(high.abs());
-                if size == 0.0 || setting.locks[joint].is_some() || setting.still[which] {
-                    return Polynomial::default();
-                }
-                let unit = unit(size);
-                ring.rates[which][joint] = [low / unit, high / unit];
+                let moves = size > 0.0 && setting.locks[joint].is_none() && !setting.still[which];
+                let unit = if moves { unit(size) } else { 0.0 };
+                ring.rates[which].push(if moves { [low / unit, high / unit] } else { [0.0; 2] });
                 let variable = [Variable::Velocity, Variable::Acceleration][which];
                 Polynomial::variable(variable, joint, unit)
             };
-            let velocity = rate(0, &ranges.velocity);
-            let acceleration = rate(1, &ranges.acceleration);
-            let (sin, cos, position) = ring.position(setting, joint, ranges.position[joint], work)?;
-            ring.states.push(State { sin, cos, position, velocity, acceleration });
+            let velocity = rate(0, claim.velocity[joint]);
+            let acceleration = rate(1, claim.acceleration[joint]);
+            let state = State { velocity, acceleration, ..State::default() };
+            let state = ring.positioned(state, setting, claim.position[joint], work)?;
+            ring.states.push(state);
         }
         Ok(ring)
     }
 
-    /// Sine, cosine and position of a joint.
-    fn position(
+    /// Sine, cosine and position of the next joint.
+    fn positioned(
         &mut self,
+        mut state: State,
         setting: &Setting,
-        joint: usize,
         range: [f64; 2],
         work: &mut Work,
-    ) -> Result<(Polynomial, Polynomial, Polynomial), Fault> {
-        let zero = Polynomial::default;
-        match setting.locks[joint] {
-            Some(Lock::Angle(angle)) => {
-                let (sin, cos) = angle.sin_cos();
-                return Ok((Polynomial::constant(sin.value, sin.radius), Number::constant(cos), zero()));
-            }
-            Some(Lock::Length(length)) => return Ok((zero(), zero(), Number::constant(length))),
-            None => {}
-        }
-        if !setting.robot.joints[joint].turns {
+    ) -> Result<State, Fault> {
+        let joint = self.states.len();
+        let own =
+            |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
+        let is_whole = range[1] - range[0] >= WHOLE_TURN;
+        let turns = setting.joints[joint].turns && setting.locks[joint].is_none();
+        self.angles.push(Some(range).filter(|_| turns && !is_whole));
+        if let Some((angle, position)) = &setting.locks[joint] {
+            (state.sin, state.cos) = (angle.sin.clone(), angle.cos.clone());
+            state.position = position.clone();
+        } else if !turns {
             // A position between two ends is their middle and a cosine's share of half
             // their distance, whatever the angle.
             let middle = 0.5 * range[0] + 0.5 * range[1];
             let half = (range[1] - middle).max(middle - range[0]).next_up();
             let share = Polynomial::variable(Variable::Cos, joint, half);
-            return Ok((zero(), zero(), Polynomial::constant(middle, 0.0).plus(&share)));
-        }
-        let own = |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
-        let [sin, cos] = own(joint);
-        if !is_whole(range) {
-            self.angles[joint] = Some(range);
-            return Ok((sin, cos, zero()));
-        }
-        match self.parallel(setting, joint) {
-            None => Ok((sin, cos, zero())),
-            Some(sign) => {
+            state.position = Polynomial::constant(middle, 0.0).plus(&share);
+        } else {
+            [state.sin, state.cos] = own(joint);
+            if let Some(sign) = Ring::parallel(setting, joint).filter(|_| is_whole) {
                 // sin(φ ∓ ψ), cos(φ ∓ ψ), ψ being the variable of the joint before.
-                let [sin_b, cos_b] = own(joint - 1);
-                let sign = Polynomial::constant(sign, 0.0);
-                let sin_b = sin_b.times(&sign, work)?;
+                let ([sin, cos], [sin_b, cos_b]) = (own(joint), own(joint - 1));
+                let sin_b = sin_b.times(&Polynomial::constant(sign, 0.0), work)?;
                 let across = cos.times(&sin_b, work)?.negated();
-                let along = sin.times(&sin_b, work)?;
-                let (sin, cos) = (sin.times(&cos_b, work)?, cos.times(&cos_b, work)?);
-                Ok((sin.plus(&across), cos.plus(&along), zero()))
+                state.sin = sin.times(&cos_b, work)?.plus(&across);
+                state.cos = cos.times(&cos_b, work)?.plus(&sin.times(&sin_b, work)?);
             }
         }
+        Ok(state)
     }
 
     /// Whether the axis of a joint that turns is parallel to that of the one before,
     /// which turns too and is not locked: 1, or −1 if it points the other way.
-    fn parallel(&self, setting: &Setting, joint: usize) -> Option<f64> {
+    fn parallel(setting: &Setting, joint: usize) -> Option<f64> {
         let before = joint.checked_sub(1)?;
-        let joints = &setting.robot.joints;
-        let twist: Angle = joints[if setting.robot.modified { joint } else { before }].alpha;
-        let turns = joints[before].turns && setting.locks[before].is_none();
-        match twist.quarters?.rem_euclid(4) {
-            0 if turns => Some(1.0),
-            2 if turns => Some(-1.0),
-            _ => None,
-        }
+        let twist = &setting.joints[if setting.modified { joint } else { before }].alpha;
+        let moves = setting.joints[before].turns && setting.locks[before].is_none();
+        let exact = twist.sin == Polynomial::default() && twist.cos.rest == 0.0;
+        twist.cos.terms.first().filter(|_| moves && exact).map(|term| term.1)
     }
 
     /// The values that the rates and errors of a monomial take over the box: the middle

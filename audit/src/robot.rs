@@ -1,247 +1,280 @@
-//! The robot file: a strict reading of what changes the dynamics.
-//!
-//! Keys that are known to change nothing in the functions that are audited are named
-//! in `WITHOUT_EFFECT`; every other key that is not read here is refused by its name.
+//! The robot file, read strictly: a key that is not named here is refused by its name.
+//! Numbers are intervals about doubles, written as constant polynomials.
 
-use toml_span::value::{Table, Value, ValueInner};
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::fault::Fault;
-use crate::number::{Angle, Ball};
-use crate::polynomial::MAX_JOINTS;
+use crate::interval::{SINE_ERROR, UNIT, sin_cos};
+use crate::polynomial::Polynomial;
 
-/// Keys of a robot and of a joint without effect on torques.
-const WITHOUT_EFFECT: [&str; 4] = ["name", "allow", "tool", "limits"];
-/// The longest file and its longest line, so that reading ends soon.
-const MOST_BYTES: usize = 1 << 16;
-const MOST_COLUMNS: usize = 1 << 10;
-/// The most brackets that are open in a file; the parser is recursive.
-const MOST_BRACKETS: usize = 16;
+/// A number or an angle as it is written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Literal {
+    Whole(i64),
+    Decimal(f64),
+    Text(String),
+}
+
+impl Default for Literal {
+    fn default() -> Literal {
+        Literal::Whole(0)
+    }
+}
+
+/// An angle, its sine and cosine exact where it is a whole number of quarter turns.
+#[derive(Clone, Debug)]
+pub struct Angle {
+    /// In rad; the nearest double.
+    pub radians: f64,
+    /// Its sine.
+    pub sin: Polynomial,
+    /// Its cosine.
+    pub cos: Polynomial,
+}
+
+impl Angle {
+    fn quarters(count: i64) -> Angle {
+        let sine = |n: i64| [0.0, 1.0, 0.0, -1.0][n.rem_euclid(4) as usize];
+        let exact = |n: i64| Polynomial::constant(sine(n), 0.0);
+        let radians = count as f64 * std::f64::consts::FRAC_PI_2;
+        Angle { radians, sin: exact(count), cos: exact(count + 1) }
+    }
+
+    /// An angle that is so near to a double.
+    fn near(radians: f64, radius: f64) -> Option<Angle> {
+        let (sin, cos) = sin_cos(radians);
+        let radius = radius + SINE_ERROR;
+        let (sin, cos) = (Polynomial::constant(sin, radius), Polynomial::constant(cos, radius));
+        (radians.abs() < 1000.0).then_some(Angle { radians, sin, cos })
+    }
+}
+
+impl Literal {
+    fn is_zero(&self) -> bool {
+        matches!(self, Literal::Whole(0)) || matches!(self, Literal::Decimal(x) if *x == 0.0)
+    }
+
+    /// A number in decimal, or a fraction of two whole ones: the nearest double, and an
+    /// ulp for what it is off. (A decimal below the least double counts as zero.)
+    fn number(&self) -> Option<(f64, f64)> {
+        let value = match self {
+            Literal::Whole(whole) if whole.abs() < 1 << 53 => return Some((*whole as f64, 0.0)),
+            Literal::Whole(whole) => *whole as f64,
+            Literal::Decimal(value) => *value,
+            Literal::Text(text) => {
+                let (over, under) = text.split_once('/')?;
+                over.trim().parse::<i32>().ok()? as f64 / under.trim().parse::<u32>().ok()? as f64
+            }
+        };
+        (value.abs() < 1e100).then_some((value, 2.0 * UNIT * value.abs()))
+    }
+
+    pub(crate) fn real(&self, key: &str) -> Result<Polynomial, Fault> {
+        let read = self.number().map(|(value, radius)| Polynomial::constant(value, radius));
+        read.ok_or_else(|| Fault::robot(key, "expected a number in decimal, below 1e100"))
+    }
+
+    pub(crate) fn double(&self, key: &str) -> Result<f64, Fault> {
+        let read = self.number().map(|(value, _)| value);
+        read.ok_or_else(|| Fault::robot(key, "expected a number in decimal, below 1e100"))
+    }
+
+    pub(crate) fn angle(&self, key: &str) -> Result<Angle, Fault> {
+        let read = match self {
+            Literal::Text(text) if !text.contains('/') || text.contains("pi") => turns(text.trim()),
+            _ => self.number().and_then(|(value, radius)| {
+                let count = (value / std::f64::consts::FRAC_PI_2).round();
+                let turn = Angle::quarters(count as i64);
+                // Files print π/2 as a decimal, and the project takes one within 4 ulp of
+                // a quarter turn for it, up to a whole turn.
+                let ulp = turn.radians.abs().next_up() - turn.radians.abs();
+                let near = (turn.radians - value).abs() <= (4.0 * ulp).min(2e-15);
+                let is_turn = self.is_zero() || near && (1.0..=4.0).contains(&count.abs());
+                if is_turn { Some(turn) } else { Angle::near(value, radius) }
+            }),
+        };
+        read.ok_or_else(|| Fault::robot(key, "expected an angle: rad, \"pi/2\" or \"90deg\""))
+    }
+}
+
+/// Reads `"pi/2"`, `"-3*pi/4"`, `"90deg"`.
+fn turns(text: &str) -> Option<Angle> {
+    let (factor, under) = match text.strip_suffix("deg") {
+        Some(degrees) => (degrees.trim(), 180),
+        None => {
+            let (before, after) = text.split_once("pi")?;
+            let under = match after.trim() {
+                "" => 1,
+                after => after.strip_prefix('/')?.trim().parse().ok()?,
+            };
+            match before.trim() {
+                "" | "+" => ("1", under),
+                "-" => ("-1", under),
+                before => (before.strip_suffix('*')?.trim(), under),
+            }
+        }
+    };
+    if let Ok(factor) = factor.parse::<i32>()
+        && (1..1 << 20).contains(&under)
+        && 2 * i64::from(factor) % under == 0
+    {
+        return Some(Angle::quarters(2 * i64::from(factor) / under));
+    }
+    let radians = factor.parse::<f64>().ok()? * std::f64::consts::PI / under as f64;
+    (under > 0).then(|| Angle::near(radians, 8.0 * UNIT * radians.abs()))?
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct File {
+    #[serde(rename = "name")]
+    _name: IgnoredAny,
+    #[serde(default, rename = "allow")]
+    _allow: Option<IgnoredAny>,
+    /// The frame of the hand, which moves nothing.
+    #[serde(default, rename = "tool")]
+    _tool: Option<IgnoredAny>,
+    pub(crate) convention: Convention,
+    pub(crate) gravity: [Literal; 3],
+    pub(crate) joint: Vec<Row>,
+    #[serde(default)]
+    pub(crate) scene: BTreeMap<String, crate::scene::Scene>,
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Convention {
+    Standard,
+    Modified,
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Kind {
+    Revolute,
+    Prismatic,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Row {
+    pub(crate) name: Option<String>,
+    pub(crate) kind: Kind,
+    #[serde(default)]
+    pub(crate) alpha: Literal,
+    #[serde(default)]
+    pub(crate) a: Literal,
+    #[serde(default)]
+    pub(crate) d: Literal,
+    #[serde(default)]
+    pub(crate) theta: Literal,
+    #[serde(default)]
+    pub(crate) offset: Literal,
+    pub(crate) mass: Literal,
+    pub(crate) com: Option<[Literal; 3]>,
+    pub(crate) inertia: Option<[Literal; 6]>,
+    #[serde(default)]
+    pub(crate) viscous: Literal,
+    #[serde(default)]
+    pub(crate) armature: Literal,
+    #[serde(default)]
+    pub(crate) limits: Limits,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Limits {
+    pub(crate) position: Option<[Literal; 2]>,
+    pub(crate) velocity: Option<Literal>,
+    pub(crate) acceleration: Option<Literal>,
+    pub(crate) torque: Option<Literal>,
+}
 
 /// A rigid body in the frame of a link.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// The mass, kg.
-    pub mass: Ball,
+    pub mass: Polynomial,
     /// The centre of mass, m.
-    pub com: [Ball; 3],
+    pub com: [Polynomial; 3],
     /// Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass, kg·m².
-    pub inertia: [Ball; 6],
+    pub inertia: [Polynomial; 6],
 }
 
-/// One joint with its link, as a row of a DH table.
+impl Body {
+    pub(crate) fn read(
+        mass: &Literal,
+        com: Option<&[Literal; 3]>,
+        inertia: Option<&[Literal; 6]>,
+    ) -> Result<Body, Fault> {
+        let list = |all: &[Literal], key: &str| -> Result<Vec<Polynomial>, Fault> {
+            all.iter().map(|one| one.real(key)).collect()
+        };
+        if com.is_none() && !mass.is_zero() {
+            return Err(Fault::robot("com", "only a link with mass = 0 may leave it out"));
+        }
+        let com = list(com.map_or(&[], |com| com.as_slice()), "com")?;
+        let inertia = list(inertia.map_or(&[], |all| all.as_slice()), "inertia")?;
+        Ok(Body {
+            mass: mass.real("mass")?,
+            com: com.try_into().unwrap_or_default(),
+            inertia: inertia.try_into().unwrap_or_default(),
+        })
+    }
+}
+
+/// A joint that turns or slides, with its link, as a row of a DH table.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// Its name, if it has one.
-    pub name: Option<String>,
     /// Whether it turns; else it slides.
     pub turns: bool,
     /// The twist.
     pub alpha: Angle,
     /// The length a, m.
-    pub a: Ball,
+    pub a: Polynomial,
     /// What is constant of d, m: all of it if the joint turns.
-    pub d: Ball,
-    /// What is constant of θ, rad: all of it if the joint slides.
+    pub d: Polynomial,
+    /// What is constant of θ: all of it if the joint slides.
     pub theta: Angle,
     /// The link, and what it carries.
     pub bodies: Vec<Body>,
     /// Viscous friction, N·m·s/rad or N·s/m.
-    pub viscous: Ball,
+    pub viscous: Polynomial,
     /// The inertia of the drive as the joint feels it, kg·m² or kg.
-    pub armature: Ball,
-    /// Limits of position, rad or m.
-    pub position: Option<[f64; 2]>,
-    /// Limits of velocity, acceleration and torque, in SI units.
-    pub limits: [Option<f64>; 3],
+    pub armature: Polynomial,
 }
 
-/// An arm of the standard or the modified (Craig) convention.
-#[derive(Clone, Debug)]
-pub struct Robot {
-    /// Whether rows are of the modified convention.
-    pub modified: bool,
-    /// The acceleration of gravity in base axes, m/s².
-    pub gravity: [Ball; 3],
-    /// From the base to the hand.
-    pub joints: Vec<Joint>,
-}
-
-/// What reading has at hand: the text, for numbers are read from their digits.
-pub(crate) struct Reader<'s>(pub(crate) &'s str);
-
-/// Parses the file, of bounded length and depth.
-pub(crate) fn parse(source: &str) -> Result<Value<'_>, Fault> {
-    let long = source.len() > MOST_BYTES || source.lines().any(|l| l.len() > MOST_COLUMNS);
-    let open = source.lines().map(|line| match line.split_once('#') {
-        // A comment, unless the sign may be in a string.
-        Some((before, _)) if !before.contains(['"', '\'']) => before,
-        _ => line,
-    });
-    let mut depth = 0usize;
-    for c in open.flat_map(str::chars) {
-        depth = match c {
-            '[' | '{' => depth + 1,
-            ']' | '}' => depth.saturating_sub(1),
-            _ => depth,
-        };
-        if depth > MOST_BRACKETS {
-            return Err(Fault::robot("[", format!("more than {MOST_BRACKETS} open brackets")));
+impl Row {
+    pub(crate) fn joint(&self) -> Result<Joint, Fault> {
+        let turns = self.kind == Kind::Revolute;
+        let (theta, d) = if turns { (&self.offset, &self.d) } else { (&self.theta, &self.offset) };
+        if !(if turns { &self.theta } else { &self.d }).is_zero() {
+            return Err(Fault::robot("theta or d", "is the joint's variable, so it must be 0"));
         }
-    }
-    if long {
-        let why = format!("at most {MOST_BYTES} bytes in lines of at most {MOST_COLUMNS}");
-        return Err(Fault::robot("file", why));
-    }
-    toml_span::parse(source).map_err(|error| Fault::robot("file", error.to_string()))
-}
-
-impl Reader<'_> {
-    /// Reads the robot's own keys.
-    pub(crate) fn robot(&self, root: &Table) -> Result<Robot, Fault> {
-        known(root, &["convention", "gravity", "joint", "scene"])?;
-        let convention = root.get("convention").and_then(Value::as_str);
-        let modified = match convention {
-            Some("standard") => false,
-            Some("modified") => true,
-            _ => return Err(Fault::robot("convention", "expected \"standard\" or \"modified\"")),
-        };
-        let gravity = self.numbers(root, "gravity")?;
-        let gravity = gravity.ok_or_else(|| Fault::robot("gravity", "expected three numbers"))?;
-        let joints = root.get("joint").and_then(Value::as_array);
-        let joints = joints.map(Vec::as_slice).unwrap_or_default();
-        if !(1..=MAX_JOINTS).contains(&joints.len()) {
-            let why = format!("1 to {MAX_JOINTS} joints are audited, not {}", joints.len());
-            return Err(Fault::robot("joint", why));
+        if self.inertia.is_none() && !self.mass.is_zero() {
+            return Err(Fault::robot("inertia", "only a link with mass = 0 may leave it out"));
         }
-        let read = joints.iter().map(|joint| self.joint(table(joint, "joint")?));
-        let joints = read.collect::<Result<_, Fault>>()?;
-        Ok(Robot { modified, gravity, joints })
-    }
-
-    fn joint(&self, keys: &Table) -> Result<Joint, Fault> {
-        let row = ["kind", "alpha", "a", "d", "theta", "offset", "mass", "com", "inertia"];
-        known(keys, &[&row[..], &["viscous", "armature"]].concat())?;
-        let turns = match keys.get("kind").and_then(Value::as_str) {
-            Some("revolute") => true,
-            Some("prismatic") => false,
-            _ => return Err(Fault::robot("kind", "expected \"revolute\" or \"prismatic\"")),
-        };
-        let (theta, d) = if turns { ("offset", "d") } else { ("theta", "offset") };
-        let variable = if turns { "theta" } else { "d" };
-        // The joint's variable may be written as zero, which says nothing.
-        if keys.contains_key(variable) && self.number(keys, variable)? != Some(Ball::default()) {
-            return Err(Fault::robot(variable, "is the joint's variable and must be 0"));
-        }
-        let body = self.body(keys)?;
-        if body.mass != Ball::default() && !keys.contains_key("inertia") {
-            let why = "only a link with mass = 0 may leave it out";
-            return Err(Fault::robot("inertia", why));
-        }
-        let none = Table::default();
-        let limits = match keys.get("limits") {
-            Some(value) => table(value, "limits")?,
-            None => &none,
-        };
-        let limit = |key| Ok(self.number(limits, key)?.map(|x| x.value));
         Ok(Joint {
-            name: keys.get("name").and_then(Value::as_str).map(String::from),
             turns,
-            alpha: self.angle(keys, "alpha")?,
-            a: self.number(keys, "a")?.unwrap_or_default(),
-            d: self.number(keys, d)?.unwrap_or_default(),
-            theta: self.angle(keys, theta)?,
-            bodies: vec![body],
-            viscous: self.number(keys, "viscous")?.unwrap_or_default(),
-            armature: self.number(keys, "armature")?.unwrap_or_default(),
-            position: limits.get("position").map(|x| self.range(x, turns)).transpose()?,
-            limits: [limit("velocity")?, limit("acceleration")?, limit("torque")?],
+            alpha: self.alpha.angle("alpha")?,
+            a: self.a.real("a")?,
+            d: d.real("d")?,
+            theta: theta.angle("theta")?,
+            bodies: vec![Body::read(&self.mass, self.com.as_ref(), self.inertia.as_ref())?],
+            viscous: self.viscous.real("viscous")?,
+            armature: self.armature.real("armature")?,
         })
     }
 
-    /// A number that a key has, read from its digits.
-    pub(crate) fn number(&self, keys: &Table, key: &str) -> Result<Option<Ball>, Fault> {
-        keys.get(key).map(|value| self.number_of(value, key)).transpose()
-    }
-
-    pub(crate) fn number_of(&self, value: &Value, key: &str) -> Result<Ball, Fault> {
-        let read = match value.as_ref() {
-            ValueInner::Integer(_) | ValueInner::Float(_) => {
-                let digits = self.0.get(value.span.start..value.span.end);
-                digits.and_then(Ball::parse)
-            }
-            ValueInner::String(text) if text.contains('/') => Ball::parse_fraction(text),
-            _ => None,
-        };
-        read.ok_or_else(|| Fault::robot(key, "expected a number in decimal, at most 1e100"))
-    }
-
-    fn angle(&self, keys: &Table, key: &str) -> Result<Angle, Fault> {
-        let value = keys.get(key);
-        value.map_or(Ok(Angle::number(Ball::default()).unwrap_or_default()), |value| {
-            self.angle_of(value, key)
-        })
-    }
-
-    pub(crate) fn angle_of(&self, value: &Value, key: &str) -> Result<Angle, Fault> {
-        let read = match value.as_str() {
-            Some(text) => Angle::parse(text),
-            None => Angle::number(self.number_of(value, key)?),
-        };
-        read.ok_or_else(|| Fault::robot(key, "expected an angle: rad, \"pi/2\" or \"90deg\""))
-    }
-
-    /// `N` numbers that a key has.
-    pub(crate) fn numbers<const N: usize>(
-        &self,
-        keys: &Table,
-        key: &str,
-    ) -> Result<Option<[Ball; N]>, Fault> {
-        let Some(value) = keys.get(key) else {
-            return Ok(None);
-        };
-        let items = value.as_array().map(Vec::as_slice).unwrap_or_default();
-        let read = items.iter().map(|item| self.number_of(item, key));
-        let read: Vec<Ball> = read.collect::<Result<_, Fault>>()?;
-        let read = read.try_into();
-        read.map(Some).map_err(|_| Fault::robot(key, format!("expected {N} numbers")))
-    }
-
-    /// A mass with its centre and its inertia, none where none is given; a tensor that
-    /// is written as three rows is refused.
-    pub(crate) fn body(&self, keys: &Table) -> Result<Body, Fault> {
-        let mass = self.number(keys, "mass")?;
-        let mass = mass.ok_or_else(|| Fault::robot("mass", "expected a mass"))?;
-        let com = self.numbers(keys, "com")?;
-        if mass != Ball::default() && com.is_none() {
-            return Err(Fault::robot("com", "expected the centre of a mass that is not 0"));
-        }
-        let inertia = self.numbers(keys, "inertia")?.unwrap_or_default();
-        Ok(Body { mass, com: com.unwrap_or_default(), inertia })
-    }
-
-    /// Both ends of a range of positions, rad or m.
-    pub(crate) fn range(&self, value: &Value, turns: bool) -> Result<[f64; 2], Fault> {
-        let key = "position";
-        let end = |item: &Value| match turns {
-            true => Ok(self.angle_of(item, key)?.radians.value),
-            false => Ok(self.number_of(item, key)?.value),
-        };
-        match value.as_array().map(Vec::as_slice) {
-            Some([low, high]) => Ok([end(low)?, end(high)?]),
-            _ => Err(Fault::robot(key, "expected [lowest, highest]")),
+    /// An angle or a length, as the joint has it.
+    pub(crate) fn position(&self, at: &Literal) -> Result<f64, Fault> {
+        match self.kind {
+            Kind::Revolute => Ok(at.angle("position")?.radians),
+            Kind::Prismatic => at.double("position"),
         }
     }
-}
-
-/// Refuses every key that is neither read nor without effect.
-pub(crate) fn known(keys: &Table, read: &[&str]) -> Result<(), Fault> {
-    let unknown = |key: &&str| !read.contains(key) && !WITHOUT_EFFECT.contains(key);
-    match keys.keys().map(|key| key.name.as_ref()).find(unknown) {
-        Some(key) => Err(Fault::robot(key, "this key is not audited")),
-        None => Ok(()),
-    }
-}
-
-pub(crate) fn table<'v, 'd>(value: &'v Value<'d>, key: &str) -> Result<&'v Table<'d>, Fault> {
-    value.as_table().ok_or_else(|| Fault::robot(key, "expected a table"))
 }

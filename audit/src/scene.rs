@@ -1,43 +1,91 @@
-//! The scene of a robot file: what stands still, what is carried, the box of states,
-//! the results that are asked for and how far they may be off.
+//! A scene of a robot file: what stands still, what is carried, the box of states, the
+//! results that are asked for and how far they may be off.
 
-use toml_span::value::{Table, Value};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::fault::Fault;
-use crate::number::{Angle, Ball};
-use crate::robot::{Reader, Robot, known, parse, table};
+use crate::polynomial::{MAX_JOINTS, Polynomial};
+use crate::robot::{Angle, Body, Convention, File, Joint, Literal, Row};
 
-/// Where a locked joint is.
-#[derive(Clone, Copy, Debug)]
-pub enum Lock {
-    /// The angle of a joint that turns.
-    Angle(Angle),
-    /// The position of one that slides, m.
-    Length(Ball),
+/// The longest robot file.
+const MOST_BYTES: usize = 1 << 18;
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Scene {
+    #[serde(rename = "outputs")]
+    _outputs: Option<IgnoredAny>,
+    #[serde(rename = "scalar")]
+    _scalar: Option<IgnoredAny>,
+    joints: Option<Vec<Literal>>,
+    #[serde(default)]
+    lock: BTreeMap<String, Literal>,
+    gravity: Option<[Literal; 3]>,
+    velocity: Option<Zero>,
+    acceleration: Option<Zero>,
+    payload: Option<Payload>,
+    #[serde(default)]
+    r#box: Bounds,
+    tolerance: Option<Tolerance>,
 }
 
-/// A range a joint: both ends, rad or m, and their first and second rates.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ranges {
-    /// q
-    pub position: Vec<[f64; 2]>,
-    /// q̇
-    pub velocity: Vec<[f64; 2]>,
-    /// q̈
-    pub acceleration: Vec<[f64; 2]>,
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Zero {
+    Zero,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Payload {
+    mass: Literal,
+    com: [Literal; 3],
+    inertia: Option<[Literal; 6]>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Bounds {
+    position: Option<Vec<[Literal; 2]>>,
+    velocity: Option<Vec<Literal>>,
+    acceleration: Option<Vec<Literal>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tolerance {
+    value: OneOrEach,
+    relative_to: String,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+enum OneOrEach {
+    One(Literal),
+    Each(Vec<Literal>),
 }
 
 /// A robot in a scene, or by itself.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The robot, with the scene's gravity and payload.
-    pub robot: Robot,
-    /// Of each joint whether it is locked, and where.
-    pub locks: Vec<Option<Lock>>,
-    /// Whether there is no velocity, and no acceleration.
+    /// Whether rows are of the modified (Craig) convention.
+    pub modified: bool,
+    /// The acceleration of gravity in base axes, m/s².
+    pub gravity: [Polynomial; 3],
+    /// From the base to the hand; the last one carries the payload.
+    pub joints: Vec<Joint>,
+    /// Of each joint whether it is locked: its angle, if it turns, and its position, m.
+    pub locks: Vec<Option<(Angle, Polynomial)>>,
+    /// Whether q̇ is zero, and q̈.
     pub still: [bool; 2],
-    /// The states that the file speaks of.
-    pub ranges: Ranges,
+    /// The ranges of q, q̇ and q̈ that the file speaks of, NaN where it does not.
+    pub ranges: [Vec<[f64; 2]>; 3],
+    /// The limits of force or torque, N or N·m, NaN where there are none.
+    pub torques: Vec<f64>,
     /// The joints, from zero, that results are over.
     pub rows: Vec<usize>,
     /// The largest error of each joint that the user accepts, relative to a scale.
@@ -50,145 +98,118 @@ pub struct Setting {
 ///
 /// # Errors
 /// What is no TOML, or what this checker does not know, by its key.
-pub fn read(source: &str, scene: Option<&str>) -> Result<Setting, Fault> {
-    let root = parse(source)?;
-    let (root, reader) = (table(&root, "file")?, Reader(source));
-    let robot = reader.robot(root)?;
-    let none = Table::default();
-    let keys = match scene {
-        None => &none,
-        Some(name) => {
-            let scenes = root.get("scene").and_then(Value::as_table);
-            let found = scenes.and_then(|scenes| scenes.get(name));
-            let missing = || Fault::robot(format!("scene.{name}"), "there is no such scene");
-            table(found.ok_or_else(missing)?, name)?
-        }
-    };
-    setting(&reader, robot, keys)
+pub fn read(source: &str, name: Option<&str>) -> Result<Setting, Fault> {
+    if source.len() > MOST_BYTES {
+        return Err(Fault::robot("file", format!("more than {MOST_BYTES} bytes")));
+    }
+    let file: File = toml::from_str(source).map_err(|e| Fault::robot("file", e.to_string()))?;
+    let none = Scene::default();
+    let missing = |name: &str| Fault::robot(format!("scene.{name}"), "there is no such scene");
+    let scene = name.map_or(Ok(&none), |name| file.scene.get(name).ok_or(missing(name)))?;
+    setting(&file, scene)
 }
 
-fn setting(reader: &Reader, mut robot: Robot, keys: &Table) -> Result<Setting, Fault> {
-    let read = ["joints", "lock", "gravity", "velocity", "acceleration", "payload"];
-    known(keys, &[&read[..], &["box", "tolerance", "outputs", "scalar"]].concat())?;
-    if let Some(gravity) = reader.numbers(keys, "gravity")? {
-        robot.gravity = gravity;
+fn setting(file: &File, scene: &Scene) -> Result<Setting, Fault> {
+    let (rows, count) = (&file.joint, file.joint.len());
+    if !(1..=MAX_JOINTS).contains(&count) {
+        let why = format!("1 to {MAX_JOINTS} joints are audited, not {count}");
+        return Err(Fault::robot("joint", why));
     }
-    if let (Some(payload), Some(last)) = (keys.get("payload"), robot.joints.last_mut()) {
-        let payload = table(payload, "payload")?;
-        known(payload, &["mass", "com", "inertia"])?;
-        last.bodies.push(reader.body(payload)?);
+    let mut joints = rows.iter().map(Row::joint).collect::<Result<Vec<Joint>, Fault>>()?;
+    if let (Some(Payload { mass, com, inertia }), Some(last)) = (&scene.payload, joints.last_mut())
+    {
+        last.bodies.push(Body::read(mass, Some(com), inertia.as_ref())?);
     }
-    let mut locks = vec![None; robot.joints.len()];
-    if let Some(lock) = keys.get("lock") {
-        for (key, value) in table(lock, "lock")? {
-            let joint = joint(&robot, &key.name)?;
-            locks[joint] = Some(match robot.joints[joint].turns {
-                true => Lock::Angle(reader.angle_of(value, "lock")?),
-                false => Lock::Length(reader.number_of(value, "lock")?),
-            });
+    let [x, y, z] = scene.gravity.as_ref().unwrap_or(&file.gravity);
+    let gravity = [x.real("gravity")?, y.real("gravity")?, z.real("gravity")?];
+    let mut at: Vec<Option<&Literal>> = vec![None; count];
+    for (word, position) in &scene.lock {
+        at[joint(rows, word)?] = Some(position);
+    }
+    let mut locks = Vec::new();
+    for (joint, at) in joints.iter().zip(&at) {
+        let (angle, zero) = (Literal::default(), Polynomial::default());
+        locks.push(match at {
+            Some(at) if joint.turns => Some((at.angle("lock")?, zero)),
+            Some(at) => Some((angle.angle("lock")?, at.real("lock")?)),
+            None => None,
+        });
+    }
+    let asked = scene.joints.as_ref().map(|list| {
+        list.iter().map(|word| match word {
+            Literal::Text(name) => joint(rows, name),
+            Literal::Whole(number) => joint(rows, &number.to_string()),
+            Literal::Decimal(_) => Err(Fault::robot("joints", "expected numbers or names")),
+        })
+    });
+    let moving = (0..count).filter(|&joint| locks[joint].is_none());
+    let asked = asked.map(Iterator::collect::<Result<Vec<usize>, Fault>>).transpose()?;
+    let still = [scene.velocity.is_some(), scene.acceleration.is_some()];
+    let torque =
+        |row: &Row| row.limits.torque.as_ref().map_or(Ok(f64::NAN), |x| x.double("torque"));
+    let tolerance = scene.tolerance.as_ref().map(|tolerance| {
+        let each = match &tolerance.value {
+            OneOrEach::One(one) => vec![one.clone(); count],
+            OneOrEach::Each(each) => each.clone(),
+        };
+        // Down, so that nothing is allowed that the decimal does not allow.
+        let read = each.iter().map(|x| x.double("tolerance").map(f64::next_down));
+        let read: Vec<f64> = read.collect::<Result<_, Fault>>()?;
+        match read.len() == count {
+            true => Ok(read),
+            false => Err(Fault::robot("tolerance", "expected a value, or one a joint")),
         }
-    }
-    let rows = match keys.get("joints") {
-        None => (0..locks.len()).filter(|&joint| locks[joint].is_none()).collect(),
-        Some(list) => {
-            let items = list.as_array().map(Vec::as_slice).unwrap_or_default();
-            let number = |item: &Value| item.as_integer().map(|number| number.to_string());
-            let name = |item: &Value| item.as_str().map(String::from).or(number(item));
-            let rows = items.iter().map(|item| joint(&robot, &name(item).unwrap_or_default()));
-            rows.collect::<Result<Vec<usize>, Fault>>()?
-        }
-    };
-    let zero = |key: &str| match keys.get(key).map(Value::as_str) {
-        None => Ok(false),
-        Some(Some("zero")) => Ok(true),
-        Some(_) => Err(Fault::robot(key, "expected \"zero\"")),
-    };
-    let still = [zero("velocity")?, zero("acceleration")?];
-    let ranges = ranges(reader, &robot, keys, &locks, still)?;
-    let (tolerance, relative_to) = tolerance(reader, keys, locks.len())?;
-    Ok(Setting { robot, locks, still, ranges, rows, tolerance, relative_to })
+    });
+    Ok(Setting {
+        modified: file.convention == Convention::Modified,
+        gravity,
+        joints,
+        rows: asked.unwrap_or(moving.collect()),
+        still,
+        ranges: ranges(rows, &scene.r#box, &at, still)?,
+        torques: rows.iter().map(torque).collect::<Result<_, Fault>>()?,
+        locks,
+        tolerance: tolerance.transpose()?,
+        relative_to: scene.tolerance.as_ref().map(|tolerance| tolerance.relative_to.clone()),
+    })
 }
 
 /// A joint by its number, from one, or by its name.
-fn joint(robot: &Robot, word: &str) -> Result<usize, Fault> {
-    let named = robot.joints.iter().position(|joint| joint.name.as_deref() == Some(word));
+fn joint(rows: &[Row], word: &str) -> Result<usize, Fault> {
     let found = match word.parse::<usize>() {
-        Ok(number) => number.checked_sub(1).filter(|&joint| joint < robot.joints.len()),
-        Err(_) => named,
+        Ok(number) => number.checked_sub(1).filter(|&joint| joint < rows.len()),
+        Err(_) => rows.iter().position(|row| row.name.as_deref() == Some(word)),
     };
     found.ok_or_else(|| Fault::robot(word, "there is no such joint"))
 }
 
 /// The box: the scene's, else the joints' limits, and a whole turn where a joint that
-/// turns has none. What stands still has empty ranges of rates.
+/// turns has none. What is locked has one position; what stands still has no rates.
 fn ranges(
-    reader: &Reader,
-    robot: &Robot,
-    keys: &Table,
-    locks: &[Option<Lock>],
+    rows: &[Row],
+    given: &Bounds,
+    locks: &[Option<&Literal>],
     still: [bool; 2],
-) -> Result<Ranges, Fault> {
-    let none = Table::default();
-    let given = keys.get("box").map_or(Ok(&none), |given| table(given, "box"))?;
-    known(given, &["position", "velocity", "acceleration"])?;
-    let list = |key: &str| match given.get(key).map(Value::as_array) {
-        None => Ok(None),
-        Some(Some(items)) if items.len() == locks.len() => Ok(Some(items)),
-        Some(_) => Err(Fault::robot(key, "expected one entry a joint")),
-    };
-    let positions = list("position")?;
-    let rates = [list("velocity")?, list("acceleration")?];
-    let mut ranges = Ranges::default();
-    for (index, joint) in robot.joints.iter().enumerate() {
-        let at = locks[index].map(|lock| match lock {
-            Lock::Angle(angle) => angle.radians.value,
-            Lock::Length(length) => length.value,
+) -> Result<[Vec<[f64; 2]>; 3], Fault> {
+    let mut ranges = [vec![], vec![], vec![]];
+    for (index, row) in rows.iter().enumerate() {
+        let own = given.position.as_ref().and_then(|list| list.get(index));
+        ranges[0].push(match (locks[index], own.or(row.limits.position.as_ref())) {
+            (Some(at), _) => [row.position(at)?; 2],
+            (None, Some([low, high])) => [row.position(low)?, row.position(high)?],
+            (None, None) if row.kind == crate::robot::Kind::Revolute => [-PI, PI],
+            (None, None) => [f64::NAN; 2],
         });
-        let turn = || joint.turns.then_some([-std::f64::consts::PI, std::f64::consts::PI]);
-        ranges.position.push(match (at, positions) {
-            (Some(at), _) => [at, at],
-            (None, Some(items)) => reader.range(&items[index], joint.turns)?,
-            (None, None) => joint.position.or_else(turn).unwrap_or([f64::NAN; 2]),
-        });
-        let rate = |which: usize| match (at.is_some() || still[which], rates[which]) {
-            (true, _) => Ok([0.0; 2]),
-            (false, Some(items)) => {
-                let most = reader.number_of(&items[index], "box")?.value;
-                Ok([-most, most])
-            }
-            (false, None) => Ok(joint.limits[which].map_or([f64::NAN; 2], |most| [-most, most])),
-        };
-        ranges.velocity.push(rate(0)?);
-        ranges.acceleration.push(rate(1)?);
+        let rates = [
+            (&given.velocity, &row.limits.velocity),
+            (&given.acceleration, &row.limits.acceleration),
+        ];
+        for (which, (given, limit)) in rates.into_iter().enumerate() {
+            let most = given.as_ref().and_then(|list| list.get(index)).or(limit.as_ref());
+            let most = most.map_or(Ok(f64::NAN), |most| most.double("limits"))?;
+            let most = if locks[index].is_some() || still[which] { 0.0 } else { most };
+            ranges[which + 1].push([-most, most]);
+        }
     }
     Ok(ranges)
-}
-
-/// The tolerance of each joint and what it is relative to.
-fn tolerance(
-    reader: &Reader,
-    keys: &Table,
-    joints: usize,
-) -> Result<(Option<Vec<f64>>, Option<String>), Fault> {
-    let Some(tolerance) = keys.get("tolerance") else {
-        return Ok((None, None));
-    };
-    let tolerance = table(tolerance, "tolerance")?;
-    known(tolerance, &["value", "relative_to"])?;
-    let relative_to = tolerance.get("relative_to").and_then(Value::as_str);
-    let values = match tolerance.get("value") {
-        Some(value) if value.as_array().is_some() => {
-            let items = value.as_array().map(Vec::as_slice).unwrap_or_default();
-            let read = items.iter().map(|item| reader.number_of(item, "value"));
-            read.collect::<Result<Vec<Ball>, Fault>>()?
-        }
-        Some(value) => vec![reader.number_of(value, "value")?; joints],
-        None => Vec::new(),
-    };
-    if values.len() != joints {
-        return Err(Fault::robot("tolerance", "expected a value, or one a joint"));
-    }
-    // Down, so that nothing is allowed that the decimal does not allow.
-    let allowed = values.iter().map(|x| x.value - x.radius).collect();
-    Ok((Some(allowed), relative_to.map(String::from)))
 }

@@ -62,17 +62,15 @@ fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
     let one = Interval::point(1.0);
     let mut values = vec![Enclosed { value: angle, slope: one, error: 0.0 }];
     for &node in block.iter().skip(1) {
-        let mut rounded = |value: Interval, slope: Interval, inherited: f64| {
+        let rounded = |value: Interval, slope: Interval, inherited: f64| {
             let error = scalar.rounded(value.magnitude(), inherited);
             Enclosed { value, slope, error }
         };
         let get = |node: usize| last(&values, node);
         let next = match node {
-            Node::Constant(value) => Enclosed {
-                value: Interval::point(value),
-                slope: Interval::point(0.0),
-                error: 0.0,
-            },
+            Node::Constant(value) => {
+                Enclosed { value: Interval::point(value), slope: Interval::point(0.0), error: 0.0 }
+            }
             Node::Add(a, b) => {
                 let (a, b) = (get(a), get(b));
                 rounded(a.value + b.value, a.slope + b.slope, a.error + b.error)
@@ -83,15 +81,15 @@ fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
             }
             Node::Mul(a, b) => {
                 let (a, b) = (get(a), get(b));
-                let inherited = a.error * (b.value.magnitude() + b.error)
-                    + b.error * a.value.magnitude();
+                let inherited =
+                    a.error * (b.value.magnitude() + b.error) + b.error * a.value.magnitude();
                 rounded(a.value * b.value, a.slope * b.value + a.value * b.slope, inherited)
             }
             Node::Neg(a) => {
                 let a = get(a);
                 Enclosed { value: -a.value, slope: -a.slope, error: a.error }
             }
-            Node::Input(..) | Node::Sin(..) | Node::Cos(..) => last(&[], 0),
+            Node::Input(..) | Node::Sine(..) => last(&[], 0),
         };
         values.push(next);
     }

@@ -1,7 +1,8 @@
-//! The text of a function, read into straight-line code. The grammar is small and
-//! strict: what is not in it is refused with its line, however harmless.
+//! The text of a function, read into straight-line code, a line at a time. The grammar is
+//! what the generator prints; what is not in it is refused with its line, however harmless.
 //!
 //! ```text
+//! #[must_use]
 //! pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
 //!     let (s1, c1) = libm::sincos(q[0]);
 //!     let t1 = qd[0] * 0.5;
@@ -10,31 +11,18 @@
 //! ```
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use crate::fault::Fault;
-use crate::lexer::{Token, tokens};
 
 /// The most values of a function.
 const MOST_NODES: usize = 20_000;
-
-/// The arguments of a function, one entry a joint each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Argument {
-    /// q
-    Position,
-    /// q̇
-    Velocity,
-    /// q̈
-    Acceleration,
-}
 
 /// Where a sine or cosine comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A library that gives both within one ulp: libm, or dalembert-sines.
     Library,
-    /// The result of a block of arithmetic, of its index, and which of its steps.
+    /// A block of arithmetic, of its index, and which of its values.
     Block(usize, usize),
 }
 
@@ -43,8 +31,8 @@ pub enum Source {
 pub enum Node {
     /// A literal as the scalar holds it.
     Constant(f64),
-    /// An entry of an argument.
-    Input(Argument, usize),
+    /// Of q, q̇ or q̈, counted from zero, the entry of a joint.
+    Input(usize, usize),
     /// A sum.
     Add(usize, usize),
     /// A difference.
@@ -53,19 +41,13 @@ pub enum Node {
     Mul(usize, usize),
     /// The opposite, which is exact.
     Neg(usize),
-    /// What stands for the sine of a value.
-    Sin(usize, Source),
-    /// What stands for the cosine of a value.
-    Cos(usize, Source),
+    /// What stands for the sine of a value, or else for its cosine.
+    Sine(usize, bool, Source),
 }
 
 /// A function.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
-    /// Its name.
-    pub name: String,
-    /// Whether it is in f32; else it is in f64.
-    pub is_single: bool,
     /// All values, in order.
     pub nodes: Vec<Node>,
     /// Blocks that compute sines; value 0 of each is the angle.
@@ -74,369 +56,278 @@ pub struct Program {
     pub outputs: Vec<usize>,
 }
 
-struct Parser<'t> {
-    tokens: Vec<Token<'t>>,
-    at: usize,
-    joints: usize,
-    program: Program,
-    names: HashMap<&'t str, usize>,
-    arguments: HashMap<&'t str, Argument>,
-    /// Whether what is read is in a block, and where that first names its angle.
-    is_inside: bool,
-    angle: Option<Range<usize>>,
+/// What a text must be: a function of this name, in `f64` or `f32`, of an arm of so many
+/// joints, that returns so many numbers, or a matrix of so many rows and columns.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind<'k> {
+    /// Its name.
+    pub name: &'k str,
+    /// Its scalar.
+    pub scalar: &'k str,
+    /// Its joints.
+    pub joints: usize,
+    /// Its results, or rows of results.
+    pub rows: usize,
+    /// Whether it returns a matrix.
+    pub is_matrix: bool,
 }
 
-/// Reads a function of an arm of so many joints that returns an array of the rows, or
-/// rows of as many entries.
+struct Parser<'t> {
+    kind: Kind<'t>,
+    lines: std::iter::Enumerate<std::str::Lines<'t>>,
+    line: usize,
+    program: Program,
+    names: HashMap<&'t str, usize>,
+    /// Which of q, qd and qdd the head names.
+    arguments: HashMap<&'t str, usize>,
+    /// Inside of a block, how it spells its angle, once it has.
+    angle: Option<&'t str>,
+    is_inside: bool,
+}
+
+/// Reads a function.
 ///
 /// # Errors
-/// The first thing that is not of the grammar, with its line.
-pub fn read(text: &str, joints: usize, rows: usize) -> Result<Program, Fault> {
+/// The first thing that is not of the grammar or not of this kind, with its line.
+pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
     let mut parser = Parser {
-        tokens: tokens(text)?,
-        at: 0,
-        joints,
+        kind,
+        lines: text.lines().enumerate(),
+        line: 0,
         program: Program::default(),
         names: HashMap::new(),
         arguments: HashMap::new(),
-        is_inside: false,
         angle: None,
+        is_inside: false,
     };
-    parser.function(rows)?;
-    Ok(parser.program)
+    match parser.function() {
+        Some(()) => Ok(parser.program),
+        None => {
+            let line = text.lines().nth(parser.line).unwrap_or("").trim();
+            Err(Fault::Text(parser.line + 1, format!("not of the grammar or the claim: `{line}`")))
+        }
+    }
 }
 
 impl<'t> Parser<'t> {
-    fn peek(&self) -> &'t str {
-        self.tokens.get(self.at).map_or("", |token| token.text)
+    fn next(&mut self) -> Option<&'t str> {
+        let (number, line) = self.lines.next()?;
+        self.line = number;
+        Some(line.trim())
     }
 
-    fn next(&mut self) -> &'t str {
-        let text = self.peek();
-        self.at += 1;
-        text
-    }
-
-    fn fail<T>(&self, expected: &str) -> Result<T, Fault> {
-        let at = self.at.min(self.tokens.len().saturating_sub(1));
-        let line = self.tokens.get(at).map_or(1, |token| token.line);
-        Err(Fault::Text(line, format!("expected {expected}, found `{}`", self.peek())))
-    }
-
-    /// Takes these tokens, given with spaces between them.
-    fn expect(&mut self, words: &str) -> Result<(), Fault> {
-        for word in words.split(' ') {
-            if self.peek() != word {
-                return self.fail(&format!("`{word}`"));
+    fn function(&mut self) -> Option<()> {
+        let Kind { name, scalar, joints, rows, is_matrix } = self.kind;
+        let mut head = self.next()?;
+        if head == "#[must_use]" {
+            head = self.next()?;
+        }
+        let returned = if is_matrix {
+            format!("[[{scalar}; {rows}]; {rows}]")
+        } else {
+            format!("[{scalar}; {rows}]")
+        };
+        let list = head.strip_prefix("pub fn ")?.strip_prefix(name)?.strip_prefix('(')?;
+        let list = list.strip_suffix(&format!(") -> {returned} {{"))?;
+        let parameter = format!(": &[{scalar}; {joints}]");
+        for part in list.split(", ") {
+            let argument = part.strip_suffix(&parameter)?;
+            let known = argument.strip_prefix('_').unwrap_or(argument);
+            let place = ["q", "qd", "qdd"].iter().position(|word| *word == known)?;
+            if self.arguments.values().any(|&before| before >= place) {
+                return None;
             }
-            self.at += 1;
+            self.arguments.insert(argument, place);
         }
-        Ok(())
+        let mut line = self.next()?;
+        while let Some(statement) = line.strip_prefix("let ") {
+            self.statement(statement)?;
+            line = self.next()?;
+        }
+        let mut results = line.to_owned();
+        loop {
+            line = self.next()?;
+            if line == "}" {
+                break;
+            }
+            results = results + " " + line;
+        }
+        self.results(&results)?;
+        self.lines.all(|(_, line)| line.trim().is_empty()).then_some(())
     }
 
-    fn takes(&mut self, word: &str) -> bool {
-        let found = self.peek() == word;
-        self.at += usize::from(found);
-        found
-    }
-
-    fn function(&mut self, rows: usize) -> Result<(), Fault> {
-        if self.peek() == "#" {
-            self.expect("# [ must_use ]")?;
-        }
-        self.expect("pub fn")?;
-        self.program.name = self.next().to_owned();
-        self.expect("(")?;
-        let mut scalar = "";
-        let known = [Argument::Position, Argument::Velocity, Argument::Acceleration];
-        while !self.takes(")") {
-            let name = self.next();
-            let plain = name.strip_prefix('_').unwrap_or(name);
-            let place = ["q", "qd", "qdd"].iter().position(|known| *known == plain);
-            let Some(place) = place.filter(|&place| self.arguments.values().all(|a| *a as usize != place)) else {
-                self.at -= 1;
-                return self.fail("one of q, qd and qdd");
-            };
-            self.arguments.insert(name, known[place]);
-            self.expect(": & [")?;
-            let own = self.peek();
-            if !["f64", "f32"].contains(&own) || !["", own].contains(&scalar) {
-                return self.fail("f64 or f32, the same everywhere");
-            }
-            scalar = own;
-            self.expect(&format!("{own} ; {} ]", self.joints))?;
-            if !self.takes(",") && self.peek() != ")" {
-                return self.fail("`)`");
-            }
-        }
-        self.program.is_single = scalar == "f32";
-        self.expect("-> [")?;
-        let is_matrix = self.takes("[");
-        self.expect(&format!("{scalar} ; {rows} ]"))?;
-        if is_matrix {
-            self.expect(&format!("; {rows} ]"))?;
-        }
-        self.expect("{")?;
-        while self.takes("let") {
-            self.statement()?;
-            self.expect(";")?;
-        }
-        self.results(rows, is_matrix)?;
-        self.expect("}")?;
-        if self.at < self.tokens.len() {
-            return self.fail("nothing after the function");
-        }
-        Ok(())
-    }
-
-    fn results(&mut self, rows: usize, is_matrix: bool) -> Result<(), Fault> {
-        self.expect("[")?;
-        for _ in 0..rows {
-            if is_matrix {
-                self.expect("[")?;
-            }
-            for entry in 0..if is_matrix { rows } else { 1 } {
-                let value = self.operand()?;
+    /// The results, written as an array or a matrix of as many entries as are asked for.
+    fn results(&mut self, written: &str) -> Option<()> {
+        let Kind { rows, is_matrix, .. } = self.kind;
+        let written = written.replace(' ', "");
+        let inner = written.strip_prefix('[')?.strip_suffix(']')?;
+        let lists: Vec<&str> = match is_matrix {
+            true => inner.strip_prefix('[')?.strip_suffix("],")?.split("],[").collect(),
+            false => vec![inner],
+        };
+        for list in &lists {
+            let before = self.program.outputs.len();
+            for word in list.split(',') {
+                let value = self.operand(word)?;
                 self.program.outputs.push(value);
-                if is_matrix && (self.peek() != "]" || entry + 1 < rows) {
-                    self.expect(",")?;
+            }
+            if self.program.outputs.len() - before != rows {
+                return None;
+            }
+        }
+        (lists.len() == if is_matrix { rows } else { 1 }).then_some(())
+    }
+
+    fn push(&mut self, node: Node) -> Option<usize> {
+        self.program.nodes.push(node);
+        let count = self.program.nodes.len();
+        (count <= MOST_NODES).then(|| count - 1)
+    }
+
+    /// What follows `let `.
+    fn statement(&mut self, statement: &'t str) -> Option<()> {
+        let (names, value) = statement.split_once(" = ")?;
+        if value == "{" {
+            return self.block(names);
+        }
+        let value = value.strip_suffix(';')?;
+        let suffix = if self.kind.scalar == "f32" { "f" } else { "" };
+        if let Some(lists) = names.strip_prefix("([") {
+            let (sines, cosines) = lists.strip_suffix("])")?.split_once("], [")?;
+            let call = value.strip_prefix("dalembert_sines::sincos")?.strip_prefix(suffix)?;
+            let angles = call.strip_prefix("(&[")?.strip_suffix("])")?;
+            let [sines, cosines, angles] =
+                [sines, cosines, angles].map(|list| list.split(", ").collect::<Vec<_>>());
+            if sines.len() != angles.len() || cosines.len() != angles.len() {
+                return None;
+            }
+            for (k, word) in angles.into_iter().enumerate() {
+                let angle = self.operand(word)?;
+                for (name, is_sine) in [(sines[k], true), (cosines[k], false)] {
+                    if name != "_" {
+                        self.name(name, Node::Sine(angle, is_sine, Source::Library))?;
+                    }
                 }
             }
-            if is_matrix {
-                self.expect("]")?;
-            }
-            if self.peek() != "]" {
-                self.expect(",")?;
-            }
+            return Some(());
         }
-        self.expect("]")
+        if let Some((call, angle)) = value.split_once('(') {
+            let called = call.strip_prefix("libm::")?.strip_suffix(suffix)?;
+            let angle = self.operand(angle.strip_suffix(')')?)?;
+            return match (called, pair(names)) {
+                ("sincos", Some([sin, cos])) => {
+                    self.name(sin, Node::Sine(angle, true, Source::Library))?;
+                    self.name(cos, Node::Sine(angle, false, Source::Library))
+                }
+                ("sin" | "cos", None) => {
+                    self.name(names, Node::Sine(angle, called == "sin", Source::Library))
+                }
+                _ => None,
+            };
+        }
+        let node = self.operation(value)?;
+        self.name(names, node)
     }
 
-    fn push(&mut self, node: Node) -> Result<usize, Fault> {
-        if self.program.nodes.len() >= MOST_NODES {
-            return self.fail(&format!("at most {MOST_NODES} values"));
-        }
-        self.program.nodes.push(node);
-        Ok(self.program.nodes.len() - 1)
-    }
-
-    /// What follows `let`.
-    fn statement(&mut self) -> Result<(), Fault> {
-        if self.takes("(") {
-            if self.takes("[") {
-                return self.together();
-            }
-            let sin = self.name()?;
-            self.expect(",")?;
-            let cos = self.name()?;
-            self.expect(") =")?;
-            return self.sines(&[(sin, true), (cos, false)], "sincos");
-        }
-        let name = self.name()?;
-        self.expect("=")?;
-        let call = if name.starts_with('s') { "sin" } else { "cos" };
-        if ["libm", "dalembert_sines", "{"].contains(&self.peek()) {
-            return self.sines(&[(name, call == "sin")], call);
-        }
-        let value = self.operation()?;
-        self.names.insert(name, value);
-        Ok(())
-    }
-
-    /// A name that is not taken.
-    fn name(&mut self) -> Result<&'t str, Fault> {
-        let name = self.peek();
-        let is_word = name.starts_with(|c: char| c.is_ascii_lowercase());
-        if !is_word || self.names.contains_key(name) || ["q", "qd", "qdd"].contains(&name) {
-            return self.fail("a name that is not taken");
-        }
-        self.at += 1;
-        Ok(name)
+    /// Adds a value of a new name: a small letter, then letters and digits.
+    fn name(&mut self, name: &'t str, node: Node) -> Option<()> {
+        let plain = name.starts_with(|c: char| c.is_ascii_lowercase())
+            && name.chars().all(|c| c.is_ascii_alphanumeric())
+            && !["q", "qd", "qdd"].contains(&name);
+        let value = self.push(node)?;
+        (plain && self.names.insert(name, value).is_none()).then_some(())
     }
 
     /// One operation on two operands.
-    fn operation(&mut self) -> Result<usize, Fault> {
-        let left = self.operand()?;
-        let operation = self.next();
-        let right = self.operand()?;
+    fn operation(&mut self, text: &'t str) -> Option<Node> {
+        let words: Vec<&str> = text.split(' ').collect();
+        let &[left, operation, right] = words.as_slice() else {
+            return None;
+        };
+        let (left, right) = (self.operand(left)?, self.operand(right)?);
         match operation {
-            "+" => self.push(Node::Add(left, right)),
-            "-" => self.push(Node::Sub(left, right)),
-            "*" => self.push(Node::Mul(left, right)),
-            _ => {
-                self.at -= 1;
-                self.fail("one `+`, `-` or `*` between two operands")
-            }
+            "+" => Some(Node::Add(left, right)),
+            "-" => Some(Node::Sub(left, right)),
+            "*" => Some(Node::Mul(left, right)),
+            _ => None,
         }
     }
 
-    fn operand(&mut self) -> Result<usize, Fault> {
-        if self.takes("-") {
-            let value = self.unsigned()?;
+    fn operand(&mut self, word: &str) -> Option<usize> {
+        if let Some(word) = word.strip_prefix('-') {
+            let value = self.unsigned(word)?;
             return self.push(Node::Neg(value));
         }
-        self.unsigned()
+        self.unsigned(word)
     }
 
-    fn unsigned(&mut self) -> Result<usize, Fault> {
-        let word = self.peek();
+    /// A name, an entry of an argument, or a literal.
+    fn unsigned(&mut self, word: &str) -> Option<usize> {
         if let Some(&value) = self.names.get(word) {
-            self.at += 1;
-            return Ok(value);
+            return Some(value);
         }
-        if self.is_inside && word.starts_with(|c: char| c.is_ascii_lowercase()) {
-            return self.angle();
-        }
-        if let Some(&argument) = self.arguments.get(word) {
-            self.at += 1;
-            self.expect("[")?;
-            let Some(joint) = self.peek().parse().ok().filter(|joint| *joint < self.joints) else {
-                return self.fail("the index of a joint");
+        if word.starts_with(|c: char| c.is_ascii_digit()) {
+            let value = match self.kind.scalar {
+                "f32" => f64::from(word.parse::<f32>().ok()?),
+                _ => word.parse::<f64>().ok()?,
             };
-            self.at += 1;
-            self.expect("]")?;
-            return self.push(Node::Input(argument, joint));
+            return self
+                .push(Node::Constant(value))
+                .filter(|_| value.is_finite() && word.contains(['.', 'e']));
         }
-        let value = match self.program.is_single {
-            true => word.parse::<f32>().ok().map(f64::from),
-            false => word.parse::<f64>().ok(),
-        };
-        let is_literal = word.contains(['.', 'e']) && word.starts_with(|c: char| c.is_ascii_digit());
-        match value.filter(|value| is_literal && value.is_finite()) {
-            Some(value) => {
-                self.at += 1;
-                self.push(Node::Constant(value))
-            }
-            None => self.fail("a value, an argument's entry or a literal"),
+        if self.is_inside {
+            return None;
         }
+        let (argument, joint) = word.strip_suffix(']')?.split_once('[')?;
+        let (argument, joint) = (*self.arguments.get(argument)?, joint.parse().ok()?);
+        self.push(Node::Input(argument, joint)).filter(|_| joint < self.kind.joints)
     }
 
-    /// A call of a library, or a block, for the sine or the cosine of an angle or both.
-    fn sines(&mut self, names: &[(&'t str, bool)], call: &str) -> Result<(), Fault> {
-        let (angle, sources) = match self.peek() {
-            "{" => self.block(names.len())?,
-            _ => {
-                self.library(call)?;
-                self.expect("(")?;
-                let angle = self.operand()?;
-                self.expect(")")?;
-                (angle, vec![Source::Library; names.len()])
-            }
-        };
-        for (&(name, is_sine), source) in names.iter().zip(sources) {
-            self.bind(name, is_sine, angle, source)?;
-        }
-        Ok(())
-    }
-
-    fn bind(&mut self, name: &'t str, is_sine: bool, angle: usize, source: Source) -> Result<(), Fault> {
-        let node = if is_sine { Node::Sin(angle, source) } else { Node::Cos(angle, source) };
-        let value = self.push(node)?;
-        match self.names.insert(name, value) {
-            None => Ok(()),
-            Some(_) => self.fail("names that differ"),
-        }
-    }
-
-    /// The name of a library's function, of the scalar.
-    fn library(&mut self, call: &str) -> Result<(), Fault> {
-        if !self.takes("dalembert_sines") && !self.takes("libm") {
-            return self.fail("libm or dalembert_sines");
-        }
-        let suffix = if self.program.is_single { "f" } else { "" };
-        self.expect(&format!(":: {call}{suffix}"))
-    }
-
-    /// `([s1, s2], [c1, _]) = dalembert_sines::sincos(&[q[0], q[1]])`, behind its first
-    /// two brackets.
-    fn together(&mut self) -> Result<(), Fault> {
-        let (mut names, mut angles) = ([vec![], vec![]], vec![]);
-        for (which, close) in ["] , [", "] ) ="].iter().enumerate() {
-            while self.peek() != "]" {
-                let name = if self.takes("_") { None } else { Some(self.name()?) };
-                names[which].push(name);
-                if !self.takes(",") && self.peek() != "]" {
-                    return self.fail("`]`");
-                }
-            }
-            self.expect(close)?;
-        }
-        self.library("sincos")?;
-        self.expect("( & [")?;
-        while !self.takes("]") {
-            angles.push(self.operand()?);
-            if !self.takes(",") && self.peek() != "]" {
-                return self.fail("`]`");
-            }
-        }
-        self.expect(")")?;
-        if names.iter().any(|names| names.len() != angles.len()) {
-            return self.fail("as many sines, cosines and angles");
-        }
-        for (names, is_sine) in names.into_iter().zip([true, false]) {
-            for (name, &angle) in names.into_iter().zip(&angles) {
-                if let Some(name) = name {
-                    self.bind(name, is_sine, angle, Source::Library)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A block: arithmetic on one angle, with names of its own. Returns the angle and
-    /// which steps the results are.
-    fn block(&mut self, results: usize) -> Result<(usize, Vec<Source>), Fault> {
-        self.expect("{")?;
+    /// A block: arithmetic on one angle, with names of its own.
+    fn block(&mut self, names: &'t str) -> Option<()> {
+        let outside = std::mem::take(&mut self.names);
         let nodes = std::mem::replace(&mut self.program.nodes, vec![Node::Constant(0.0)]);
-        let names = std::mem::take(&mut self.names);
         self.is_inside = true;
-        while self.takes("let") {
-            let name = self.name()?;
-            self.expect("=")?;
-            let value = self.operation()?;
-            self.names.insert(name, value);
-            self.expect(";")?;
-        }
-        let (open, close) = if results > 1 { ("(", ")") } else { ("", "") };
-        self.takes(open);
-        let mut sources = Vec::new();
-        for result in 0..results {
-            if result > 0 {
-                self.expect(",")?;
+        let mut line = self.next()?;
+        while let Some(statement) = line.strip_prefix("let ") {
+            let (name, value) = statement.strip_suffix(';')?.split_once(" = ")?;
+            // What is no name of the block and no literal is the angle, always the same.
+            let own = |word: &&str| {
+                !["+", "-", "*"].contains(word)
+                    && !self.names.contains_key(word.trim_start_matches('-'))
+                    && !word.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
+            };
+            if let Some(word) = value.split(' ').find(own) {
+                if *self.angle.get_or_insert(word) != word {
+                    return None;
+                }
+                self.names.insert(word, 0);
             }
-            let value = self.operand()?;
-            sources.push(Source::Block(self.program.blocks.len(), value));
+            let node = self.operation(value)?;
+            self.name(name, node)?;
+            line = self.next()?;
         }
-        self.takes(close);
-        self.expect("}")?;
-        let block = std::mem::replace(&mut self.program.nodes, nodes);
-        self.program.blocks.push(block);
-        self.names = names;
+        let results = pair(line).map_or(vec![line], Vec::from);
+        let values: Option<Vec<usize>> = results.iter().map(|word| self.operand(word)).collect();
+        self.program.blocks.push(std::mem::replace(&mut self.program.nodes, nodes));
+        self.names = outside;
         self.is_inside = false;
-        // The angle, read once more where the block first names it.
-        let Some(angle) = self.angle.take() else {
-            return self.fail("a block that reads an angle");
-        };
-        let behind = std::mem::replace(&mut self.at, angle.start);
-        let angle = self.operand()?;
-        self.at = behind;
-        Ok((angle, sources))
+        let word = self.angle.take()?;
+        let angle = self.operand(word)?;
+        let names = pair(names).map_or(vec![names], Vec::from);
+        let values =
+            values.filter(|values| values.len() == names.len() && self.next() == Some("};"))?;
+        for (name, value) in names.iter().zip(values) {
+            let is_sine = name.starts_with('s');
+            let source = Source::Block(self.program.blocks.len() - 1, value);
+            self.name(name, Node::Sine(angle, is_sine, source))?;
+        }
+        Some(())
     }
+}
 
-    /// What a block reads that is not its own: always the same angle, its value 0.
-    fn angle(&mut self) -> Result<usize, Fault> {
-        let start = self.at;
-        let word = self.next();
-        if self.arguments.contains_key(word) {
-            self.expect("[")?;
-            self.at += 1;
-            self.expect("]")?;
-        }
-        let angle = self.angle.get_or_insert(start..self.at).clone();
-        let spelled = |range: Range<usize>| self.tokens.get(range).map(|tokens| tokens.iter().map(|t| t.text));
-        match (spelled(angle), spelled(start..self.at)) {
-            (Some(one), Some(other)) if one.clone().eq(other.clone()) => Ok(0),
-            _ => self.fail("a block that reads one angle only"),
-        }
-    }
+/// Both parts of `(one, other)`.
+fn pair(text: &str) -> Option<[&str; 2]> {
+    let (one, other) = text.strip_prefix('(')?.strip_suffix(')')?.split_once(", ")?;
+    Some([one, other])
 }

@@ -1,14 +1,15 @@
 //! What a text computes, as polynomials: exactly as real numbers, and at most how far
 //! the floating-point values are from that.
 
+use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::{Interval, UNIT};
 use crate::polynomial::{MAX_JOINTS, Polynomial, Variable, Work};
 use crate::ring::Ring;
-use crate::scene::{Ranges, Setting};
+use crate::scene::Setting;
 use crate::sines;
-use crate::text::{Argument, Node, Program, Source};
+use crate::text::{Node, Program, Source};
 
 /// Half an ulp of f32, relative.
 const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
@@ -47,10 +48,10 @@ pub struct Scalar {
 
 impl Scalar {
     /// f32 or f64.
-    pub fn of(is_single: bool) -> Scalar {
-        match is_single {
-            true => Scalar { unit: SINGLE_UNIT, least: 1e-45, most: f64::from(f32::MAX) },
-            false => Scalar { unit: UNIT, least: f64::from_bits(1), most: f64::MAX },
+    pub fn of(name: &str) -> Scalar {
+        match name {
+            "f32" => Scalar { unit: SINGLE_UNIT, least: 1e-45, most: f64::from(f32::MAX) },
+            _ => Scalar { unit: UNIT, least: f64::from_bits(1), most: f64::MAX },
         }
     }
 
@@ -67,7 +68,7 @@ impl Scalar {
 struct Values<'a> {
     ring: &'a Ring,
     setting: &'a Setting,
-    ranges: &'a Ranges,
+    claim: &'a Claim,
     program: &'a Program,
     scalar: Scalar,
     /// How many errors of sines have a variable of their own.
@@ -81,12 +82,12 @@ struct Values<'a> {
 pub fn outputs(
     program: &Program,
     setting: &Setting,
-    ranges: &Ranges,
+    claim: &Claim,
     ring: &Ring,
     work: &mut Work,
 ) -> Result<Vec<Value>, Fault> {
-    let scalar = Scalar::of(program.is_single);
-    let mut values = Values { ring, setting, ranges, program, scalar, errors: 0 };
+    let scalar = Scalar::of(&claim.scalar);
+    let mut values = Values { ring, setting, claim, program, scalar, errors: 0 };
     let mut all = Vec::with_capacity(program.nodes.len());
     for &node in &program.nodes {
         let meaning = values.meaning(node, &all, work)?;
@@ -120,7 +121,7 @@ impl Values<'_> {
                     return Ok(Meaning::Angle(joints.iter().map(|&(j, n)| (j, !n)).collect()));
                 }
                 let a = number(all, a)?;
-                Value { exact: a.exact.clone().negated(), ..*a }
+                Value { exact: a.exact.negated(), ..*a }
             }
             Node::Add(a, b) | Node::Sub(a, b) => {
                 let minus = matches!(node, Node::Sub(..));
@@ -133,7 +134,7 @@ impl Values<'_> {
                     return Ok(Meaning::Angle(sum));
                 }
                 let (a, b) = (number(all, a)?, number(all, b)?);
-                let negated = minus.then(|| b.exact.clone().negated());
+                let negated = minus.then(|| b.exact.negated());
                 let sum = a.exact.plus(negated.as_ref().unwrap_or(&b.exact));
                 let size = self.ring.size(&sum).min((a.size + b.size) * SLACK);
                 let error = self.scalar.rounded(size, a.error + b.error);
@@ -147,11 +148,10 @@ impl Values<'_> {
                 let error = self.scalar.rounded(size, inherited * SLACK);
                 Value { exact: product, size, error }
             }
-            Node::Sin(a, source) | Node::Cos(a, source) => {
+            Node::Sine(a, is_sine, source) => {
                 let Some(joints) = angle(a) else {
                     return Err(Fault::certificate("a sine of something that is no angle"));
                 };
-                let is_sine = matches!(node, Node::Sin(..));
                 self.sine(joints, is_sine, source, work)?
             }
         };
@@ -159,18 +159,14 @@ impl Values<'_> {
     }
 
     /// An entry of an argument; `None` of an angle.
-    fn input(&self, argument: Argument, joint: usize) -> Result<Option<&Polynomial>, Fault> {
+    fn input(&self, argument: usize, joint: usize) -> Result<Option<&Polynomial>, Fault> {
         let State { position, velocity, acceleration, .. } = &self.ring.states[joint];
         if self.setting.locks[joint].is_some() {
             let why = format!("the text reads the state of joint {}, which is locked", joint + 1);
             return Err(Fault::certificate(why));
         }
-        Ok(match argument {
-            Argument::Position if self.setting.robot.joints[joint].turns => None,
-            Argument::Position => Some(position),
-            Argument::Velocity => Some(velocity),
-            Argument::Acceleration => Some(acceleration),
-        })
+        let is_angle = argument == 0 && self.setting.joints[joint].turns;
+        Ok([position, velocity, acceleration].get(argument).copied().filter(|_| !is_angle))
     }
 
     /// A sine or cosine of a sum of angles, with what it is off.
@@ -185,10 +181,10 @@ impl Values<'_> {
         let mut range = Interval::point(0.0);
         for &(joint, negative) in joints {
             let State { sin: own, cos: own_cos, .. } = &self.ring.states[joint];
-            let [low, high] = self.ranges.position[joint];
+            let [low, high] = self.claim.position[joint];
             let own_range = Interval::new(low, high);
             range = range + if negative { -own_range } else { own_range };
-            let own = if negative { own.clone().negated() } else { own.clone() };
+            let own = if negative { own.negated() } else { own.clone() };
             let turned = sin.times(own_cos, work)?.plus(&cos.times(&own, work)?);
             cos = cos.times(own_cos, work)?.plus(&sin.times(&own, work)?.negated());
             sin = turned;
