@@ -78,18 +78,26 @@ impl Claim {
         }
     }
 
-    fn fault(&self) -> Option<&'static str> {
+    /// Whether the fields are of one claim.
+    ///
+    /// # Errors
+    /// The first that is not, with what was expected.
+    pub(crate) fn whole(&self) -> Result<(), Fault> {
         let count = self.rows.len();
         let outputs = if self.function == Function::Inertia { count * count } else { count };
         let known = ["f64", "f32"].contains(&self.scalar.as_str());
-        match () {
-            () if self.certificate != 2 => Some("`certificate`: expected format 2"),
-            () if !known => Some("`scalar`: expected f64 or f32"),
-            () if self.rows.contains(&0) => Some("`rows`: expected joints, from 1"),
-            () if self.scale.len() != outputs => Some("`scale`: expected one an output"),
-            () if self.total.len() != outputs => Some("`total`: expected one an output"),
-            () => None,
+        for (good, why) in [
+            (self.certificate == 2, "`certificate`: expected format 2"),
+            (known, "`scalar`: expected f64 or f32"),
+            (count < 64 && !self.rows.contains(&0), "`rows`: expected joints, from 1"),
+            (self.scale.len() == outputs, "`scale`: expected one an output"),
+            (self.total.len() == outputs, "`total`: expected one an output"),
+        ] {
+            if !good {
+                return Err(Fault::certificate(why));
+            }
         }
+        Ok(())
     }
 }
 
@@ -110,8 +118,6 @@ pub fn read(text: &str) -> Result<Vec<Claim>, Fault> {
         let why = format!("1 to {MOST_CLAIMS} in a file, not {}", claims.len());
         return Err(Fault::certificate(why));
     }
-    match claims.iter().find_map(Claim::fault) {
-        Some(why) => Err(Fault::certificate(why)),
-        None => Ok(claims),
-    }
+    claims.iter().try_for_each(Claim::whole)?;
+    Ok(claims)
 }

@@ -22,17 +22,17 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // So that NaN counts as too large.
 
 mod certificate;
-mod dynamics;
+pub mod dynamics;
 mod fault;
-mod interval;
+pub mod interval;
 mod maximum;
-mod polynomial;
+pub mod polynomial;
 mod ring;
-mod robot;
+pub mod robot;
 mod sample;
-mod scene;
+pub mod scene;
 mod sines;
-mod text;
+pub mod text;
 mod values;
 mod verdict;
 

@@ -62,11 +62,12 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     let norm: f64 = first.iter().map(|value| value.abs()).sum();
     // What doubles cost: a sum of at most so many products, sines that are 1e-15 off, and
     // what the middles and lengths of ranges were rounded by.
+    let plain = (norm + polynomial.rest) * (1.0 + 8.0 * UNIT * first.len() as f64);
+    if plain <= wanted || search.levels.is_empty() || !plain.is_finite() {
+        return plain;
+    }
     let slack = norm * (1e-12 + 8.0 * UNIT * first.len() as f64);
     let rest = (polynomial.rest + slack) * (1.0 + 1e-9);
-    if norm + rest <= wanted || first.is_empty() || !(norm + rest).is_finite() {
-        return norm + rest;
-    }
     let mut least = (wanted - rest).next_down();
     let seen = search.climb();
     let mut shown = wanted;
@@ -80,7 +81,7 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
             let result = search.shows(0, least);
             match result {
                 Ok(()) if shown == wanted => return wanted,
-                Ok(()) => return (least + rest) * (1.0 + 1e-12),
+                Ok(()) => return plain.min((least + rest) * (1.0 + 1e-12)),
                 Err(Unshown::Larger(found)) => least = (found * 1.0005).max(least * 1.0005),
                 Err(Unshown::Steps) => break,
             }
@@ -92,7 +93,7 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
         least *= growth;
         shown = f64::INFINITY;
     }
-    norm + rest
+    plain
 }
 
 impl Search {
@@ -122,8 +123,13 @@ impl Search {
         };
         let mut left: Vec<usize> = (0..ring.angles.len()).collect();
         left.retain(|&joint| degree(joint, &keys) > 0);
-        // The first angles are looked at least often: those of the most powers.
-        left.sort_by_key(|&joint| degree(joint, &keys));
+        // The last one is the first to be put in: of short ranges, so that the others are
+        // not bounded over whole turns of it, then of the highest powers.
+        let length = |joint: usize| ring.angles[joint].map_or(f64::MAX, |[low, high]| high - low);
+        left.sort_by(|&a, &b| {
+            let powers = || degree(a, &keys).cmp(&degree(b, &keys));
+            length(b).total_cmp(&length(a)).then_with(powers)
+        });
         while let Some(joint) = left.pop() {
             let without = |&(group, angles): &(Key, Key)| {
                 let (sin, cos) = power(angles, joint);

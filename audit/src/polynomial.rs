@@ -25,8 +25,9 @@ pub const MOST_WORK: u64 = 400_000_000;
 /// What summing up `rest` in floating point may cost, as a factor: far fewer than 2³⁰
 /// additions, each rounded by at most one part in 2⁵³.
 const SLACK: f64 = 1.000_001;
-/// More than all underflows of one operation on polynomials.
-const TINY: f64 = 1e-300;
+/// The least double, at least what a product is off where it underflows.
+const LEAST: f64 = f64::from_bits(1);
+const SMALL: f64 = 1e-290;
 
 /// The variables of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,23 +146,27 @@ impl Polynomial {
     /// # Errors
     /// Too high a power, too many terms or too much work.
     pub fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+        let zero = Polynomial::default();
+        if *self == zero || *other == zero {
+            return Ok(zero);
+        }
         work.spend(self.terms.len() * other.terms.len())?;
         let mut rest = 0.0;
         // So that NaN, of numbers that overflowed, stays in the rest.
         if self.rest + other.rest != 0.0 {
-            rest = (self.rest * other.norm() + other.rest * self.norm()) * SLACK + TINY;
+            rest = (self.rest * other.norm() + other.rest * self.norm()) * SLACK + LEAST;
         }
         let mut terms = Vec::new();
         for (left, a) in &self.terms {
             for (right, b) in &other.terms {
                 let product = a * b;
                 if left & ERRORS != 0 && right & ERRORS != 0 {
-                    rest += product.abs() * SLACK + TINY;
+                    rest += product.abs() * SLACK + LEAST;
                     continue;
                 }
-                // A product by ±2^k is exact unless it underflows, which `TINY` covers.
                 let exact = a.abs() == 1.0 || b.abs() == 1.0;
-                rest += if exact { 0.0 } else { product.abs() * UNIT + TINY };
+                rest += if exact { 0.0 } else { product.abs() * UNIT };
+                rest += if product.abs() < SMALL { LEAST } else { 0.0 };
                 reduce(left + right, product, &mut terms)?;
             }
             if terms.len() > 8 * MOST_TERMS {
