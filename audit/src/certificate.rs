@@ -33,6 +33,15 @@ impl Function {
             Function::Coriolis => "coriolis",
         }
     }
+
+    /// How many of q, q̇ and q̈ it is a function of.
+    pub fn arguments(self) -> usize {
+        match self {
+            Function::InverseDynamics => 3,
+            Function::Coriolis => 2,
+            Function::Gravity | Function::Inertia => 1,
+        }
+    }
 }
 
 /// A claim: at every state of the box, each output of the text is within E·T of the

@@ -22,12 +22,13 @@ use crate::interval::{UNIT, sin_cos};
 use crate::polynomial::{ANGLES, Key, Polynomial, Variable, exponent, key};
 use crate::ring::Ring;
 
-/// The most multiplications of one attempt.
+/// The most multiplications for the B that is wanted, and for each larger one.
 const MOST_STEPS: u64 = 2_500_000_000;
+const MOST_STEPS_MORE: u64 = 400_000_000;
 /// Cells narrower than this are not cut: what they would show is shown by a larger B.
 const NARROWEST: f64 = 1e-3;
 /// By how much B grows where it was not shown.
-const GROWTH: [f64; 10] = [1.002, 1.005, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 4.0];
+const GROWTH: [f64; 7] = [1.002, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0];
 
 /// One angle's turn: what its powers are multiplied with, and where that is added to.
 struct Level {
@@ -43,6 +44,9 @@ struct Level {
 struct Search {
     levels: Vec<Level>,
     values: Vec<Vec<f64>>,
+    /// The sum of the magnitudes of all terms, before they were added up.
+    mass: f64,
+    /// Multiplications that may still be done.
     steps: u64,
 }
 
@@ -62,11 +66,12 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     let norm: f64 = first.iter().map(|value| value.abs()).sum();
     // What doubles cost: a sum of at most so many products, sines that are 1e-15 off, and
     // what the middles and lengths of ranges were rounded by.
-    let plain = (norm + polynomial.rest) * (1.0 + 8.0 * UNIT * first.len() as f64);
+    let counted = 16.0 * UNIT * polynomial.terms.len() as f64;
+    let plain = (norm + polynomial.rest) * (1.0 + counted) + search.mass * counted;
     if plain <= wanted || search.levels.is_empty() || !plain.is_finite() {
         return plain;
     }
-    let slack = norm * (1e-12 + 8.0 * UNIT * first.len() as f64);
+    let slack = search.mass * (1e-12 + 16.0 * UNIT * first.len() as f64);
     let rest = (polynomial.rest + slack) * (1.0 + 1e-9);
     let mut least = (wanted - rest).next_down();
     let seen = search.climb();
@@ -76,10 +81,8 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
         shown = f64::INFINITY;
     }
     for growth in GROWTH {
-        search.steps = 0;
         for _ in 0..20 {
-            let result = search.shows(0, least);
-            match result {
+            match search.shows(0, least) {
                 Ok(()) if shown == wanted => return wanted,
                 Ok(()) => return plain.min((least + rest) * (1.0 + 1e-12)),
                 Err(Unshown::Larger(found)) => least = (found * 1.0005).max(least * 1.0005),
@@ -91,7 +94,7 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
             break;
         }
         least *= growth;
-        shown = f64::INFINITY;
+        (shown, search.steps) = (f64::INFINITY, MOST_STEPS_MORE);
     }
     plain
 }
@@ -100,9 +103,11 @@ impl Search {
     fn new(polynomial: &Polynomial, ring: &Ring) -> Search {
         // Groups by rates and errors; the first one is the sum of all at the middle.
         let mut groups: BTreeMap<(Key, Key), f64> = BTreeMap::new();
+        let mut mass = 0.0;
         for &(key, coefficient) in &polynomial.terms {
             let (angles, others) = (key & ANGLES, key & !ANGLES);
             let (middle, radius) = ring.factor(others);
+            mass += (middle.abs() + radius) * coefficient.abs();
             if middle != 0.0 {
                 *groups.entry((0, angles)).or_default() += middle * coefficient;
             }
@@ -112,7 +117,7 @@ impl Search {
             }
         }
         let mut keys: Vec<(Key, Key)> = groups.keys().copied().collect();
-        let mut search = Search { levels: Vec::new(), values: Vec::new(), steps: 0 };
+        let mut search = Search { levels: Vec::new(), values: Vec::new(), mass, steps: MOST_STEPS };
         search.values.push(groups.into_values().collect());
         let power = |key: Key, joint: usize| {
             (exponent(key, Variable::Sin, joint), exponent(key, Variable::Cos, joint))
@@ -174,7 +179,7 @@ impl Search {
         for (value, &(power, target)) in from.iter().zip(moves) {
             to[target as usize] += value * table[power as usize];
         }
-        self.steps += from.len() as u64 + 20;
+        self.steps = self.steps.saturating_sub(from.len() as u64 + 20);
     }
 
     fn norm(&self, level: usize) -> f64 {
@@ -200,7 +205,7 @@ impl Search {
             cells.extend([(low, 0.0), (high, 0.0)]);
         }
         while let Some((middle, half)) = cells.pop() {
-            if self.steps > MOST_STEPS {
+            if self.steps == 0 {
                 return Err(Unshown::Steps);
             }
             // One part in 10¹² for the roundings of all this.

@@ -13,7 +13,7 @@ use crate::polynomial::{Key, Polynomial, Variable, Work, exponent};
 use crate::scene::Setting;
 
 /// A range of at least so much counts as all angles.
-const WHOLE_TURN: f64 = 6.28;
+const WHOLE_TURN: f64 = std::f64::consts::TAU - 1e-9;
 
 /// The variables over a box.
 #[derive(Clone, Debug)]

@@ -70,7 +70,8 @@ impl Literal {
                 over.trim().parse::<i32>().ok()? as f64 / under.trim().parse::<u32>().ok()? as f64
             }
         };
-        (value.abs() < 1e100).then_some((value, 2.0 * UNIT * value.abs()))
+        let radius = if value == 0.0 { 0.0 } else { (2.0 * UNIT * value.abs()).next_up() };
+        (value.abs() < 1e100).then_some((value, radius))
     }
 
     pub(crate) fn real(&self, key: &str) -> Result<Polynomial, Fault> {

@@ -161,8 +161,13 @@ impl Values<'_> {
     /// An entry of an argument; `None` of an angle.
     fn input(&self, argument: usize, joint: usize) -> Result<Option<&Polynomial>, Fault> {
         let State { position, velocity, acceleration, .. } = &self.ring.states[joint];
-        if self.setting.locks[joint].is_some() {
-            let why = format!("the text reads the state of joint {}, which is locked", joint + 1);
+        let is_still = argument > 0 && self.setting.still[argument - 1];
+        let is_read = argument < self.claim.function.arguments() && !is_still;
+        if !is_read || self.setting.locks[joint].is_some() {
+            let why = match is_read {
+                true => format!("the text reads the state of joint {}, which is locked", joint + 1),
+                false => "the text reads rates that the function, or the scene, has not".into(),
+            };
             return Err(Fault::certificate(why));
         }
         let is_angle = argument == 0 && self.setting.joints[joint].turns;

@@ -140,11 +140,6 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
         // What the file does not limit is NaN, and in nothing.
         claimed[0] - slack <= own[0] && own[1] <= claimed[1] + slack
     };
-    let read = match claim.function {
-        Function::InverseDynamics => 3,
-        Function::Coriolis => 2,
-        Function::Gravity | Function::Inertia => 1,
-    };
     let lists = [
         (position, &claim.position),
         (velocity, &claim.velocity),
@@ -153,7 +148,7 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
     let has_all = |(own, claimed): &(&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
         own.len() == claimed.len() && own.iter().zip(claimed.iter()).all(inside)
     };
-    match lists.iter().take(read).all(has_all) {
+    match lists.iter().take(claim.function.arguments()).all(has_all) {
         true => Ok(()),
         false => {
             Err(Fault::certificate("the box lacks states of the scene, or of the joints' limits"))
