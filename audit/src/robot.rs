@@ -130,20 +130,20 @@ fn turns(text: &str) -> Option<Angle> {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct File {
-    #[serde(rename = "name")]
-    _name: IgnoredAny,
-    #[serde(default, rename = "allow")]
-    _allow: Option<IgnoredAny>,
-    /// The frame of the hand, which moves nothing.
-    #[serde(default, rename = "tool")]
-    _tool: Option<IgnoredAny>,
+#[serde(deny_unknown_fields, bound = "S: Deserialize<'de>")]
+pub(crate) struct File<S> {
     pub(crate) convention: Convention,
     pub(crate) gravity: [Literal; 3],
     pub(crate) joint: Vec<Row>,
-    #[serde(default)]
-    pub(crate) scene: BTreeMap<String, crate::scene::Scene>,
+    #[serde(default = "BTreeMap::new")]
+    pub(crate) scene: BTreeMap<String, S>,
+    /// These, and the frame of the hand, move nothing.
+    #[serde(rename = "name")]
+    _name: IgnoredAny,
+    #[serde(rename = "allow")]
+    _allow: Option<IgnoredAny>,
+    #[serde(rename = "tool")]
+    _tool: Option<IgnoredAny>,
 }
 
 #[derive(Clone, Copy, PartialEq, Deserialize)]
@@ -160,34 +160,26 @@ pub(crate) enum Kind {
     Prismatic,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub(crate) struct Row {
     pub(crate) name: Option<String>,
-    pub(crate) kind: Kind,
-    #[serde(default)]
-    pub(crate) alpha: Literal,
-    #[serde(default)]
-    pub(crate) a: Literal,
-    #[serde(default)]
-    pub(crate) d: Literal,
-    #[serde(default)]
-    pub(crate) theta: Literal,
-    #[serde(default)]
-    pub(crate) offset: Literal,
-    pub(crate) mass: Literal,
-    pub(crate) com: Option<[Literal; 3]>,
-    pub(crate) inertia: Option<[Literal; 6]>,
-    #[serde(default)]
-    pub(crate) viscous: Literal,
-    #[serde(default)]
-    pub(crate) armature: Literal,
-    #[serde(default)]
+    pub(crate) kind: Option<Kind>,
+    alpha: Literal,
+    a: Literal,
+    d: Literal,
+    theta: Literal,
+    offset: Literal,
+    mass: Option<Literal>,
+    com: Option<[Literal; 3]>,
+    inertia: Option<[Literal; 6]>,
+    viscous: Literal,
+    armature: Literal,
     pub(crate) limits: Limits,
 }
 
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub(crate) struct Limits {
     pub(crate) position: Option<[Literal; 2]>,
     pub(crate) velocity: Option<Literal>,
@@ -209,21 +201,18 @@ pub struct Body {
 impl Body {
     pub(crate) fn read(
         mass: &Literal,
-        com: Option<&[Literal; 3]>,
-        inertia: Option<&[Literal; 6]>,
+        com: &[Literal; 3],
+        inertia: &[Literal; 6],
     ) -> Result<Body, Fault> {
-        let list = |all: &[Literal], key: &str| -> Result<Vec<Polynomial>, Fault> {
-            all.iter().map(|one| one.real(key)).collect()
-        };
-        if com.is_none() && !mass.is_zero() {
-            return Err(Fault::robot("com", "only a link with mass = 0 may leave it out"));
+        let [x, y, z] = com;
+        let mut moments = Vec::new();
+        for one in inertia {
+            moments.push(one.real("inertia")?);
         }
-        let com = list(com.map_or(&[], |com| com.as_slice()), "com")?;
-        let inertia = list(inertia.map_or(&[], |all| all.as_slice()), "inertia")?;
         Ok(Body {
             mass: mass.real("mass")?,
-            com: com.try_into().unwrap_or_default(),
-            inertia: inertia.try_into().unwrap_or_default(),
+            com: [x.real("com")?, y.real("com")?, z.real("com")?],
+            inertia: moments.try_into().unwrap_or_default(),
         })
     }
 }
@@ -251,31 +240,38 @@ pub struct Joint {
 
 impl Row {
     pub(crate) fn joint(&self) -> Result<Joint, Fault> {
-        let turns = self.kind == Kind::Revolute;
+        let turns = self.turns()?;
         let (theta, d) = if turns { (&self.offset, &self.d) } else { (&self.theta, &self.offset) };
         if !(if turns { &self.theta } else { &self.d }).is_zero() {
             return Err(Fault::robot("theta or d", "is the joint's variable, so it must be 0"));
         }
-        if self.inertia.is_none() && !self.mass.is_zero() {
-            return Err(Fault::robot("inertia", "only a link with mass = 0 may leave it out"));
+        let missing =
+            |key| Fault::robot(key, "only `com` and `inertia` of mass = 0 may be missing");
+        let mass = self.mass.as_ref().ok_or(missing("mass"))?;
+        if !mass.is_zero() && (self.com.is_none() || self.inertia.is_none()) {
+            return Err(missing("com or inertia"));
         }
+        let (com, inertia) = (self.com.clone(), self.inertia.clone());
         Ok(Joint {
             turns,
             alpha: self.alpha.angle("alpha")?,
             a: self.a.real("a")?,
             d: d.real("d")?,
             theta: theta.angle("theta")?,
-            bodies: vec![Body::read(&self.mass, self.com.as_ref(), self.inertia.as_ref())?],
+            bodies: vec![Body::read(mass, &com.unwrap_or_default(), &inertia.unwrap_or_default())?],
             viscous: self.viscous.real("viscous")?,
             armature: self.armature.real("armature")?,
         })
     }
 
+    /// Whether the joint turns; else it slides.
+    pub(crate) fn turns(&self) -> Result<bool, Fault> {
+        let missing = || Fault::robot("kind", "expected revolute or prismatic");
+        Ok(self.kind.ok_or_else(missing)? == Kind::Revolute)
+    }
+
     /// An angle or a length, as the joint has it.
     pub(crate) fn position(&self, at: &Literal) -> Result<f64, Fault> {
-        match self.kind {
-            Kind::Revolute => Ok(at.angle("position")?.radians),
-            Kind::Prismatic => at.double("position"),
-        }
+        if self.turns()? { Ok(at.angle("position")?.radians) } else { at.double("position") }
     }
 }

@@ -15,20 +15,18 @@ use crate::robot::{Angle, Body, Convention, File, Joint, Literal, Row};
 const MOST_BYTES: usize = 1 << 18;
 
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Scene {
+#[serde(default, deny_unknown_fields)]
+struct Scene {
     #[serde(rename = "outputs")]
     _outputs: Option<IgnoredAny>,
     #[serde(rename = "scalar")]
     _scalar: Option<IgnoredAny>,
     joints: Option<Vec<Literal>>,
-    #[serde(default)]
     lock: BTreeMap<String, Literal>,
     gravity: Option<[Literal; 3]>,
     velocity: Option<Zero>,
     acceleration: Option<Zero>,
     payload: Option<Payload>,
-    #[serde(default)]
     r#box: Bounds,
     tolerance: Option<Tolerance>,
 }
@@ -48,7 +46,7 @@ struct Payload {
 }
 
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 struct Bounds {
     position: Option<Vec<[Literal; 2]>>,
     velocity: Option<Vec<Literal>>,
@@ -102,14 +100,15 @@ pub fn read(source: &str, name: Option<&str>) -> Result<Setting, Fault> {
     if source.len() > MOST_BYTES {
         return Err(Fault::robot("file", format!("more than {MOST_BYTES} bytes")));
     }
-    let file: File = toml::from_str(source).map_err(|e| Fault::robot("file", e.to_string()))?;
+    let file: File<Scene> =
+        toml::from_str(source).map_err(|e| Fault::robot("file", e.to_string()))?;
     let none = Scene::default();
     let missing = |name: &str| Fault::robot(format!("scene.{name}"), "there is no such scene");
     let scene = name.map_or(Ok(&none), |name| file.scene.get(name).ok_or(missing(name)))?;
     setting(&file, scene)
 }
 
-fn setting(file: &File, scene: &Scene) -> Result<Setting, Fault> {
+fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
     let (rows, count) = (&file.joint, file.joint.len());
     if !(1..=MAX_JOINTS).contains(&count) {
         let why = format!("1 to {MAX_JOINTS} joints are audited, not {count}");
@@ -118,7 +117,7 @@ fn setting(file: &File, scene: &Scene) -> Result<Setting, Fault> {
     let mut joints = rows.iter().map(Row::joint).collect::<Result<Vec<Joint>, Fault>>()?;
     if let (Some(Payload { mass, com, inertia }), Some(last)) = (&scene.payload, joints.last_mut())
     {
-        last.bodies.push(Body::read(mass, Some(com), inertia.as_ref())?);
+        last.bodies.push(Body::read(mass, com, inertia.as_ref().unwrap_or(&Default::default()))?);
     }
     let [x, y, z] = scene.gravity.as_ref().unwrap_or(&file.gravity);
     let gravity = [x.real("gravity")?, y.real("gravity")?, z.real("gravity")?];
@@ -197,7 +196,7 @@ fn ranges(
         ranges[0].push(match (locks[index], own.or(row.limits.position.as_ref())) {
             (Some(at), _) => [row.position(at)?; 2],
             (None, Some([low, high])) => [row.position(low)?, row.position(high)?],
-            (None, None) if row.kind == crate::robot::Kind::Revolute => [-PI, PI],
+            (None, None) if row.turns()? => [-PI, PI],
             (None, None) => [f64::NAN; 2],
         });
         let rates = [

@@ -1,11 +1,45 @@
-//! How far a block of arithmetic is from the sine or the cosine of its angle.
+//! What rounding costs, and how far a block of arithmetic is from the sine or the cosine
+//! of its angle.
 
-use crate::interval::{Interval, SINE_ERROR, sin_cos};
+use crate::interval::{Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::text::Node;
-use crate::values::Scalar;
 
+/// Half an ulp of f32, relative.
+const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
+/// For sums of positive doubles that are rounded themselves.
+const SLACK: f64 = 1.000_001;
 /// Into how many cells the range of an angle is cut.
 const CELLS: usize = 1 << 14;
+
+/// The scalar that a text computes in.
+#[derive(Clone, Copy, Debug)]
+pub struct Scalar {
+    /// What rounding to nearest costs, relative.
+    pub unit: f64,
+    /// What it costs more where results underflow.
+    pub least: f64,
+    /// Where results overflow.
+    pub most: f64,
+}
+
+impl Scalar {
+    /// f32 or f64.
+    pub fn of(name: &str) -> Scalar {
+        match name {
+            "f32" => Scalar { unit: SINGLE_UNIT, least: 1e-45, most: f64::from(f32::MAX) },
+            _ => Scalar { unit: UNIT, least: f64::from_bits(1), most: f64::MAX },
+        }
+    }
+
+    /// How far the result of an operation is off: its operands' share, and rounding.
+    pub fn rounded(self, size: f64, inherited: f64) -> f64 {
+        let error = inherited + self.unit * (size + inherited) + self.least;
+        match (size + error) * SLACK < self.most {
+            true => error * SLACK,
+            false => f64::INFINITY,
+        }
+    }
+}
 
 /// The largest difference of what a block computes in floating point, at the angles of a
 /// range, from the sine (or cosine); infinite if nothing can be said.

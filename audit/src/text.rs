@@ -56,17 +56,16 @@ pub struct Program {
     pub outputs: Vec<usize>,
 }
 
-/// What a text must be: a function of this name, in `f64` or `f32`, of an arm of so many
-/// joints, that returns so many numbers, or a matrix of so many rows and columns.
+/// What a text must be.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind<'k> {
     /// Its name.
     pub name: &'k str,
-    /// Its scalar.
+    /// Its scalar, `f64` or `f32`.
     pub scalar: &'k str,
-    /// Its joints.
+    /// The joints of the arm.
     pub joints: usize,
-    /// Its results, or rows of results.
+    /// How many numbers it returns, or rows and columns of a matrix.
     pub rows: usize,
     /// Whether it returns a matrix.
     pub is_matrix: bool,
@@ -80,9 +79,9 @@ struct Parser<'t> {
     names: HashMap<&'t str, usize>,
     /// Which of q, qd and qdd the head names.
     arguments: HashMap<&'t str, usize>,
-    /// Inside of a block, how it spells its angle, once it has.
-    angle: Option<&'t str>,
+    /// Whether a block is read, and how it spells its angle, once it has.
     is_inside: bool,
+    angle: Option<&'t str>,
 }
 
 /// Reads a function.
@@ -97,16 +96,14 @@ pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
         program: Program::default(),
         names: HashMap::new(),
         arguments: HashMap::new(),
-        angle: None,
         is_inside: false,
+        angle: None,
     };
-    match parser.function() {
-        Some(()) => Ok(parser.program),
-        None => {
-            let line = text.lines().nth(parser.line).unwrap_or("").trim();
-            Err(Fault::Text(parser.line + 1, format!("not of the grammar or the claim: `{line}`")))
-        }
+    if parser.function().is_some() {
+        return Ok(parser.program);
     }
+    let line = text.lines().nth(parser.line).unwrap_or("").trim();
+    Err(Fault::Text(parser.line + 1, format!("not of the grammar or the claim: `{line}`")))
 }
 
 impl<'t> Parser<'t> {
@@ -118,20 +115,15 @@ impl<'t> Parser<'t> {
 
     fn function(&mut self) -> Option<()> {
         let Kind { name, scalar, joints, rows, is_matrix } = self.kind;
-        let mut head = self.next()?;
-        if head == "#[must_use]" {
-            head = self.next()?;
+        let mut line = self.next()?;
+        if line == "#[must_use]" {
+            line = self.next()?;
         }
-        let returned = if is_matrix {
-            format!("[[{scalar}; {rows}]; {rows}]")
-        } else {
-            format!("[{scalar}; {rows}]")
-        };
-        let list = head.strip_prefix("pub fn ")?.strip_prefix(name)?.strip_prefix('(')?;
-        let list = list.strip_suffix(&format!(") -> {returned} {{"))?;
-        let parameter = format!(": &[{scalar}; {joints}]");
-        for part in list.split(", ") {
-            let argument = part.strip_suffix(&parameter)?;
+        let row = format!("[{scalar}; {rows}]");
+        let returned = if is_matrix { format!("[{row}; {rows}]") } else { row };
+        let list = line.strip_prefix("pub fn ")?.strip_prefix(name)?.strip_prefix('(')?;
+        for part in list.strip_suffix(&format!(") -> {returned} {{"))?.split(", ") {
+            let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
             let known = argument.strip_prefix('_').unwrap_or(argument);
             let place = ["q", "qd", "qdd"].iter().position(|word| *word == known)?;
             if self.arguments.values().any(|&before| before >= place) {
@@ -139,121 +131,109 @@ impl<'t> Parser<'t> {
             }
             self.arguments.insert(argument, place);
         }
-        let mut line = self.next()?;
-        while let Some(statement) = line.strip_prefix("let ") {
-            self.statement(statement)?;
-            line = self.next()?;
-        }
-        let mut results = line.to_owned();
-        loop {
-            line = self.next()?;
-            if line == "}" {
-                break;
+        line = self.statements()?;
+        if is_matrix {
+            let mut is_good = line == "[";
+            for _ in 0..rows {
+                let list = self.next()?.strip_prefix('[')?.strip_suffix("],")?;
+                is_good &= self.outputs(list)? == rows;
             }
-            results = results + " " + line;
+            is_good &= self.next()? == "]";
+            is_good.then_some(())?;
+        } else {
+            let list = line.strip_prefix('[')?.strip_suffix(']')?;
+            (self.outputs(list)? == rows).then_some(())?;
         }
-        self.results(&results)?;
-        self.lines.all(|(_, line)| line.trim().is_empty()).then_some(())
+        let is_end = self.next()? == "}" && self.lines.all(|(_, line)| line.trim().is_empty());
+        is_end.then_some(())
     }
 
-    /// The results, written as an array or a matrix of as many entries as are asked for.
-    fn results(&mut self, written: &str) -> Option<()> {
-        let Kind { rows, is_matrix, .. } = self.kind;
-        let written = written.replace(' ', "");
-        let inner = written.strip_prefix('[')?.strip_suffix(']')?;
-        let lists: Vec<&str> = match is_matrix {
-            true => inner.strip_prefix('[')?.strip_suffix("],")?.split("],[").collect(),
-            false => vec![inner],
-        };
-        for list in &lists {
-            let before = self.program.outputs.len();
-            for word in list.split(',') {
-                let value = self.operand(word)?;
-                self.program.outputs.push(value);
+    /// Adds results and counts them.
+    fn outputs(&mut self, list: &'t str) -> Option<usize> {
+        for (index, word) in list.split(", ").enumerate() {
+            let value = self.operand(word)?;
+            self.program.outputs.push(value);
+            (index < self.kind.rows).then_some(())?;
+        }
+        Some(list.split(", ").count())
+    }
+
+    /// All statements; returns the line behind them.
+    fn statements(&mut self) -> Option<&'t str> {
+        let mut line = self.next()?;
+        while let Some((names, value)) = line.strip_prefix("let ").and_then(|s| s.split_once(" = "))
+        {
+            match value.strip_suffix(';') {
+                None if value == "{" && !self.is_inside => self.block(names)?,
+                value => self.statement(names, value?)?,
             }
-            if self.program.outputs.len() - before != rows {
-                return None;
+            line = self.next()?;
+        }
+        Some(line)
+    }
+
+    fn statement(&mut self, names: &'t str, value: &'t str) -> Option<()> {
+        let words: Vec<&str> = value.split(' ').collect();
+        if let &[left, operation, right] = words.as_slice()
+            && !value.contains("::")
+        {
+            let (left, right) = (self.operand(left)?, self.operand(right)?);
+            return self.name(
+                names,
+                match operation {
+                    "+" => Node::Add(left, right),
+                    "-" => Node::Sub(left, right),
+                    "*" => Node::Mul(left, right),
+                    _ => return None,
+                },
+            );
+        }
+        let (call, angles) = value.strip_suffix(')')?.split_once('(')?;
+        let suffix = if self.kind.scalar == "f32" { "f" } else { "" };
+        let call = call.strip_suffix(suffix)?;
+        // Of one angle, or the lists of all.
+        let lists = names.strip_prefix("([").and_then(|names| names.strip_suffix("])"));
+        let (sines, cosines, angles) = match (call, lists, pair(names)) {
+            ("dalembert_sines::sincos", Some(lists), _) => {
+                let (sines, cosines) = lists.split_once("], [")?;
+                (sines, cosines, angles.strip_prefix("&[")?.strip_suffix(']')?)
+            }
+            ("libm::sincos", None, Some([sin, cos])) => (sin, cos, angles),
+            ("libm::sin", None, None) => (names, "_", angles),
+            ("libm::cos", None, None) => ("_", names, angles),
+            _ => return None,
+        };
+        let [sines, cosines, angles] = [sines, cosines, angles].map(|list| list.split(", "));
+        let mut both = [sines, cosines];
+        for word in angles {
+            let angle = self.operand(word)?;
+            for (names, is_sine) in both.iter_mut().zip([true, false]) {
+                let name = names.next()?;
+                if name != "_" {
+                    self.name(name, Node::Sine(angle, is_sine, Source::Library))?;
+                }
             }
         }
-        (lists.len() == if is_matrix { rows } else { 1 }).then_some(())
+        both.iter_mut().all(|names| names.next().is_none()).then_some(())
     }
 
     fn push(&mut self, node: Node) -> Option<usize> {
         self.program.nodes.push(node);
         let count = self.program.nodes.len();
-        (count <= MOST_NODES).then(|| count - 1)
-    }
-
-    /// What follows `let `.
-    fn statement(&mut self, statement: &'t str) -> Option<()> {
-        let (names, value) = statement.split_once(" = ")?;
-        if value == "{" {
-            return self.block(names);
-        }
-        let value = value.strip_suffix(';')?;
-        let suffix = if self.kind.scalar == "f32" { "f" } else { "" };
-        if let Some(lists) = names.strip_prefix("([") {
-            let (sines, cosines) = lists.strip_suffix("])")?.split_once("], [")?;
-            let call = value.strip_prefix("dalembert_sines::sincos")?.strip_prefix(suffix)?;
-            let angles = call.strip_prefix("(&[")?.strip_suffix("])")?;
-            let [sines, cosines, angles] =
-                [sines, cosines, angles].map(|list| list.split(", ").collect::<Vec<_>>());
-            if sines.len() != angles.len() || cosines.len() != angles.len() {
-                return None;
-            }
-            for (k, word) in angles.into_iter().enumerate() {
-                let angle = self.operand(word)?;
-                for (name, is_sine) in [(sines[k], true), (cosines[k], false)] {
-                    if name != "_" {
-                        self.name(name, Node::Sine(angle, is_sine, Source::Library))?;
-                    }
-                }
-            }
-            return Some(());
-        }
-        if let Some((call, angle)) = value.split_once('(') {
-            let called = call.strip_prefix("libm::")?.strip_suffix(suffix)?;
-            let angle = self.operand(angle.strip_suffix(')')?)?;
-            return match (called, pair(names)) {
-                ("sincos", Some([sin, cos])) => {
-                    self.name(sin, Node::Sine(angle, true, Source::Library))?;
-                    self.name(cos, Node::Sine(angle, false, Source::Library))
-                }
-                ("sin" | "cos", None) => {
-                    self.name(names, Node::Sine(angle, called == "sin", Source::Library))
-                }
-                _ => None,
-            };
-        }
-        let node = self.operation(value)?;
-        self.name(names, node)
+        (count <= MOST_NODES && !(self.is_inside && matches!(node, Node::Sine(..))))
+            .then(|| count - 1)
     }
 
     /// Adds a value of a new name: a small letter, then letters and digits.
     fn name(&mut self, name: &'t str, node: Node) -> Option<()> {
-        let plain = name.starts_with(|c: char| c.is_ascii_lowercase())
+        let is_plain = name.starts_with(|c: char| c.is_ascii_lowercase())
             && name.chars().all(|c| c.is_ascii_alphanumeric())
             && !["q", "qd", "qdd"].contains(&name);
         let value = self.push(node)?;
-        (plain && self.names.insert(name, value).is_none()).then_some(())
+        (is_plain && self.names.insert(name, value).is_none()).then_some(())
     }
 
-    /// One operation on two operands.
-    fn operation(&mut self, text: &'t str) -> Option<Node> {
-        let words: Vec<&str> = text.split(' ').collect();
-        let &[left, operation, right] = words.as_slice() else {
-            return None;
-        };
-        let (left, right) = (self.operand(left)?, self.operand(right)?);
-        match operation {
-            "+" => Some(Node::Add(left, right)),
-            "-" => Some(Node::Sub(left, right)),
-            "*" => Some(Node::Mul(left, right)),
-            _ => None,
-        }
-    }
-
-    fn operand(&mut self, word: &str) -> Option<usize> {
+    fn operand(&mut self, word: &'t str) -> Option<usize> {
         if let Some(word) = word.strip_prefix('-') {
             let value = self.unsigned(word)?;
             return self.push(Node::Neg(value));
@@ -261,8 +241,9 @@ impl<'t> Parser<'t> {
         self.unsigned(word)
     }
 
-    /// A name, an entry of an argument, or a literal.
-    fn unsigned(&mut self, word: &str) -> Option<usize> {
+    /// A name, a literal, or an entry of an argument; what a block reads beside its own
+    /// is its angle, always the same.
+    fn unsigned(&mut self, word: &'t str) -> Option<usize> {
         if let Some(&value) = self.names.get(word) {
             return Some(value);
         }
@@ -271,12 +252,11 @@ impl<'t> Parser<'t> {
                 "f32" => f64::from(word.parse::<f32>().ok()?),
                 _ => word.parse::<f64>().ok()?,
             };
-            return self
-                .push(Node::Constant(value))
-                .filter(|_| value.is_finite() && word.contains(['.', 'e']));
+            (value.is_finite() && word.contains(['.', 'e'])).then_some(())?;
+            return self.push(Node::Constant(value));
         }
         if self.is_inside {
-            return None;
+            return (*self.angle.get_or_insert(word) == word).then_some(0);
         }
         let (argument, joint) = word.strip_suffix(']')?.split_once('[')?;
         let (argument, joint) = (*self.arguments.get(argument)?, joint.parse().ok()?);
@@ -288,39 +268,19 @@ impl<'t> Parser<'t> {
         let outside = std::mem::take(&mut self.names);
         let nodes = std::mem::replace(&mut self.program.nodes, vec![Node::Constant(0.0)]);
         self.is_inside = true;
-        let mut line = self.next()?;
-        while let Some(statement) = line.strip_prefix("let ") {
-            let (name, value) = statement.strip_suffix(';')?.split_once(" = ")?;
-            // What is no name of the block and no literal is the angle, always the same.
-            let own = |word: &&str| {
-                !["+", "-", "*"].contains(word)
-                    && !self.names.contains_key(word.trim_start_matches('-'))
-                    && !word.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
-            };
-            if let Some(word) = value.split(' ').find(own) {
-                if *self.angle.get_or_insert(word) != word {
-                    return None;
-                }
-                self.names.insert(word, 0);
-            }
-            let node = self.operation(value)?;
-            self.name(name, node)?;
-            line = self.next()?;
-        }
+        let line = self.statements()?;
         let results = pair(line).map_or(vec![line], Vec::from);
-        let values: Option<Vec<usize>> = results.iter().map(|word| self.operand(word)).collect();
+        let values = results.into_iter().map(|word| self.operand(word));
+        let values = values.collect::<Option<Vec<usize>>>()?;
         self.program.blocks.push(std::mem::replace(&mut self.program.nodes, nodes));
-        self.names = outside;
-        self.is_inside = false;
+        (self.names, self.is_inside) = (outside, false);
         let word = self.angle.take()?;
         let angle = self.operand(word)?;
         let names = pair(names).map_or(vec![names], Vec::from);
-        let values =
-            values.filter(|values| values.len() == names.len() && self.next() == Some("};"))?;
-        for (name, value) in names.iter().zip(values) {
-            let is_sine = name.starts_with('s');
+        (names.len() == values.len() && self.next()? == "};").then_some(())?;
+        for (name, value) in names.into_iter().zip(values) {
             let source = Source::Block(self.program.blocks.len() - 1, value);
-            self.name(name, Node::Sine(angle, is_sine, source))?;
+            self.name(name, Node::Sine(angle, name.starts_with('s'), source))?;
         }
         Some(())
     }

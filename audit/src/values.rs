@@ -4,15 +4,13 @@
 use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
-use crate::interval::{Interval, UNIT};
+use crate::interval::Interval;
 use crate::polynomial::{MAX_JOINTS, Polynomial, Variable, Work};
 use crate::ring::Ring;
 use crate::scene::Setting;
-use crate::sines;
+use crate::sines::{self, Scalar};
 use crate::text::{Node, Program, Source};
 
-/// Half an ulp of f32, relative.
-const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
 /// For sums of positive doubles that are rounded themselves.
 const SLACK: f64 = 1.000_001;
 
@@ -33,36 +31,6 @@ enum Meaning {
     /// Joints that turn, and whether their angles are subtracted.
     Angle(Vec<(usize, bool)>),
     Number(Value),
-}
-
-/// The scalar that a text computes in.
-#[derive(Clone, Copy, Debug)]
-pub struct Scalar {
-    /// What rounding to nearest costs, relative.
-    pub unit: f64,
-    /// What it costs more where results underflow.
-    pub least: f64,
-    /// Where results overflow.
-    pub most: f64,
-}
-
-impl Scalar {
-    /// f32 or f64.
-    pub fn of(name: &str) -> Scalar {
-        match name {
-            "f32" => Scalar { unit: SINGLE_UNIT, least: 1e-45, most: f64::from(f32::MAX) },
-            _ => Scalar { unit: UNIT, least: f64::from_bits(1), most: f64::MAX },
-        }
-    }
-
-    /// How far the result of an operation is off: its operands' share, and rounding.
-    pub fn rounded(self, size: f64, inherited: f64) -> f64 {
-        let error = inherited + self.unit * (size + inherited) + self.least;
-        match (size + error) * SLACK < self.most {
-            true => error * SLACK,
-            false => f64::INFINITY,
-        }
-    }
 }
 
 struct Values<'a> {

@@ -20,6 +20,8 @@ const BOX_SLACK: f64 = 1e-9;
 /// What was found of one output; all in its own unit.
 #[derive(Clone, Debug)]
 pub struct Output {
+    /// Its joint, from zero; of an entry of D its row and its column.
+    pub joints: [usize; 2],
     /// T
     pub scale: f64,
     /// Bound of what the text differs from the function in real numbers.
@@ -105,6 +107,7 @@ pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
         });
         let difference = value.exact.plus(&formula.negated());
         let output = Output {
+            joints: claim.joints(index),
             scale,
             edits: maximum::bound(
                 &difference,
@@ -179,8 +182,12 @@ fn attainable(claim: &Claim, setting: &Setting, index: usize, size: f64) -> Resu
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "`{}` in {}, errors relative to T", self.name, self.scalar)?;
-        writeln!(f, "  output           T     edits  rounding     bound         E      seen")?;
-        for (index, output) in self.outputs.iter().enumerate() {
+        writeln!(f, "  joint            T     edits  rounding     bound         E      seen")?;
+        for output in &self.outputs {
+            let label = match output.joints.map(|joint| joint + 1) {
+                [i, _] if self.name != "inertia" => i.to_string(),
+                [i, k] => format!("{i}, {k}"),
+            };
             let of = |x: f64| if x == 0.0 { 0.0 } else { x / output.scale };
             let verdict = match (output.holds(), output.is_shown()) {
                 (true, true) => "holds",
@@ -191,7 +198,7 @@ impl fmt::Display for Verdict {
             writeln!(
                 f,
                 "  {:<6} {:>11.4e} {:>9.3e} {:>9.3e} {:>9.3e} {:>9.3e} {:>9.3e}  {verdict}",
-                index + 1,
+                label,
                 output.scale,
                 of(output.edits),
                 of(output.rounding),

@@ -33,14 +33,12 @@ fn the_stanford_arms() {
 
 /// Seven joints, modified convention.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "five seconds")]
 fn the_pandas() {
     assert_eq!(held_of("panda-swing", "generated/robots/panda.toml"), 7);
 }
 
-/// Three parallel axes and sines by polynomials: several billion steps.
+/// Three parallel axes and sines by polynomials.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "ten seconds")]
 fn the_ur10s() {
     assert_eq!(held_of("ur10-swing", "generated/robots/ur10.toml"), 6);
 }
