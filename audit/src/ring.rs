@@ -9,7 +9,7 @@
 use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
-use crate::polynomial::{Key, Polynomial, Variable, Work, exponent};
+use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
 use crate::scene::Setting;
 
 /// A range of at least so much counts as all angles.
@@ -126,10 +126,10 @@ impl Ring {
     /// of their range, and half its length.
     pub fn factor(&self, key: Key) -> (f64, f64) {
         let (mut low, mut high) = (1.0f64, 1.0f64);
-        for joint in 0..self.states.len() {
+        for joint in 0..MAX_JOINTS {
             let rates = [Variable::Velocity, Variable::Acceleration];
             for (variable, ranges) in rates.into_iter().zip(&self.rates) {
-                let [a, b] = ranges[joint];
+                let [a, b] = ranges.get(joint).copied().unwrap_or_default();
                 let power = exponent(key, variable, joint) as i32;
                 let (x, y) = (a.powi(power), b.powi(power));
                 let even_about_zero = power > 0 && power % 2 == 0 && a < 0.0 && b > 0.0;
