@@ -26,40 +26,41 @@ fn main() -> ExitCode {
         eprintln!("{USAGE}");
         return ExitCode::from(2);
     };
-    match run(certificate, robot, scene, text) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(why) => {
-            eprintln!("{why}");
-            ExitCode::from(2)
-        }
-    }
+    let code = run(certificate, robot, scene, text).unwrap_or_else(|why| {
+        eprintln!("{why}");
+        2
+    });
+    println!("{}", if code == 0 { "shown" } else { "not shown" });
+    ExitCode::from(code)
 }
 
-/// Audits every claim of a file; whether all are shown.
+/// Audits every claim of a file; the exit code of the worst.
 fn run(
     certificate: &str,
     robot: &str,
     scene: Option<&str>,
     text: Option<&str>,
-) -> Result<bool, String> {
+) -> Result<u8, String> {
     let file = |path: &str| std::fs::read_to_string(path).map_err(|e| format!("{path}: {e}"));
     let (document, robot) = (file(certificate)?, file(robot)?);
     let text = text.map(file).transpose()?;
-    let claims = read(&document).map_err(|fault| fault.to_string())?;
-    let mut all = true;
-    for mut claim in claims {
-        if let Some(text) = &text
-            && !text.contains(claim.text.trim())
-        {
+    let mut code = 0;
+    for mut claim in read(&document).map_err(|fault| fault.to_string())? {
+        if text.as_ref().is_some_and(|text| !text.contains(claim.text.trim())) {
             let name = claim.function.name();
             return Err(format!("the text has not the certificate's `{name}`"));
         }
         claim.scene = scene.map(String::from).or(claim.scene);
-        let verdict = audit(&claim, &robot).map_err(|fault| fault.to_string())?;
-        print!("{verdict}");
-        all &= verdict.is_shown();
+        match audit(&claim, &robot) {
+            Ok(verdict) => {
+                print!("{verdict}");
+                code = code.max(u8::from(!verdict.is_shown()));
+            }
+            Err(fault) => {
+                eprintln!("{fault}");
+                code = 2;
+            }
+        }
     }
-    println!("{}", if all { "shown" } else { "not shown" });
-    Ok(all)
+    Ok(code)
 }

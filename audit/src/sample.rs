@@ -29,7 +29,7 @@ pub fn outputs(
         }
     }
     let loads = match claim.function {
-        Function::InverseDynamics => (true, true),
+        Function::InverseDynamics | Function::Other => (true, true),
         Function::Gravity => (true, false),
         Function::Inertia | Function::Coriolis => (false, false),
     };

@@ -100,7 +100,7 @@ pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
     for (index, (value, formula)) in texts.iter().zip(&formulas).enumerate() {
         let (scale, size) = (claim.scale[index], ring.size(formula));
         attainable(claim, &setting, index, size)?;
-        let claimed = claim.total[index].unwrap_or(f64::INFINITY) * scale;
+        let claimed = claim.total[index].unwrap_or(f64::NAN) * scale;
         let tolerance = setting.tolerance.as_ref().map(|all| {
             let [i, k] = claim.joints(index);
             all[i].min(all[k])

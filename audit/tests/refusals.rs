@@ -89,7 +89,16 @@ fn files_that_are_cut_or_garbled() {
 #[test]
 fn functions_that_are_not_audited() {
     let other = file(CLAIM).replace("\"inverse_dynamics\"", "\"kinetic_energy\"");
-    assert!(read(&other).unwrap_err().to_string().contains("unknown variant `kinetic_energy`"));
+    let fault = audit(&read(&other).unwrap()[0], &file(ROBOT)).unwrap_err();
+    assert!(fault.to_string().contains("expected inverse_dynamics, gravity"), "{fault}");
+}
+
+#[test]
+fn claims_of_nothing() {
+    let mut claim = claim(CLAIM);
+    (claim.total[0], claim.scene) = (None, None);
+    let verdict = audit(&claim, &file(ROBOT)).unwrap();
+    assert!(!verdict.outputs[0].holds() && !verdict.is_shown());
 }
 
 /// Products that grow with every line end with a fault, not with all memory.
