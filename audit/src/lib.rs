@@ -5,12 +5,12 @@
 //! takes the text, the box, T and E from the certificate, reads the robot file itself,
 //! and shows the claim with its own means, or says how far its own bound is from it:
 //!
-//! 1. `robot`, `scene`: the robot file, every number as an interval about a double
-//! 2. `text`: the text, by a small strict grammar
+//! 1. `literal`, `robot`, `scene`: the robot file, every number as an interval about a double
+//! 2. `program`, `text`: the text, by a small strict grammar
 //! 3. `dynamics`: the recursion of Newton and Euler
 //! 4. `polynomial`, `ring`, `values`, `sines`: text and recursion as polynomials in
 //!    sines, cosines and rates; all that was not edited cancels in their difference
-//! 5. `maximum`: the largest magnitude of that difference over the box
+//! 5. `levels`, `maximum`: the largest magnitude of that difference over the box
 //! 6. `values`, again: what rounding costs, by one pass over the text
 //! 7. `sample`: the text run at some states, which must not contradict the bounds
 //! 8. `verdict`: the parts in order
@@ -25,8 +25,11 @@ mod certificate;
 pub mod dynamics;
 mod fault;
 pub mod interval;
+mod levels;
+pub mod literal;
 mod maximum;
 pub mod polynomial;
+pub mod program;
 mod ring;
 pub mod robot;
 mod sample;

@@ -6,8 +6,8 @@ use crate::dynamics::{State, torques};
 use crate::fault::Fault;
 use crate::interval::{SINE_ERROR, sin_cos};
 use crate::polynomial::{Polynomial, Work};
+use crate::program::{Node, Program, Source};
 use crate::scene::Setting;
-use crate::text::{Node, Program, Source};
 
 /// The outputs of the function that is claimed, by the recursion.
 ///

@@ -8,8 +8,9 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use crate::fault::Fault;
+use crate::literal::{Angle, Literal};
 use crate::polynomial::{MAX_JOINTS, Polynomial};
-use crate::robot::{Angle, Body, Convention, File, Joint, Literal, Row};
+use crate::robot::{Body, Convention, File, Joint, Row};
 
 /// The longest robot file.
 const MOST_BYTES: usize = 1 << 18;

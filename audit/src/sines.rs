@@ -2,7 +2,7 @@
 //! of its angle.
 
 use crate::interval::{Interval, SINE_ERROR, UNIT, sin_cos};
-use crate::text::Node;
+use crate::program::Node;
 
 /// Half an ulp of f32, relative.
 const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;

@@ -6,10 +6,10 @@ use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::Interval;
 use crate::polynomial::{MAX_JOINTS, Polynomial, Variable, Work};
+use crate::program::{Node, Program, Source};
 use crate::ring::Ring;
 use crate::scene::Setting;
 use crate::sines::{self, Scalar};
-use crate::text::{Node, Program, Source};
 
 /// For sums of positive doubles that are rounded themselves.
 const SLACK: f64 = 1.000_001;
