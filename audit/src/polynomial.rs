@@ -210,6 +210,9 @@ fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(),
 
 /// Sums up terms of the same key; what all but cancelled goes into the rest.
 fn merged(terms: Vec<(Key, f64)>, mut rest: f64) -> Polynomial {
+    if terms.len() < 2 {
+        return Polynomial { terms, rest: rest * SLACK };
+    }
     let mut sums: Vec<(Key, f64)> = Vec::with_capacity(terms.len());
     let mut largest = 0.0f64;
     for (key, coefficient) in terms {
