@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use source::Crate;
 
-const CRATES: [&str; 12] = [
+const CRATES: [&str; 13] = [
     "model",
     "codegen",
     "macros",
@@ -24,6 +24,7 @@ const CRATES: [&str; 12] = [
     "report",
     "import",
     "cli",
+    "audit",
     ".",
     "sines",
     "batch",

@@ -1,0 +1,54 @@
+//! Why something is not audited.
+
+use std::fmt;
+
+/// Why there is no verdict: something could not be read, is of a kind that this
+/// checker does not know, or takes more work than it is willing to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The robot file: the key at fault, and what was expected.
+    Robot(String, String),
+    /// The certificate: what is wrong with it.
+    Certificate(String),
+    /// The text of the function: its line, from one, and what was expected there.
+    Text(usize, String),
+    /// A polynomial has a higher power of a variable than is written down.
+    Degree,
+    /// A polynomial has more than so many terms.
+    Terms(usize),
+    /// More work than is done for one certificate.
+    Work,
+}
+
+impl Fault {
+    /// A fault of the robot file.
+    pub(crate) fn robot(key: impl Into<String>, why: impl Into<String>) -> Fault {
+        Fault::Robot(key.into(), why.into())
+    }
+
+    /// A fault of the certificate.
+    pub(crate) fn certificate(why: impl Into<String>) -> Fault {
+        Fault::Certificate(why.into())
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fault::Robot(key, why) => write!(f, "robot file, `{key}`: {why}"),
+            Fault::Certificate(why) => write!(f, "certificate: {why}"),
+            Fault::Text(line, why) => write!(f, "text, line {line}: {why}"),
+            Fault::Degree => f.write_str(
+                "a power beyond those of an arm's dynamics: at most c^7, q\u{307}^3 and q\u{308}^1 are written out",
+            ),
+            Fault::Terms(most) => write!(
+                f,
+                "more than {most} terms: this arm is too general to be written out"
+            ),
+            Fault::Work => f.write_str("more work than is done for one certificate"),
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
