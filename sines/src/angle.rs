@@ -3,19 +3,11 @@
 use core::ops::{Add, Mul, Sub};
 
 use crate::number::{Floats, Number};
-use crate::vectors::Vector;
 
 /// A float that angles are in.
 pub trait Angle:
     Floats<Self> + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// What one or two angles are put into, or of f32 up to four.
-    #[doc(hidden)]
-    type Narrow: Vector<Self>;
-    /// What all others are put into.
-    #[doc(hidden)]
-    type Wide: Vector<Self>;
-
     /// Which bit is the sign.
     const SIGN: usize;
     /// Up to here, in magnitude, the polynomials are for.
@@ -84,51 +76,16 @@ pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, 
     )
 }
 
-/// Sines and cosines of any number of angles: in vectors where the processor has some
-/// and code is optimised, so that the angles are put into them where they are computed
-/// and their sines are taken out where they are needed; else by a call.
-#[inline(always)]
-pub(crate) fn all<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
-    const VECTORS: bool = cfg!(any(
-        target_feature = "sse2",
-        target_feature = "neon",
-        target_feature = "simd128"
-    ));
-    match VECTORS && !cfg!(debug_assertions) {
-        true => together(angles),
-        false => singly(angles),
-    }
-}
-
 /// One after the other, to the same bits.
 #[inline(never)]
 pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
     for ((angle, sine), cosine) in angles.iter().zip(&mut sines).zip(&mut cosines) {
         let (shifted, sin, cos) = rest::<T, T>(*angle);
-        (*sine, *cosine) = match angle.are_usual() {
+        (*sine, *cosine) = match angle.are_within(T::LARGEST) {
             true => turned(shifted, sin, cos),
             false => angle.library(),
         };
-    }
-    (sines, cosines)
-}
-
-/// As many at a time as a vector holds, the last few in a narrow one if that has room.
-#[inline(always)]
-pub(crate) fn together<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
-    let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
-    let mut usual = true;
-    let mut start = 0;
-    while start + T::Narrow::LANES < N {
-        usual &= T::Wide::sincos(angles, &mut sines, &mut cosines, start);
-        start += T::Wide::LANES;
-    }
-    if start < N {
-        usual &= T::Narrow::sincos(angles, &mut sines, &mut cosines, start);
-    }
-    if !usual {
-        unusual(angles, &mut sines, &mut cosines);
     }
     (sines, cosines)
 }
@@ -149,7 +106,7 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
             let x = angles[angle][lane];
             let (shifted, sin, cos) = rest::<T, T>(x);
             (sines[angle][lane], cosines[angle][lane]) = turned(shifted, sin, cos);
-            usual &= x.are_usual();
+            usual &= x.are_within(T::LARGEST);
             lane += 1;
         }
         angle += 1;
@@ -165,9 +122,9 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
 /// The angles that the polynomials are not for.
 #[cold]
 #[inline(never)]
-fn unusual<T: Angle>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
+pub fn unusual<T: Angle>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
     for ((angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
-        if !angle.are_usual() {
+        if !angle.are_within(T::LARGEST) {
             (*sin, *cos) = angle.library();
         }
     }

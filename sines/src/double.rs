@@ -7,7 +7,6 @@
 
 use crate::angle::Angle;
 use crate::number::Number;
-use crate::vectors::{FourDoubles, TwoDoubles};
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f64; 6] = [
@@ -37,9 +36,6 @@ fn polynomial<V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {
 }
 
 impl Angle for f64 {
-    type Narrow = TwoDoubles;
-    type Wide = FourDoubles;
-
     const SIGN: usize = 63;
     const LARGEST: f64 = crate::LARGEST;
     const INVERSE: f64 = core::f64::consts::FRAC_2_PI;

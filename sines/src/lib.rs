@@ -141,7 +141,7 @@ pub const LARGEST_F32: f32 = 100.0;
 #[inline(always)]
 #[must_use]
 pub fn sincos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
-    angle::all(angles)
+    vectors::all(angles)
 }
 
 /// [`sincos`] in f32.
@@ -153,7 +153,7 @@ pub fn sincos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
 #[inline(always)]
 #[must_use]
 pub fn sincosf<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
-    angle::all(angles)
+    vectors::all(angles)
 }
 
 /// [`sincos`] in lanes: `angles[i][l]` is angle i of lane l, and so is what

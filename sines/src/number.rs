@@ -3,8 +3,6 @@
 use core::num::Wrapping;
 use core::ops::{Add, BitAnd, BitXor, Mul, Sub};
 
-use crate::angle::Angle;
-
 /// A float, or one for each lane; the other operand may be one for all.
 pub trait Number<T>:
     Copy
@@ -20,7 +18,7 @@ pub trait Number<T>:
 }
 
 /// Floats of known bits: one, or a vector of them.
-pub trait Floats<T: Angle>: Number<T> {
+pub trait Floats<T>: Number<T> {
     /// Their bits, as integers that wrap.
     type Bits: Copy
         + BitXor<Output = Self::Bits>
@@ -34,8 +32,8 @@ pub trait Floats<T: Angle>: Number<T> {
     /// the sign's.
     fn power(exponent: usize) -> Self::Bits;
     fn shifted(bits: Self::Bits, by: usize) -> Self::Bits;
-    /// Whether the polynomials are for each of these angles.
-    fn are_usual(self) -> bool;
+    /// Whether each of them is no larger, and a number.
+    fn are_within(self, largest: T) -> bool;
 }
 
 macro_rules! scalar {
@@ -71,8 +69,8 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
-            fn are_usual(self) -> bool {
-                self.abs() <= $float::LARGEST
+            fn are_within(self, largest: $float) -> bool {
+                self.abs() <= largest
             }
         }
     };

@@ -7,7 +7,6 @@
 
 use crate::angle::Angle;
 use crate::number::Number;
-use crate::vectors::{EightFloats, FourFloats};
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f32; 3] = [0.16666655, -0.008332189, 0.00019518287];
@@ -21,9 +20,6 @@ fn polynomial<V: Number<f32>>(c: [f32; 3], z: V) -> V {
 }
 
 impl Angle for f32 {
-    type Narrow = FourFloats;
-    type Wide = EightFloats;
-
     const SIGN: usize = 31;
     const LARGEST: f32 = crate::LARGEST_F32;
     const INVERSE: f32 = core::f32::consts::FRAC_2_PI;

@@ -7,7 +7,8 @@ extern crate std;
 use dalembert_model::number::{Angle as Turn, Rational, Rounded};
 use std::vec::Vec;
 
-use crate::angle::{Angle, across, singly, together};
+use crate::angle::{Angle, across, singly};
+use crate::vectors::together;
 use crate::{double, single};
 
 fn exact(x: f64) -> Rational {

@@ -9,8 +9,61 @@ use core::ops::{Add, Mul, Sub};
 use wide::bytemuck::cast;
 use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8, u64x2, u64x4};
 
-use crate::angle::{Angle, rest, turned};
+use crate::angle::{Angle, rest, singly, turned, unusual};
 use crate::number::{Floats, Number};
+
+/// A scalar whose angles are put into vectors.
+pub trait Vectored: Angle {
+    /// For one or two angles, or of f32 up to four.
+    type Narrow: Vector<Self>;
+    /// For all others.
+    type Wide: Vector<Self>;
+}
+
+impl Vectored for f64 {
+    type Narrow = TwoDoubles;
+    type Wide = FourDoubles;
+}
+
+impl Vectored for f32 {
+    type Narrow = FourFloats;
+    type Wide = EightFloats;
+}
+
+/// Sines and cosines of any number of angles: in vectors where the processor has some
+/// and code is optimised, so that the angles are put into them where they are computed
+/// and their sines are taken out where they are needed; else by a call.
+#[inline(always)]
+pub(crate) fn all<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+    const VECTORS: bool = cfg!(any(
+        target_feature = "sse2",
+        target_feature = "neon",
+        target_feature = "simd128"
+    ));
+    match VECTORS && !cfg!(debug_assertions) {
+        true => together(angles),
+        false => singly(angles),
+    }
+}
+
+/// As many at a time as a vector holds, the last few in a narrow one if that has room.
+#[inline(always)]
+pub(crate) fn together<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+    let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
+    let mut usual = true;
+    let mut start = 0;
+    while start + T::Narrow::LANES < N {
+        usual &= T::Wide::sincos(angles, &mut sines, &mut cosines, start);
+        start += T::Wide::LANES;
+    }
+    if start < N {
+        usual &= T::Narrow::sincos(angles, &mut sines, &mut cosines, start);
+    }
+    if !usual {
+        unusual(angles, &mut sines, &mut cosines);
+    }
+    (sines, cosines)
+}
 
 /// Angles side by side.
 pub trait Vector<T: Angle>: Floats<T> {
@@ -88,10 +141,10 @@ macro_rules! vector {
             }
 
             #[inline(always)]
-            fn are_usual(self) -> bool {
+            fn are_within(self, largest: $float) -> bool {
                 // Not `all`, which branches where a vector is two of the processor's.
-                let usual = self.0.abs().simd_le($wide::splat($float::LARGEST));
-                usual.to_bitmask() == (1 << $lanes) - 1
+                let within = self.0.abs().simd_le($wide::splat(largest));
+                within.to_bitmask() == (1 << $lanes) - 1
             }
         }
 
@@ -124,7 +177,7 @@ macro_rules! vector {
                     cosines[start + lane] = cos[lane];
                     lane += 1;
                 }
-                angle.are_usual()
+                angle.are_within($float::LARGEST)
             }
         }
     };
