@@ -115,8 +115,8 @@ fn variants() {
             }
         });
         rounds.time("inverse_dynamics f32", || {
-            for k in 0..CALLS {
-                let [q, qd, qdd] = [0, 1, 2].map(|i| &single[i][k]);
+            let [q, qd, qdd] = &single;
+            for ((q, qd), qdd) in q.iter().zip(qd).zip(qdd) {
                 black_box(puma560_f32::inverse_dynamics(black_box(q), qd, qdd));
             }
         });
