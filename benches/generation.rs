@@ -1,6 +1,5 @@
 //! What generation and the check of certificates take: by a quick search without a
-//! plan, by a plan, and by `certify` with a run of the text. Read the ratios, the times
-//! are this machine's.
+//! plan, by a plan, and by `certify`. Read the ratios, the times are this machine's.
 //!
 //! `cargo bench --bench generation`
 
@@ -21,9 +20,6 @@ use rounds::Rounds;
 
 /// Rounds in which each variant runs once.
 const ROUNDS: usize = 7;
-
-/// States at which `certify` runs a text.
-const STATES: usize = 1000;
 
 fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -75,7 +71,6 @@ fn certificates() {
             rounds.time(name, || {
                 for certificate in &certificates {
                     black_box(certificate.check(&scene_robot).expect("it holds"));
-                    black_box(certificate.run(&scene_robot, STATES).expect("it holds"));
                 }
             });
         }
