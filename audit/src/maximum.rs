@@ -17,7 +17,7 @@
 
 use std::f64::consts::PI;
 
-use crate::interval::UNIT;
+use crate::interval::{UNIT, sin_cos};
 use crate::levels::{Level, Search};
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
@@ -108,7 +108,7 @@ impl Search {
             // One part in 10¹² for the roundings of all this.
             let turn = degree * half * (1.0 + 1e-12);
             let below = match range {
-                None => most * turn.cos(),
+                None => most * sin_cos(turn).1,
                 Some(_) => most - 0.5 * turn * turn * norm,
             };
             self.fix(level, middle);
@@ -134,7 +134,7 @@ impl Search {
         let mut best = 0.0f64;
         for start in 0..12 {
             let mut at: Vec<f64> =
-                (0..count).map(|k| ((start * 7 + k * 3) as f64).sin() * PI).collect();
+                (0..count).map(|k| sin_cos((start * 7 + k * 3) as f64).0 * PI).collect();
             let mut own = 0.0f64;
             let mut step = 1.0;
             while step > 1e-3 {
