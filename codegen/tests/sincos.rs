@@ -14,6 +14,7 @@ use dalembert_codegen::workspace::sincos::{AngleKernel, SinCos, need};
 use dalembert_codegen::workspace::split::Split;
 use dalembert_codegen::workspace::states::seeded;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_model::read;
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -242,6 +243,33 @@ fn an_error_that_no_polynomial_reaches_is_refused() {
         why.contains("f32") && why.contains("q1") && why.contains("at best"),
         "{why}"
     );
+}
+
+/// A point at the end of a stretched arm can hardly be accelerated along it by turning:
+/// D is next to singular there, and errors of its cosine may make it indefinite.
+#[test]
+fn sines_too_rough_for_the_inertia_matrix_are_refused() {
+    let joint = |mass: &str| {
+        format!(
+            "[[joint]]\nkind = \"revolute\"\na = 1\nmass = {mass}\ncom = [0, 0, 0]\n\
+             inertia = [0, 0, 0, 0, 0, 0]\n"
+        )
+    };
+    let text = "name = \"points\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n".to_owned()
+        + &joint("0.03")
+        + &joint("1");
+    let robot = read::parse(&text, &read::Options::default()).unwrap().robot;
+    let inertia = |error: f64| {
+        let request = Request {
+            functions: vec![Function::Inertia],
+            sincos: SinCos::Polynomial { error: Some(error) },
+            ..Request::default()
+        };
+        generate(&robot, &request)
+    };
+    assert!(inertia(1e-5).is_ok());
+    let why = inertia(3e-2).unwrap_err().to_string();
+    assert!(why.contains("positive definite"), "{why}");
 }
 
 /// What no sine is taken of comes out as it was: no NaN is swallowed.

@@ -116,8 +116,13 @@ pub(crate) fn is_at_least(
 
 /// Whether D can be shown to be positive definite, by whatever little: what a search
 /// asks of one variant after the other.
-pub(crate) fn is_definite(program: &Program, scalar: ScalarType, limits: &InputBox) -> bool {
-    shown(program, scalar, &[], limits, Wanted::Any).is_ok()
+pub(crate) fn is_definite(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+) -> bool {
+    shown(program, scalar, sines, limits, Wanted::Any).is_ok()
 }
 
 fn shown(

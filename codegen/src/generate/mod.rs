@@ -29,12 +29,14 @@ use dalembert_model::robot::Robot;
 
 pub use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::backend::entries::angles::Angles;
+use crate::bound::definite::is_definite;
+use crate::bound::input_box::InputBox;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::{Columns, Function};
 use crate::parallel;
-use crate::program::{Lowered, ScalarType};
+use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
@@ -308,13 +310,34 @@ fn sines(
         return Ok(Vec::new());
     }
     let error = error.unwrap_or(SinCos::ERROR);
-    let fail = |why| GenerateError::SinCos(generated.function, NoSines::TooAccurate(Box::new(why)));
+    let fail = |why| GenerateError::SinCos(generated.function, why);
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(scene_robot.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        Ok((scalar, sines.map_err(fail)?))
+        let sines = sines.map_err(|why| fail(NoSines::TooAccurate(Box::new(why))))?;
+        if spoil_inertia(scene_robot, &generated.program, scalar, &sines) {
+            return Err(fail(NoSines::Indefinite { error }));
+        }
+        Ok((scalar, sines))
     });
     all.collect()
+}
+
+/// Whether D, if it is an output, can be shown to be positive definite at all positions
+/// with exact sines, and with these no more.
+fn spoil_inertia(
+    scene_robot: &SceneRobot,
+    program: &Program,
+    scalar: ScalarType,
+    sines: &Sines,
+) -> bool {
+    // Of a joint that slides without an end, no box has all positions.
+    let Ok(limits) = InputBox::within(scene_robot, Function::Inertia) else {
+        return false;
+    };
+    has_inertia(program)
+        && !is_definite(program, scalar, sines, &limits)
+        && is_definite(program, scalar, &[], &limits)
 }
 
 fn read_back(

@@ -45,6 +45,11 @@ pub enum NoSines {
     Decided,
     /// None is within the scene's tolerance.
     Tolerance(Box<NoPolynomials>),
+    /// With errors of so much, D may not be positive definite any more.
+    Indefinite {
+        /// The largest error of each sine and cosine.
+        error: f64,
+    },
 }
 
 impl fmt::Display for NoSines {
@@ -57,6 +62,11 @@ impl fmt::Display for NoSines {
             NoSines::Tolerance(why) => write!(
                 f,
                 "no polynomials for its sines within the tolerance: {why}"
+            ),
+            NoSines::Indefinite { error } => write!(
+                f,
+                "with sines that err by up to {error:e}, D cannot be shown to be positive definite \
+                 any more: give a smaller error for them"
             ),
         }
     }

@@ -308,7 +308,7 @@ impl Search<'_> {
 
     /// Whether D, if it is an output, is positive definite.
     fn is_definite(&self, program: &Program) -> bool {
-        !has_inertia(program) || is_definite(program, ScalarType::F64, self.limits)
+        !has_inertia(program) || is_definite(program, ScalarType::F64, &[], self.limits)
     }
 
     /// Positions where the error is large join the samples.
