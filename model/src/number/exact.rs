@@ -15,7 +15,7 @@ use core::hash::{Hash, Hasher};
 
 use num_traits::{One, Signed, Zero};
 
-use super::small::{product, sum};
+use super::small::{compare, product, sum};
 use super::{Angle, Rational};
 use crate::scalar::Scalar;
 use crate::scalar::SinCosPair;
@@ -25,10 +25,27 @@ use crate::scalar::SinCosPair;
 pub struct Exact(Form);
 
 /// Canonical: `Polynomial` only where a generator occurs, no zero coefficient.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Form {
     Rational(Arc<Rational>),
     Polynomial(Arc<BTreeMap<Monomial, Rational>>),
+}
+
+impl Ord for Form {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Form::Rational(a), Form::Rational(b)) => compare(a, b),
+            (Form::Polynomial(a), Form::Polynomial(b)) => a.cmp(b),
+            (Form::Rational(_), Form::Polynomial(_)) => Ordering::Less,
+            (Form::Polynomial(_), Form::Rational(_)) => Ordering::Greater,
+        }
+    }
+}
+
+impl PartialOrd for Form {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 /// Of a rational its reduced numerator and denominator: its own hash goes through the

@@ -5,6 +5,7 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::Monomial;
+use super::small::nearest_double;
 use super::trig::{SLACK, sin_cos};
 use super::{Exact, Rational};
 use alloc::collections::BTreeMap;
@@ -30,6 +31,11 @@ pub trait Rounded: Copy + PartialEq {
     }
     /// The nearest value of a rational; an infinity beyond the range.
     fn nearest_rational(value: &Rational) -> Self {
+        if Self::DIGITS == i64::from(f64::MANTISSA_DIGITS)
+            && let Some(value) = nearest_double(value)
+        {
+            return Self::from_exact_f64(value);
+        }
         let magnitude = round_magnitude(value, Self::DIGITS, Self::LEAST, Self::MAX);
         Self::from_exact_f64(if value.is_negative() {
             -magnitude
@@ -58,7 +64,7 @@ impl Rounded for f32 {
 }
 
 /// |value| rounded to a format, as a double that holds it exactly.
-fn round_magnitude(value: &Rational, digits: i64, least: i64, most: i64) -> f64 {
+pub(super) fn round_magnitude(value: &Rational, digits: i64, least: i64, most: i64) -> f64 {
     if value.is_zero() {
         return 0.0;
     }

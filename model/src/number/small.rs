@@ -1,5 +1,7 @@
-//! Sums and products of rationals. The numbers of a robot file have a few digits, and
+//! Sums, products, order and doubles of rationals. The numbers of a robot file have a few digits, and
 //! most that come of them are as small: then words do what big integers would.
+
+use core::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -40,6 +42,22 @@ pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
     )
 }
 
+/// a against b
+pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {
+    match (words(a), words(b)) {
+        // Denominators are above zero.
+        (Some((p, q)), Some((r, s))) => (p * s).cmp(&(r * q)),
+        _ => a.cmp(b),
+    }
+}
+
+/// The nearest double, if numerator and denominator are doubles: their quotient.
+pub(super) fn nearest_double(a: &Rational) -> Option<f64> {
+    const EXACT: i128 = 1 << f64::MANTISSA_DIGITS;
+    let (p, q) = words(a)?;
+    (p.abs() <= EXACT && q <= EXACT).then(|| p as f64 / q as f64)
+}
+
 /// Numerator and denominator, if both are below 2⁶³ in magnitude.
 fn words(x: &Rational) -> Option<(i128, i128)> {
     let word = |part: &BigInt| {
@@ -59,6 +77,7 @@ fn common(a: i128, b: i128) -> i128 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::round::round_magnitude;
     use super::*;
     use alloc::vec::Vec;
 
@@ -94,6 +113,12 @@ mod tests {
             for (found, expected) in [(product(&a, &b), &a * &b), (sum(&a, &b), &a + &b)] {
                 assert_eq!(found.numer(), expected.numer(), "{a} {b}");
                 assert_eq!(found.denom(), expected.denom(), "{a} {b}");
+            }
+            assert_eq!(compare(&a, &b), a.cmp(&b), "{a} {b}");
+            if let Some(double) = nearest_double(&a) {
+                let digits = round_magnitude(&a, 53, -1074, 1024);
+                assert_eq!(double.abs().to_bits(), digits.to_bits(), "{a}");
+                assert_eq!(double < 0.0, a < Rational::zero());
             }
         }
     }
