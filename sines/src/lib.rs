@@ -110,7 +110,26 @@ mod number;
 mod single;
 #[cfg(test)]
 mod tests;
+#[cfg(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    target_arch = "wasm32"
+))]
 mod vectors;
+
+/// Without vectors, one angle after the other.
+#[cfg(not(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    target_arch = "wasm32"
+)))]
+mod vectors {
+    pub(crate) use crate::angle::singly as all;
+    #[cfg(test)]
+    pub(crate) use crate::angle::singly as together;
+}
 
 /// The computation as it stands, generic over numbers: what the generator's proof of
 /// its error reads.
