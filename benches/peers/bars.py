@@ -34,7 +34,8 @@ def bars(rows, libraries):
                 f'<rect x="{LABEL}" y="{y}" width="{length:.1f}" height="{ROW - 4}"'
                 f' fill="{COLOURS.get(library, "#888")}"/>'
             )
-            note = "" if library == "dalembert" else f", {row['ratio'][library]:.1f} × ours"
+            is_ours = library in ("dalembert", "each rounded")
+            note = "" if is_ours else f", {row['ratio'][library]:.1f} × ours"
             parts.append(
                 f'<text x="{LABEL + length + 6:.1f}" y="{y + ROW - 7}">{library} {time:.0f} ns{note}</text>'
             )
