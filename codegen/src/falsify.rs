@@ -60,18 +60,25 @@ pub fn falsify(
         if state.q.is_empty() {
             continue;
         }
+        let mut tops: Vec<(JointState, f64)> = Vec::new();
         for round in 0..climbs {
-            let from = if round == 0 {
-                state.clone()
-            } else {
-                draw(limits, &mut random)
+            let from = match round {
+                0 => state.clone(),
+                _ => draw(limits, &mut random),
             };
             let mut climbing = random.clone();
-            climb(limits, from, MOVES, &mut climbing, &mut |state| {
+            let (edited, _) = climb(limits, from, MOVES, &mut climbing, &mut |state| {
                 let errors = falsifier.errors(std::slice::from_ref(state));
                 errors[output][0]
             });
+            tops.push(climb(limits, edited, MOVES, &mut climbing, &mut |state| {
+                falsifier.emitted.rounded(output, state)
+            }));
             random.bits();
+        }
+        tops.sort_by(|a, b| b.1.total_cmp(&a.1));
+        for (top, _) in tops.into_iter().take(TOPS) {
+            falsifier.in_last_bits(output, top, &mut random);
         }
     }
     Ok(falsifier.falsification)
@@ -82,6 +89,14 @@ const BLOCK: usize = 128;
 
 /// Moves of a climb.
 const MOVES: usize = 600;
+
+/// Of the climbs, those where rounding may cost most go on in the last bits.
+const TOPS: usize = 6;
+
+/// Moves in the last bits, and how far they go.
+const LAST_MOVES: usize = 1024;
+const NEIGHBOURS: usize = 16;
+const LAST: [f64; 4] = [1e-3, 1e-4, 1e-5, 3e-6];
 
 /// Both texts, and what was seen of them.
 struct Falsifier<'c> {
@@ -109,6 +124,23 @@ impl<'c> Falsifier<'c> {
                 states: 0,
             },
         })
+    }
+
+    /// Climbs by steps so small that what roundings have in common is all that changes.
+    fn in_last_bits(&mut self, output: usize, from: JointState, random: &mut Random) {
+        let limits = &self.certificate.limits;
+        let (mut best, mut most) = (from, 0.0);
+        for step in 0..LAST_MOVES {
+            let reach = LAST[step % LAST.len()];
+            let each = (0..NEIGHBOURS).map(|k| nudged(limits, &best, reach, 1 + k % 3, random));
+            let states: Vec<JointState> = each.collect();
+            let errors = self.errors(&states);
+            for (error, state) in errors[output].iter().zip(states) {
+                if *error > most {
+                    (best, most) = (state, *error);
+                }
+            }
+        }
     }
 
     /// The errors relative to T, a column an output; the largest are noted.
@@ -147,6 +179,26 @@ impl<'c> Falsifier<'c> {
         }
         all
     }
+}
+
+/// So many coordinates moved, by no more than a part of their ranges.
+fn nudged(
+    limits: &InputBox,
+    state: &JointState,
+    reach: f64,
+    coordinates: usize,
+    random: &mut Random,
+) -> JointState {
+    let mut next = state.clone();
+    let n = state.q.len();
+    for _ in 0..coordinates {
+        let coordinate = random.below(3 * n);
+        let (kind, joint) = (coordinate / n, coordinate % n);
+        let range = [&limits.position, &limits.velocity, &limits.acceleration][kind][joint];
+        let x = &mut [&mut next.q, &mut next.qd, &mut next.qdd][kind][joint];
+        *x = (*x + reach * range.width() * (random.unit() - 0.5)).clamp(range.low(), range.high());
+    }
+    next
 }
 
 /// The nearest state of the scalar's numbers inside the box.

@@ -97,7 +97,10 @@ fn certificates_name_the_library() {
     alone.check(&scene_robot).unwrap();
     // Of libm's sines an ulp is assumed, of the others less is proved.
     for (alone, together) in alone.bounds.iter().zip(&certificate.bounds) {
-        assert!(alone.sincos > together.sincos && alone.rounding == together.rounding);
+        assert!(alone.sincos > together.sincos);
+        // Of the operations only the second order depends on the sines.
+        let off = (alone.rounding - together.rounding).abs();
+        assert!(off <= 1e-12 * together.rounding, "{off}");
     }
     let mixed = dalembert_codegen::workspace::certificate::Certificate {
         text: alone.text.clone(),

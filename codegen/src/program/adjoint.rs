@@ -5,7 +5,9 @@ use dalembert_model::scalar::Divide;
 
 use super::columns::Column;
 use super::machine::Machine;
-use super::{Operand, Operation, Step};
+use super::run::State;
+use super::{Literal, Lowered, Operand, Operation, Step};
+use crate::states::JointState;
 
 /// Where a step reads what no step computes.
 #[derive(Debug)]
@@ -135,6 +137,38 @@ pub(crate) fn backward<'p, C, I, S: Divide>(
                 ),
             }
         }
+    }
+}
+
+impl Lowered {
+    /// What rounding may cost an output at a state, in units of u and to first order: the
+    /// sum of |value·adjoint| of all operations.
+    pub(crate) fn rounded(&self, output: usize, state: &JointState) -> f64 {
+        let Operand::Step(top) = self.outputs[output].value else {
+            return 0.0;
+        };
+        let input = self.inputs(State::<f64>::of(|argument| state.of(argument)));
+        let mut values: Vec<f64> = Vec::with_capacity(self.steps.len());
+        let read = |operand: &Operand<Literal>, values: &[f64]| match operand {
+            Operand::Input(name) => input(name).unwrap_or(0.0),
+            Operand::Constant(value) => value.0,
+            Operand::Step(index) => values[*index],
+        };
+        for step in &self.steps {
+            let (left, right) = (read(&step.left, &values), read(&step.right, &values));
+            values.push(step.operation.apply(&left, &right));
+        }
+        let operands = |index: usize| {
+            let step = &self.steps[index];
+            [read(&step.left, &values), read(&step.right, &values)]
+        };
+        let mut sum = 0.0;
+        let visit = |index: usize, adjoint: &f64| {
+            sum += (values[index] * adjoint).abs();
+            *adjoint != 0.0
+        };
+        backward(&self.steps, top, operands, visit, |_, _| {});
+        sum
     }
 }
 

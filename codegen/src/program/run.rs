@@ -32,6 +32,16 @@ impl Lowered {
     /// The results at a state, in the order of the function's quantities; none
     /// if the state has no value that is read.
     pub fn run<T: Machine>(&self, state: State<'_, T>) -> Vec<T> {
+        let read = self.inputs(state);
+        let constant = |value: &Literal| Some(T::literal(value.0));
+        evaluate(&self.steps, &self.outputs, read, constant).unwrap_or_default()
+    }
+
+    /// What steps read of a state, if it has a value for it.
+    pub(super) fn inputs<'s, T: Machine>(
+        &self,
+        state: State<'s, T>,
+    ) -> impl Fn(&Input) -> Option<T> + use<'s, T> {
         let mut trig = std::collections::BTreeMap::new();
         for t in &self.trig {
             let (sin, cos) = t.pair(self.library, state.argument(Argument::Position));
@@ -44,12 +54,10 @@ impl Lowered {
                 trig.insert(Input::PerSpeed(speed.joint), value);
             }
         }
-        let input = |input: &Input| match *input {
+        move |input: &Input| match *input {
             Input::Entry(argument, joint) => state.argument(argument).get(joint).copied(),
             Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => trig.get(input).copied(),
-        };
-        let constant = |value: &Literal| Some(T::literal(value.0));
-        evaluate(&self.steps, &self.outputs, input, constant).unwrap_or_default()
+        }
     }
 
     /// The results at a state rounded to the code's own scalar, as doubles

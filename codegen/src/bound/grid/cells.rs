@@ -9,7 +9,7 @@ use crate::bound::work;
 use crate::interval::Interval;
 
 /// Terms that are put together in about the time of a point.
-pub(super) const TERMS: usize = 64;
+const TERMS: usize = 64;
 
 /// A bound where so many angles are put in, from the values there.
 pub(super) type Crude<'a> = dyn Fn(usize, &[f64]) -> f64 + 'a;
@@ -25,13 +25,8 @@ pub(super) struct Cells<'a> {
     /// What the maximum over the joints from a level on is at most, no angle
     /// looked at.
     pub crude: Option<&'a Crude<'a>>,
-    /// Joints whose angles are looked at, the first ones: for the others what is
-    /// without them has to do.
-    pub depth: usize,
-    /// Of each joint: the degree of what is bounded.
-    pub degrees: Vec<u32>,
-    /// d·δ of the first cells is π over this.
-    pub first: usize,
+    /// Whether what is bounded is nowhere negative.
+    pub is_positive: bool,
     /// F, if the box is a part of the circles.
     whole: Option<f64>,
     ranges: Vec<Interval>,
@@ -63,9 +58,7 @@ impl<'a> Cells<'a> {
             buffers,
             accept,
             crude: None,
-            depth: layout.joints.len(),
-            degrees: layout.degrees.clone(),
-            first: FIRST,
+            is_positive: false,
             whole,
             ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
             points: 0,
@@ -109,7 +102,7 @@ impl<'a> Cells<'a> {
     /// Whether the maximum over the joints from `level` on is at most a bound:
     /// `true` is a proof.
     pub(super) fn below(&mut self, level: usize, bound: f64) -> bool {
-        if level == self.depth {
+        if level == self.layout.joints.len() {
             return (self.accept)(self.values(level), bound);
         }
         if let Some(crude) = self.crude
@@ -120,7 +113,7 @@ impl<'a> Cells<'a> {
         if bound <= 0.0 || self.points == 0 {
             return false;
         }
-        let degree = f64::from(self.degrees[level]);
+        let degree = f64::from(self.layout.degrees[level]);
         let part = self.part(level);
         let (from, width) = match part {
             Some((range, _)) => {
@@ -136,7 +129,7 @@ impl<'a> Cells<'a> {
             None => (0.0, 2.0 * PI),
         };
         let rounded = 4.0 * f64::EPSILON * (from.abs() + width);
-        let count = self.first * self.degrees[level] as usize;
+        let count = FIRST * self.layout.degrees[level] as usize;
         let mut first = (0..count).map(|k| Cell {
             middle: from + width * (k as f64 + 0.5) / count as f64,
             half: 0.5 * width / count as f64,
@@ -161,6 +154,10 @@ impl<'a> Cells<'a> {
             let enough = match part {
                 Some((_, whole)) => {
                     (bound - 0.5 * reach * reach * whole * (1.0 + 1e-12)).next_down()
+                }
+                None if self.is_positive => {
+                    let cos = libm::cos(0.5 * reach);
+                    (bound * (cos * cos - 1e-15)).next_down()
                 }
                 None => (bound * (libm::cos(reach) - 1e-15)).next_down(),
             };

@@ -19,8 +19,6 @@ pub(super) struct Group {
     pub end: u32,
     /// How large its rates are.
     pub size: f64,
-    /// The key of its first value.
-    pub key: Key,
 }
 
 /// Trigonometric polynomials in multiples of their angles, angle after angle.
@@ -58,18 +56,6 @@ impl Layout {
         range: &dyn Fn(Key) -> Interval,
         least: f64,
     ) -> Layout {
-        Layout::ordered(polynomial, limits, sliding, range, least, &[])
-    }
-
-    /// The same, some joints first.
-    pub(super) fn ordered(
-        polynomial: &[(Key, Interval)],
-        limits: &InputBox,
-        sliding: &[bool],
-        range: &dyn Fn(Key) -> Interval,
-        least: f64,
-        first: &[usize],
-    ) -> Layout {
         let n = limits.joints();
         let phases = phases(n);
         // Values that differ by sine and cosine alone stand together.
@@ -99,10 +85,7 @@ impl Layout {
             }
         }
         let mut joints: Vec<usize> = (0..n).filter(|&j| degree[j] > 0).collect();
-        joints.sort_by_key(|&joint| {
-            let place = first.iter().position(|&early| early == joint);
-            (place.unwrap_or(first.len()), degree[joint])
-        });
+        joints.sort_by_key(|&joint| degree[joint]);
         let degrees: Vec<u32> = joints.iter().map(|&j| degree[j]).collect();
         let part = joints
             .iter()
@@ -124,7 +107,6 @@ impl Layout {
                         Group {
                             end,
                             size: range(group[0]).magnitude(),
-                            key: group[0],
                         }
                     })
                     .collect(),

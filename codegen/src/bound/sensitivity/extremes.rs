@@ -62,11 +62,25 @@ impl Extremes {
             starts: STARTS,
         };
         let mut most = vec![Some(0.0); graph.nodes.len()];
-        let mut written = Written::new(graph.nodes.len(), limits, together);
+        let mut is_value = vec![false; graph.nodes.len()];
+        for edge in &gradient.values {
+            is_value[edge.node().index()] = true;
+        }
+        let mut written = Written::new(program, graph.nodes.len(), limits, &sliding, together);
         visit(graph, limits, &mut |node, polynomial| {
             let harmonics = grid::harmonics(polynomial, limits.joints());
             most[node] = harmonics.map(|harmonics| {
                 written.keep(node, &harmonics);
+                // Where sums are bounded together, adjoints count by themselves in the
+                // second order alone.
+                let points = match is_value[node] || !written.is_wanted() {
+                    true => closeness.points,
+                    false => 0,
+                };
+                let closeness = GridEffort {
+                    points,
+                    ..closeness
+                };
                 grid::magnitude(harmonics, limits, &sliding, Aim::Least(0.0), closeness)
             });
         })?;
@@ -83,7 +97,7 @@ impl Extremes {
                 sines: sines.map(|(input, edge)| (*input, of(edge))).collect(),
             }
         });
-        let together = written.together(program, &gradient, &most, &sliding);
+        let together = written.together(program, &gradient, &most);
         Some(Extremes {
             together,
             values: gradient.values.iter().map(of).collect(),

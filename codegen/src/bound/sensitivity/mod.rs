@@ -61,7 +61,7 @@ impl BoundEffort {
         budget: BoxEffort::CERTIFY,
         boxes: 512,
         points: 1 << 14,
-        together: 1 << 19,
+        together: 1 << 22,
     };
     /// For who waits, as a compiler does.
     pub const QUICK: BoundEffort = BoundEffort {

@@ -11,12 +11,10 @@
 //! It does not depend on the scalar: a literal counts with the larger of what
 //! it is off in either.
 
-use std::f64::consts::PI;
-
 use super::gradient::{Adjoints, Gradient};
 use super::intervals::{Constants, is_exact, read};
 use crate::bound::expand::Polynomial;
-use crate::bound::grid::{GridEffort, Largest, Product, Products};
+use crate::bound::grid::{GridEffort, Largest, Product, Squares};
 use crate::bound::input_box::InputBox;
 use crate::graph::Edge;
 use crate::interval::Interval;
@@ -24,7 +22,7 @@ use crate::interval::rounding::binade;
 use crate::program::{Input, Operand, Operation, Program, ScalarType};
 
 /// How close a bound is to come to a sum that is taken.
-const CLOSE: f64 = 0.06;
+const CLOSE: f64 = 0.04;
 
 /// Places to climb from.
 const STARTS: usize = 6;
@@ -58,26 +56,53 @@ pub(super) struct Together {
 
 /// Values and adjoints written out, by the graph's nodes.
 pub(super) struct Written<'a> {
-    polynomials: Vec<Polynomial>,
     limits: &'a InputBox,
-    points: usize,
-    is_wanted: bool,
+    closeness: GridEffort,
+    /// `None` where nothing is to be found.
+    squares: Option<Squares>,
 }
 
 impl<'a> Written<'a> {
-    pub(super) fn new(nodes: usize, limits: &'a InputBox, points: usize) -> Written<'a> {
-        Written {
-            polynomials: vec![Vec::new(); nodes],
-            limits,
-            points,
-            is_wanted: points > 0,
+    /// Of so many nodes of a program's gradient, with so many points for each output.
+    pub(super) fn new(
+        program: &Program,
+        nodes: usize,
+        limits: &'a InputBox,
+        sliding: &[bool],
+        points: usize,
+    ) -> Written<'a> {
+        let mut whole = limits.clone();
+        let mut is_narrow = false;
+        for joint in (0..sliding.len()).filter(|&joint| !sliding[joint] && turns(program, joint)) {
+            is_narrow |= limits.position[joint].width() < NARROW;
+            // Means are over whole circles, and so is what comes of them.
+            whole.position[joint] = Interval::symmetric(4.0);
         }
+        let each = points.min(OUTPUTS * points / program.outputs.len().max(1));
+        let squares = match !is_narrow && each >= FEWEST {
+            true => Squares::new(nodes, whole, sliding),
+            false => None,
+        };
+        Written {
+            limits,
+            closeness: GridEffort {
+                points: each,
+                close: CLOSE,
+                starts: STARTS,
+            },
+            squares,
+        }
+    }
+
+    /// Whether there is something to be found.
+    pub(super) fn is_wanted(&self) -> bool {
+        self.squares.is_some()
     }
 
     /// A node's value in multiples of its angles.
     pub(super) fn keep(&mut self, node: usize, harmonics: &Polynomial) {
-        if self.is_wanted {
-            self.polynomials[node].clone_from(harmonics);
+        if let Some(squares) = &mut self.squares {
+            squares.set(node, harmonics);
         }
     }
 
@@ -87,49 +112,16 @@ impl<'a> Written<'a> {
         program: &Program,
         gradient: &Gradient,
         most: &[f64],
-        sliding: &[bool],
     ) -> Vec<Together> {
-        let none = vec![Together::default(); program.outputs.len()];
-        if !self.is_wanted {
-            return none;
-        }
-        let angles =
-            || (0..sliding.len()).filter(|&joint| !sliding[joint] && turns(program, joint));
-        let width = |joint: usize| self.limits.position[joint].width();
-        if angles().any(|joint| width(joint) < NARROW) {
-            return none;
-        }
-        // A part of a circle is none to a product of points: all of it is taken,
-        // and what is known of the part says nothing.
-        let circle = Interval::symmetric(4.0);
-        let is_whole = angles().all(|joint| width(joint) >= 2.0 * PI * (1.0 - 1e-12));
-        let mut limits = self.limits.clone();
-        for joint in angles() {
-            limits.position[joint] = circle;
-        }
-        let unknown = vec![f64::INFINITY; most.len()];
-        let products = Products {
-            polynomials: &self.polynomials,
-            most: if is_whole { most } else { &unknown },
-            limits: &limits,
-            sliding,
+        let Some(squares) = &self.squares else {
+            return vec![Together::default(); program.outputs.len()];
         };
-        let closeness = GridEffort {
-            points: self
-                .points
-                .min(OUTPUTS * self.points / program.outputs.len().max(1)),
-            close: CLOSE,
-            starts: STARTS,
-        };
-        if closeness.points < FEWEST {
-            return none;
-        }
         let constants = ScalarType::ALL.map(|scalar| (scalar, Constants::of(program, scalar, &[])));
         let outputs = gradient.adjoints.iter();
         outputs
             .map(|adjoints| {
                 let (steps, list) = arithmetic(program, gradient, adjoints, most, &constants);
-                let found = products.sum(&list, closeness);
+                let found = squares.sum(&list, self.closeness);
                 let (arithmetic, caps) = of_steps(program, &steps, &list, found);
                 let weights: Vec<f64> = (adjoints.sines.iter())
                     .map(|(input, _)| weight(*input, self.limits, &constants))
@@ -137,7 +129,7 @@ impl<'a> Written<'a> {
                 let list: Vec<Product> = (adjoints.sines.iter().zip(&weights))
                     .map(|((_, edge), &weight)| alone(weight, edge))
                     .collect();
-                let sines = products.sum(&list, closeness);
+                let sines = squares.sum(&list, self.closeness);
                 Together {
                     arithmetic,
                     caps,
