@@ -20,6 +20,9 @@ const CLOSE: f64 = 0.1;
 const TOGETHER: usize = 2048;
 const FEWEST: usize = 64;
 
+/// Points of what counts in the second order.
+const ASIDE: usize = 256;
+
 /// Places to climb from.
 const STARTS: usize = 2;
 
@@ -73,12 +76,12 @@ impl Extremes {
                 written.keep(node, &harmonics);
                 // Where sums are bounded together, adjoints count by themselves in the
                 // second order alone.
-                let points = match is_value[node] || !written.is_wanted() {
-                    true => closeness.points,
-                    false => 0,
+                let most = match is_value[node] || !written.is_wanted() {
+                    true => usize::MAX,
+                    false => ASIDE,
                 };
                 let closeness = GridEffort {
-                    points,
+                    points: closeness.points.min(most),
                     ..closeness
                 };
                 grid::magnitude(harmonics, limits, &sliding, Aim::Least(0.0), closeness)

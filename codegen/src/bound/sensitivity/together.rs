@@ -33,6 +33,9 @@ const OUTPUTS: usize = 8;
 /// Fewer points than this for an output tell nothing.
 const FEWEST: usize = 1 << 12;
 
+/// Terms of all polynomials for each point of an output.
+const TERMS: usize = 4;
+
 /// Over ranges narrower than this, values hardly move: their largest are taken
 /// about together.
 const NARROW: f64 = 2.0;
@@ -60,6 +63,8 @@ pub(super) struct Written<'a> {
     closeness: GridEffort,
     /// `None` where nothing is to be found.
     squares: Option<Squares>,
+    /// How many terms were kept.
+    terms: usize,
 }
 
 impl<'a> Written<'a> {
@@ -91,6 +96,7 @@ impl<'a> Written<'a> {
                 starts: STARTS,
             },
             squares,
+            terms: 0,
         }
     }
 
@@ -101,6 +107,11 @@ impl<'a> Written<'a> {
 
     /// A node's value in multiples of its angles.
     pub(super) fn keep(&mut self, node: usize, harmonics: &Polynomial) {
+        self.terms += harmonics.len();
+        // What is too long for its points is not even kept.
+        if self.terms > TERMS * self.closeness.points {
+            self.squares = None;
+        }
         if let Some(squares) = &mut self.squares {
             squares.set(node, harmonics);
         }
