@@ -115,7 +115,7 @@ impl Squares {
         }
         let cut = self.cut(&weights, closeness.points * PAIRS);
         let (joints, sliding) = (self.limits.joints(), &self.sliding);
-        let sides = Sides::of(&products, &cut);
+        let sides = Sides::of(&products, &cut)?;
         let even = sides.polynomial(1.0, joints)?;
         // Both sides about equal there: neither is larger than it must.
         let at = peak(&even, &self.limits, sliding, closeness);
@@ -174,7 +174,8 @@ struct Sides {
 }
 
 impl Sides {
-    fn of(products: &[Product], series: &BTreeMap<usize, Series>) -> Sides {
+    /// `None` where numbers are too large or too small.
+    fn of(products: &[Product], series: &BTreeMap<usize, Series>) -> Option<Sides> {
         let weights = Weights::of(products, |place| series[&place].mean);
         let side = |side: usize| {
             let mut sum = Spectrum::default();
@@ -182,16 +183,15 @@ impl Sides {
                 let (Series { mean, parts, .. }, weight) = (&series[place], weight[side]);
                 for part in parts.iter().filter(|_| weight > 0.0) {
                     work::count(part.pairs() / PAIRS);
-                    let own = weight * (part.most / part.mean) * (part.most / mean);
-                    sum.add_square(own, &part.waves);
+                    sum.add_square(part.weighted(weight, *mean)?, &part.waves);
                 }
             }
-            sum
+            Some(sum)
         };
-        Sides {
-            left: side(0).plus(weights.constant),
-            right: side(1),
-        }
+        Some(Sides {
+            left: side(0)?.plus(weights.constant),
+            right: side(1)?,
+        })
     }
 
     /// G, or a little more than it.
@@ -361,9 +361,9 @@ mod tests {
         assert!((1.0..1.05).contains(&found.sum), "{}", found.sum);
     }
 
-    /// Nothing, and what is not finite, do no harm.
+    /// What numbers cannot hold does no harm.
     #[test]
-    fn polynomials_that_are_nothing_are_bounded_by_nothing() {
+    fn extremes_have_no_bound_rather_than_a_wrong_one() {
         let mut squares = Squares::new(2, limits(), &[false; 2]).unwrap();
         let product = Product {
             weight: 1.0,
@@ -374,8 +374,16 @@ mod tests {
         let few = GridEffort::fine(1 << 8);
         assert_eq!(squares.sum(&[product], few).unwrap().sum, 0.0);
         squares.set(1, &vec![(0, Interval::point(1e-300))]);
-        assert!(squares.sum(&[product], few).unwrap().sum < 1e-200);
-        squares.set(0, &vec![(1, Interval::ALL)]);
-        assert_eq!(squares.sum(&[product], few), None);
+        assert_eq!(squares.sum(&[product], few).unwrap().sum, 0.0);
+        // Too small to be squared, too large, and no number: nothing is said of these.
+        for x in [1e-200, 1e-120, 1e120]
+            .map(Interval::point)
+            .into_iter()
+            .chain([Interval::ALL])
+        {
+            squares.set(0, &vec![(1, x)]);
+            squares.set(1, &vec![(0, Interval::point(1e-100))]);
+            assert_eq!(squares.sum(&[product], few), None, "{x:?}");
+        }
     }
 }

@@ -19,6 +19,12 @@ pub(super) const MAX_JOINTS: usize = 20;
 /// What the waves that are dropped at once may come to, against all.
 const NEGLIGIBLE: f64 = 1e-4;
 
+/// What is left out counts at least so much, against all: far more than underflow takes.
+const UNDERFLOW: f64 = 1e-20;
+
+/// Between its inverse and itself products of three numbers neither underflow nor overflow.
+const SANE: f64 = 1e90;
+
 /// 2·Re (c·e^{i·k·q}) of multiples k, the last one that is not zero being positive;
 /// of k = 0 Re c.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +50,9 @@ impl Wave {
     }
 }
 
-pub(super) fn length([re, im]: [f64; 2]) -> f64 {
-    (re * re + im * im).sqrt()
+/// The length of a complex number or more: what is too small to be squared counts.
+fn length([re, im]: [f64; 2]) -> f64 {
+    (re * re + im * im).sqrt() + f64::MIN_POSITIVE.sqrt()
 }
 
 /// The multiples of a key, joint by joint.
@@ -82,6 +89,14 @@ impl Part {
             count: waves.len(),
             waves,
         }
+    }
+
+    /// R²/(μ·M), times a weight; `None` where it, or a square of the waves, may underflow
+    /// or overflow.
+    pub(super) fn weighted(&self, weight: f64, mean: f64) -> Option<f64> {
+        let factors = [weight, self.most / self.mean, self.most / mean];
+        let sane = |x: &f64| (1.0 / SANE..SANE).contains(x);
+        factors.iter().all(sane).then(|| factors.iter().product())
     }
 
     /// How many products its square takes.
@@ -166,16 +181,19 @@ impl Series {
                 parts.push(Part::new(part.most, part.waves));
             }
         }
-        // What is no number counts, and makes M none.
-        if self.off != 0.0 {
+        let sum = |parts: &[Part]| parts.iter().map(|part| part.mean).sum::<f64>();
+        // What is no number stays none, so that M is none.
+        let least = UNDERFLOW * sum(&parts);
+        let off = if self.off < least { least } else { self.off };
+        if off != 0.0 {
             let one = Wave {
                 key: 0,
                 value: [1.0, 0.0],
             };
-            parts.push(Part::new(self.off * ROUNDINGS, vec![one]));
+            parts.push(Part::new(off * ROUNDINGS, vec![one]));
         }
         self.off = 0.0;
-        self.mean = parts.iter().map(|part| part.mean).sum::<f64>() * ROUNDINGS;
+        self.mean = sum(&parts) * ROUNDINGS;
         self.parts = parts;
     }
 }
