@@ -3,7 +3,7 @@
 //!
 //! The first order of an output's error is at most u·Σ w·|value|·|adjoint|, all
 //! of them at one state: a sum of magnitudes of products, bounded as
-//! such ([`Products`]). w is 1 for an operation that rounds, and what the
+//! such ([`Squares`]). w is 1 for an operation that rounds, and what the
 //! literal that it multiplies by is off, relative to u, comes on top. Where a
 //! value is near its largest, its rounding is at most half an ulp of that: F in
 //! place of |value|.
