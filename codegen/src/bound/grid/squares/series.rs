@@ -35,18 +35,21 @@ pub(super) struct Wave {
 }
 
 impl Wave {
+    /// How often Re c·e^{i·k·q} counts: a key above zero stands for two mirror images.
+    pub(super) fn times(&self) -> f64 {
+        if self.key == 0 { 1.0 } else { 2.0 }
+    }
+
     /// The largest magnitude.
     pub(super) fn size(&self) -> f64 {
-        let twice = if self.key == 0 { 1.0 } else { 2.0 };
-        twice * length(self.value)
+        self.times() * length(self.value)
     }
 
     /// The value at angles.
     pub(super) fn at(&self, angles: &[f64]) -> f64 {
         let each = angles.iter().zip(multiples(self.key, angles.len()));
         let (sin, cos) = libm::sincos(each.map(|(angle, k)| angle * k as f64).sum());
-        let twice = if self.key == 0 { 1.0 } else { 2.0 };
-        twice * (self.value[0] * cos - self.value[1] * sin)
+        self.times() * (self.value[0] * cos - self.value[1] * sin)
     }
 }
 

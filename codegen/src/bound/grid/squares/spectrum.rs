@@ -88,7 +88,8 @@ pub(super) fn polynomial(parts: [(&Spectrum, f64); 2], joints: usize) -> Option<
     for (part, weight) in parts {
         all.sizes += weight * part.sizes;
         all.count += part.count;
-        for Wave { key, value } in part.sorted() {
+        // Of each key there is one wave, so that their order does not matter.
+        for (&key, value) in &part.waves {
             let sum = all.waves.entry(key).or_default();
             *sum = [sum[0] + weight * value[0], sum[1] + weight * value[1]];
         }
@@ -110,8 +111,7 @@ pub(super) fn polynomial(parts: [(&Spectrum, f64); 2], joints: usize) -> Option<
             continue;
         }
         // 2·Re (c·Π (cos kq ± i·sin kq))
-        let twice = if wave.key == 0 { 1.0 } else { 2.0 };
-        let mut each = vec![(0 as Key, wave.value.map(|x| twice * x))];
+        let mut each = vec![(0 as Key, wave.value.map(|x| wave.times() * x))];
         for (joint, k) in multiples(wave.key, joints).enumerate() {
             if k == 0 {
                 continue;
