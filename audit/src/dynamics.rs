@@ -155,7 +155,7 @@ pub fn torques(
     let (none, one) = (Polynomial::default(), Polynomial::constant(1.0, 0.0));
     let (mut w, mut wd, mut vd) = (zeros(), zeros(), zeros());
     if gravity {
-        // A base that is accelerated upward feels what one in gravity does.
+        // A base that is accelerated upward depends_on what one in gravity does.
         vd = setting.gravity.each_ref().map(Polynomial::negated);
     }
     let unmoved = ([&none, &one], &none);

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use dalembert_codegen::workspace::program::Counts;
-use dalembert_model::read::{Diagnostic, Doubt};
+use dalembert_model::read::{Diagnostic, RobotWarning};
 use serde_json::{Value, json};
 
 use crate::outcome::Failure;
@@ -29,7 +29,7 @@ pub fn print_json(value: &Value) -> Result<(), Failure> {
 pub fn diagnostic(found: &Diagnostic) -> Value {
     json!({
         "severity": found.severity.to_string(),
-        "warning": found.doubt.map(Doubt::name),
+        "warning": found.warning.map(RobotWarning::name),
         "line": found.line,
         "column": found.column,
         "message": found.message,

@@ -2,7 +2,7 @@
 
 /// A bound by cause, relative to T.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Split {
+pub struct ErrorByCause {
     /// Terms left out.
     pub model: f64,
     /// Sines and cosines.
@@ -11,7 +11,7 @@ pub struct Split {
     pub rounding: f64,
 }
 
-impl Split {
+impl ErrorByCause {
     /// E
     pub fn total(self) -> f64 {
         (self.model + self.sincos + self.rounding) * (1.0 + 1e-15)
@@ -19,8 +19,8 @@ impl Split {
 
     /// The smaller of two bounds, cause by cause.
     #[must_use]
-    pub fn min(self, other: Split) -> Split {
-        Split {
+    pub fn min(self, other: ErrorByCause) -> ErrorByCause {
+        ErrorByCause {
             model: self.model.min(other.model),
             sincos: self.sincos.min(other.sincos),
             rounding: self.rounding.min(other.rounding),

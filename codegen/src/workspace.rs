@@ -198,7 +198,7 @@ pub mod sincos {
 }
 
 pub mod split {
-    pub use crate::split::Split;
+    pub use crate::split::ErrorByCause;
 }
 
 pub mod states {

@@ -11,7 +11,7 @@ use dalembert_codegen::workspace::program::{
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::sincos::choose::Candidates;
 use dalembert_codegen::workspace::sincos::{AngleKernel, SinCos, need};
-use dalembert_codegen::workspace::split::Split;
+use dalembert_codegen::workspace::split::ErrorByCause;
 use dalembert_codegen::workspace::states::seeded;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::read;
@@ -310,7 +310,7 @@ fn a_tolerance_says_how_exact_sines_are() {
     let certificate = &function.admitted.as_ref().unwrap().certificates[0];
     assert_eq!(certificate.sines, function.sines(ScalarType::F64));
     certificate.check(&scene_robot).unwrap();
-    let most = |of: fn(&Split) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
+    let most = |of: fn(&ErrorByCause) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
     let (all, part) = (most(|b| b.total()), most(|b| b.sincos));
     assert!(all <= 1e-4 && part > 1e-7, "{all:e} {part:e}");
     let text = &generated.text;

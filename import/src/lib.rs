@@ -22,7 +22,7 @@
 //! lines that bring it, and left out: a URDF has no width to smooth it over. Links that are fixed to each
 //! other become one; what hangs on a link moves with it. A movable joint beside the
 //! chain must be [locked](Options::lock) or [left away](Options::without), unless it
-//! hangs on the base, which feels nothing. Joints that mimic others, planar and
+//! hangs on the base, which depends_on nothing. Joints that mimic others, planar and
 //! floating ones are refused where they would move.
 //!
 //! Gravity is 9.81 m/s² against the z axis of the base's link: a URDF does not say.

@@ -51,7 +51,7 @@ impl<'s> Problems<'s> {
         let (line, column) = place(self.source, span.start);
         self.found.push(Diagnostic {
             severity,
-            doubt: None,
+            warning: None,
             message,
             span: span.clone(),
             line,

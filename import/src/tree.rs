@@ -458,7 +458,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             .map(|joint| self.urdf.joints[*joint].name.as_str());
         let names = names.collect::<Vec<_>>().join(", ");
         let message = format!("what hangs on the base is left out: {names}");
-        let help = "a base that stands still feels nothing of it";
+        let help = "a base that stands still depends_on nothing of it";
         self.problems
             .note(&self.urdf.joints[first].span, message, help);
     }

@@ -2,7 +2,7 @@
 //! round through the canonical text.
 
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::read::{Doubt, Options, Severity, parse, parse_bytes};
+use dalembert_model::read::{Options, RobotWarning, Severity, parse, parse_bytes};
 use dalembert_model::robot::{Convention, Inertia, JointKind, Position, Robot, write};
 use num_traits::ToPrimitive;
 
@@ -193,8 +193,13 @@ fn known_robots_are_not_far_off() {
                 continue;
             };
             seen += 1;
-            let mut doubts = reading.notes.iter().filter_map(|note| note.doubt);
-            let far = |doubt: &Doubt| matches!(doubt, Doubt::LargeInertia | Doubt::LargeWidth);
+            let mut doubts = reading.notes.iter().filter_map(|note| note.warning);
+            let far = |warning: &RobotWarning| {
+                matches!(
+                    warning,
+                    RobotWarning::LargeInertia | RobotWarning::LargeWidth
+                )
+            };
             assert_eq!(doubts.find(far), None, "{}", path.display());
         }
     }

@@ -1,7 +1,7 @@
 //! What is odd in a file and not wrong: a warning or a note on the right line, in words
 //! that help, which can be silenced.
 
-use dalembert_model::read::{Doubt, Options, Severity, parse};
+use dalembert_model::read::{Options, RobotWarning, Severity, parse};
 
 use crate::read_errors::{GOOD, errors};
 
@@ -244,11 +244,11 @@ fn warnings_are_silenced_one_by_one() {
     let odd = GOOD
         .replacen("inertia = [1, 1, 1,", "inertia = [1, 1, 3,", 1)
         .replacen("mass = 2", "mass = 2000", 1);
-    let doubts = |source: &str| -> Vec<Option<Doubt>> {
+    let doubts = |source: &str| -> Vec<Option<RobotWarning>> {
         let notes = parse(source, &Options::default()).expect("reads").notes;
-        notes.iter().map(|note| note.doubt).collect()
+        notes.iter().map(|note| note.warning).collect()
     };
-    let [mass, inertia] = [Doubt::LargeMass, Doubt::ImpossibleInertia].map(Some);
+    let [mass, inertia] = [RobotWarning::LargeMass, RobotWarning::ImpossibleInertia].map(Some);
     assert_eq!(doubts(&odd), [mass, inertia]);
     for (allow, left) in [
         ("[]", vec![mass, inertia]),
@@ -300,13 +300,13 @@ fn names_of_warnings() {
         let said = found[0].help.as_deref().unwrap_or_default();
         assert!(said.starts_with(help), "{said}");
     }
-    let mut names: Vec<&str> = Doubt::WORDS.iter().map(|(name, _)| *name).collect();
+    let mut names: Vec<&str> = RobotWarning::WORDS.iter().map(|(name, _)| *name).collect();
     assert!(
-        Doubt::WORDS
+        RobotWarning::WORDS
             .iter()
-            .all(|(name, doubt)| doubt.name() == *name)
+            .all(|(name, warning)| warning.name() == *name)
     );
     names.sort_unstable();
     names.dedup();
-    assert_eq!(names.len(), Doubt::WORDS.len());
+    assert_eq!(names.len(), RobotWarning::WORDS.len());
 }

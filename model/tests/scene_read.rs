@@ -2,7 +2,7 @@
 
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::outputs::Function;
-use dalembert_model::read::{Doubt, Options, parse};
+use dalembert_model::read::{Options, RobotWarning, parse};
 use dalembert_model::robot::{Position, Severity};
 use dalembert_model::scene::{Float, Scale, Scene, write};
 
@@ -438,7 +438,7 @@ fn a_payload_in_other_units() {
     let notes = parse(&source, &Options::default()).unwrap().notes;
     let note = notes
         .iter()
-        .find(|note| note.doubt == Some(Doubt::LargeInertia));
+        .find(|note| note.warning == Some(RobotWarning::LargeInertia));
     let note = note.expect("a warning");
     assert_eq!(note.line, ROBOT.lines().count() + 2);
     let help = note.help.as_deref().unwrap_or_default();

@@ -5,7 +5,7 @@ use crate::bound::ranges::{Finding, RANGE_BOXES, ranges};
 use crate::certificate::Certificate;
 use crate::edits::{Stage, has_edits};
 use crate::program::{Program, ScalarType, has_inertia};
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 /// A variant that meets its tolerance.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Claim {
     /// The scalar.
     pub scalar: ScalarType,
     /// E of each output.
-    pub bounds: Vec<Split>,
+    pub bounds: Vec<ErrorByCause>,
     /// [`Certificate::lambda_min`].
     pub lambda_min: Option<f64>,
 }
@@ -77,7 +77,7 @@ impl Admitted {
 pub(super) fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), ToleranceError> {
     let mut pairs = certificate.bounds.iter().zip(tolerances);
     // No number is within nothing.
-    let within = |bound: &Split, tolerance: f64| bound.total() <= tolerance;
+    let within = |bound: &ErrorByCause, tolerance: f64| bound.total() <= tolerance;
     match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
         None => in_range(certificate),
         Some(index) => Err(ToleranceError::Above {

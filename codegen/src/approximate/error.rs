@@ -9,7 +9,7 @@ use crate::bound::scale;
 use crate::function::{Argument, Columns, Function};
 use crate::program::{Program, ScalarType};
 use crate::sincos::TooAccurate;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 /// Why no variant meets a tolerance.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub enum ToleranceError {
         /// The output's tolerance.
         tolerance: f64,
         /// What can be shown of the exact program.
-        bound: Split,
+        bound: ErrorByCause,
     },
 }
 

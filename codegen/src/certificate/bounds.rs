@@ -12,7 +12,7 @@ use super::{Certificate, Refuted};
 use crate::bound::definite::{is_at_least, least_eigenvalue};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::program::ScalarType;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 /// From coarse to fine.
 const EFFORTS: [BoundEffort; 2] = [BoundEffort::QUICK, BoundEffort::CERTIFY];
@@ -47,7 +47,7 @@ impl<'s> Shared<'s> {
     }
 
     /// What rounding and sines cost in a scalar.
-    fn rounding(&self, effort: usize, scalar: ScalarType) -> Vec<Split> {
+    fn rounding(&self, effort: usize, scalar: ScalarType) -> Vec<ErrorByCause> {
         let found = &self.sensitivities[effort];
         let found = found.get_or_init(|| (self.sensitivity)(EFFORTS[effort]));
         self.subject.rounding(scalar, found)
@@ -57,13 +57,13 @@ impl<'s> Shared<'s> {
 impl Certificate {
     /// Whether all that is claimed of bounds and of D can be shown; the bounds
     /// that were found.
-    pub(crate) fn check_claims(&self, shared: &Shared<'_>) -> Result<Vec<Split>, Refuted> {
+    pub(crate) fn check_claims(&self, shared: &Shared<'_>) -> Result<Vec<ErrorByCause>, Refuted> {
         let found = self.check_bounds(shared)?;
         self.check_definite()?;
         Ok(found)
     }
 
-    fn check_bounds(&self, shared: &Shared<'_>) -> Result<Vec<Split>, Refuted> {
+    fn check_bounds(&self, shared: &Shared<'_>) -> Result<Vec<ErrorByCause>, Refuted> {
         let claims = &self.bounds;
         let edits = least(
             |effort| shared.edits(effort),
@@ -83,14 +83,14 @@ impl Certificate {
                     claim.sincos >= found.sincos && claim.rounding >= found.rounding
                 })
             },
-            Split::min,
+            ErrorByCause::min,
         );
         let pairs = edits.into_iter().zip(rounding);
-        let found: Vec<Split> = pairs
-            .map(|(model, rounding)| Split { model, ..rounding })
+        let found: Vec<ErrorByCause> = pairs
+            .map(|(model, rounding)| ErrorByCause { model, ..rounding })
             .collect();
         // No number shows nothing.
-        let shown = |(claim, found): (&Split, &Split)| {
+        let shown = |(claim, found): (&ErrorByCause, &ErrorByCause)| {
             claim.model >= found.model
                 && claim.sincos >= found.sincos
                 && claim.rounding >= found.rounding

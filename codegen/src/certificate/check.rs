@@ -16,7 +16,7 @@ use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
 use crate::sincos;
 use crate::sincos::proof;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 use crate::verify::exact::{prove, prove_same};
 
 impl Certificate {
@@ -191,7 +191,7 @@ impl Certificate {
         let alike = self.relative_to == Some(tolerance.relative_to);
         let mut pairs = self.bounds.iter().zip(&allowed);
         // No number is within nothing.
-        let within = |bound: &Split, allowed: f64| alike && bound.total() <= allowed;
+        let within = |bound: &ErrorByCause, allowed: f64| alike && bound.total() <= allowed;
         match pairs.position(|(bound, &allowed)| !within(bound, allowed)) {
             None => Ok(()),
             Some(index) => Err(Refuted::Tolerance {

@@ -63,7 +63,7 @@ use crate::program::{Library, Program, ScalarType};
 use crate::scene::SceneKey;
 use crate::scene::SceneRobot;
 use crate::sincos::{AngleKernel, Sines};
-use crate::split::Split;
+use crate::split::ErrorByCause;
 use crate::verify::exact::Proof;
 pub(crate) use bounds::Shared;
 pub use refuted::Refuted;
@@ -126,7 +126,7 @@ pub struct Certificate {
     /// they are the library's.
     pub sines: Sines,
     /// E of each output.
-    pub bounds: Vec<Split>,
+    pub bounds: Vec<ErrorByCause>,
     /// A lower bound of the least eigenvalue of S D S over the box, if D is
     /// an output and something was left out; S is diagonal
     /// (`bound::definite`). Above zero, D is positive definite.
@@ -139,7 +139,7 @@ pub struct Checked {
     /// The exact program's proof.
     pub proof: Proof,
     /// The bounds found anew.
-    pub bounds: Vec<Split>,
+    pub bounds: Vec<ErrorByCause>,
     /// What was seen where the text was run.
     pub ran: Ran,
     /// What the scalar cannot hold; only warnings.
@@ -194,7 +194,7 @@ impl Certificate {
     /// itself, as if that were the full model.
     #[must_use]
     pub fn of_rounding(&self) -> Certificate {
-        let bounds = self.bounds.iter().map(|bound| Split {
+        let bounds = self.bounds.iter().map(|bound| ErrorByCause {
             model: 0.0,
             ..*bound
         });
@@ -265,7 +265,7 @@ impl Certificate {
             .subject(scene_robot, &[])
             .rounding(self.scalar, sensitivity);
         for (bound, found) in other.bounds.iter_mut().zip(found) {
-            *bound = Split {
+            *bound = ErrorByCause {
                 model: bound.model,
                 ..found
             };

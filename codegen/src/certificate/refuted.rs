@@ -10,7 +10,7 @@ use crate::bound::definite::Indefinite;
 use crate::bound::ranges::Finding;
 use crate::edits::BadEdit;
 use crate::sincos::proof::Errors;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 use crate::states::JointState;
 use crate::verify::exact::Disproof;
 
@@ -133,9 +133,9 @@ pub enum Refuted {
         /// The output's name.
         entry: String,
         /// What is claimed.
-        claimed: Split,
+        claimed: ErrorByCause,
         /// What was found.
-        found: Split,
+        found: ErrorByCause,
     },
     /// The text is as printed, but cannot be read: a defect of this library.
     Unreadable(Box<TextError>),

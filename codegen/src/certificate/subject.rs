@@ -13,9 +13,9 @@ use crate::edits::{Stage, difference, has_edits};
 use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
-use crate::sincos::called::Called;
+use crate::sincos::library_error::Called;
 use crate::sincos::{self, AngleKernel, Sines};
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 /// What a claim is about, whatever the scalar.
 #[derive(Clone, Copy, Debug)]
@@ -56,11 +56,11 @@ impl Subject<'_> {
         scalar: ScalarType,
         model: &[f64],
         sensitivity: &Sensitivity,
-    ) -> Vec<Split> {
+    ) -> Vec<ErrorByCause> {
         let model = self.relative(model).into_iter();
         let pairs = model.zip(self.rounding(scalar, sensitivity));
         pairs
-            .map(|(model, rounding)| Split { model, ..rounding })
+            .map(|(model, rounding)| ErrorByCause { model, ..rounding })
             .collect()
     }
 
@@ -73,14 +73,18 @@ impl Subject<'_> {
     }
 
     /// What sines and rounding cost, relative to the scales.
-    pub(super) fn rounding(&self, scalar: ScalarType, sensitivity: &Sensitivity) -> Vec<Split> {
+    pub(super) fn rounding(
+        &self,
+        scalar: ScalarType,
+        sensitivity: &Sensitivity,
+    ) -> Vec<ErrorByCause> {
         let found = match (self.library, self.sines(scalar)) {
             (Library::Together, []) => sensitivity.calling(scalar, &self.proved(scalar)),
             (_, sines) => sensitivity.rounding(scalar, sines),
         };
         let pairs = found.iter().zip(self.scales);
         pairs
-            .map(|(rounding, &scale)| Split {
+            .map(|(rounding, &scale)| ErrorByCause {
                 model: 0.0,
                 sincos: relative(rounding.sincos, scale),
                 rounding: relative(rounding.arithmetic, scale),
@@ -125,7 +129,7 @@ impl Subject<'_> {
 
     /// The claim for a scalar with these bounds, whether they hold or not;
     /// nothing is claimed of the least eigenvalue.
-    pub(crate) fn claim(&self, scalar: ScalarType, bounds: Vec<Split>) -> Certificate {
+    pub(crate) fn claim(&self, scalar: ScalarType, bounds: Vec<ErrorByCause>) -> Certificate {
         Certificate {
             robot: self.scene_robot.robot().name.clone(),
             input: input_hash(self.scene_robot.robot()),

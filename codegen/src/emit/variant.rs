@@ -11,7 +11,7 @@ use crate::function::Argument;
 use crate::interval::Interval;
 use crate::program::ScalarType;
 use crate::scene::SceneRobot;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 /// A line each: the certificate, the box, what was left out.
 pub(super) fn describe(
@@ -86,7 +86,7 @@ fn bounds(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
     ];
     let bounds = certificate.bounds.iter().zip(&certificate.scales);
     for (index, ((bound, scale), unit)) in bounds.zip(units).enumerate() {
-        let Split {
+        let ErrorByCause {
             model,
             sincos,
             rounding,

@@ -40,7 +40,7 @@ use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
-use crate::trace::feels_coulomb;
+use crate::trace::depends_on_coulomb;
 use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::parameters::prove_base;
@@ -110,7 +110,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let scene_robot = request.scene_robot(robot).map_err(GenerateError::Scene)?;
     if tolerance.is_some() {
         let mut functions = request.functions.iter();
-        if let Some(&function) = functions.find(|&&f| feels_coulomb(&scene_robot, f)) {
+        if let Some(&function) = functions.find(|&&f| depends_on_coulomb(&scene_robot, f)) {
             let why = ToleranceError::Function(Unbounded::Friction);
             return Err(GenerateError::Tolerance(function, why));
         }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use dalembert_model::outputs::{Burden, RuntimeParameter};
+use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::request::Request;
 use crate::approximate::error::Unbounded;
@@ -27,7 +27,7 @@ pub enum ParameterError {
     },
     /// The scene has a tolerance, and no box bounds the argument.
     Tolerance(Function, Argument),
-    /// No joint feels what the last link carries.
+    /// No joint depends_on what the last link carries.
     Unfelt,
 }
 
@@ -60,9 +60,9 @@ impl fmt::Display for ParameterError {
             ParameterError::Tolerance(function, argument) => {
                 write!(f, "`{function}`: {}", Unbounded::Reads(*argument))
             }
-            ParameterError::Unfelt => {
-                f.write_str("no joint that moves feels a payload: leave it out of the parameters")
-            }
+            ParameterError::Unfelt => f.write_str(
+                "no joint that moves depends_on a payload: leave it out of the parameters",
+            ),
         }
     }
 }
@@ -77,7 +77,7 @@ pub(super) fn check(request: &Request, scene_robot: &SceneRobot) -> Result<(), P
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
             let mut taken = request.parameters.iter();
-            let parameter = taken.find(|&&parameter| function.feels(parameter))?;
+            let parameter = taken.find(|&&parameter| function.depends_on(parameter))?;
             Some((function, parameter.argument()))
         });
         if let Some((function, argument)) = taking {
@@ -99,7 +99,9 @@ pub(super) fn check(request: &Request, scene_robot: &SceneRobot) -> Result<(), P
         return Err(ParameterError::Formulation(request.start));
     }
     let mut functions = request.functions.iter();
-    if let Some(&function) = functions.find(|function| function.burden() == Burden::More) {
+    if let Some(&function) =
+        functions.find(|function| function.payload_dependence() == PayloadDependence::Full)
+    {
         return Err(ParameterError::Unregrouped(function));
     }
     match scene_robot.load().is_some_and(|load| !load.rows.is_empty()) {

@@ -26,7 +26,7 @@ use crate::portfolio::{Source, Start};
 use crate::program::{Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
 use crate::simplify::Pass;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
 
@@ -74,7 +74,7 @@ pub struct Edited {
     /// The program to emit.
     pub program: Program,
     /// The bounds of each output in the entry's scalar.
-    pub bounds: Vec<Split>,
+    pub bounds: Vec<ErrorByCause>,
     /// That of D's least eigenvalue, if D is an output and was edited.
     pub lambda_min: Option<f64>,
 }

@@ -8,7 +8,7 @@ use crate::edits::text::read_edit;
 use crate::edits::{Edit, Stage, has_edits};
 use crate::program::text::{read_results, read_step, without_quotient};
 use crate::program::{Program, has_inertia};
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 /// A variant that is being read.
 pub(super) struct Variant {
@@ -17,7 +17,7 @@ pub(super) struct Variant {
     program: Program,
     edits: Vec<Edit>,
     is_open: bool,
-    bounds: Vec<Split>,
+    bounds: Vec<ErrorByCause>,
     lambda_min: Option<f64>,
 }
 
@@ -93,10 +93,10 @@ impl Variant {
     }
 }
 
-fn bound(words: &[&str]) -> Result<Split, PlanFault> {
+fn bound(words: &[&str]) -> Result<ErrorByCause, PlanFault> {
     match numbers(words)[..] {
         [model, sincos, rounding] if model >= 0.0 && sincos >= 0.0 && rounding >= 0.0 => {
-            Ok(Split {
+            Ok(ErrorByCause {
                 model,
                 sincos,
                 rounding,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{Edited, Plan};
 use crate::edits::text::write_edit;
 use crate::program::text::write_steps;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 
 impl Plan {
     /// The text; [`Plan::parse`] reads it back.
@@ -77,7 +77,7 @@ fn variant(text: &mut String, edited: &Edited) {
         let _ = writeln!(text, "eigenvalue {least:e}");
     }
     for bound in &edited.bounds {
-        let Split {
+        let ErrorByCause {
             model,
             sincos,
             rounding,

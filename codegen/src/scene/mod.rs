@@ -182,7 +182,7 @@ impl SceneRobot {
 
     /// Whether a function takes a parameter as an argument.
     pub fn takes(&self, function: Function, parameter: RuntimeParameter) -> bool {
-        self.has(parameter) && function.feels(parameter)
+        self.has(parameter) && function.depends_on(parameter)
     }
 
     /// Whether a function takes any.

@@ -5,15 +5,15 @@
 //! - [`choose`]: the cheapest kernel of [`forms`] that is near enough
 //! - [`series`]: Taylor's series and near-minimax fits
 //! - [`reduction`]: whole turns taken off where the range is wider than one
-//! - [`called`]: the proof of the sines that emitted code calls by default
+//! - [`library_error`]: the proof of the sines that emitted code calls by default
 //! - [`poly`]: exact polynomials
 //!
 //! A robot's joints have limits, so most angles need none of what a library's
 //! sine does for large ones; and a tolerance of 1e-6 needs no sixteen digits.
 
-pub(crate) mod called;
 pub(crate) mod choose;
 pub(crate) mod forms;
+pub(crate) mod library_error;
 pub(crate) mod poly;
 pub(crate) mod proof;
 pub(crate) mod reduction;

@@ -40,7 +40,7 @@ pub struct Refused {
 pub(crate) struct AccuracyFilter<'a> {
     scene_robot: &'a SceneRobot,
     function: Function,
-    yardstick: Option<Rounding>,
+    reference_formulation: Option<Rounding>,
 }
 
 impl<'a> AccuracyFilter<'a> {
@@ -54,14 +54,14 @@ impl<'a> AccuracyFilter<'a> {
         } else {
             (n <= MAX_MEASURED).then_some(Formulation::NewtonEulerLink)
         };
-        let yardstick = formulation.map(|formulation| {
+        let reference_formulation = formulation.map(|formulation| {
             let textbook = portfolio::textbook(scene_robot, function, formulation).graph;
             estimate(scene_robot, function, &textbook)
         });
         AccuracyFilter {
             scene_robot,
             function,
-            yardstick,
+            reference_formulation,
         }
     }
 
@@ -70,7 +70,7 @@ impl<'a> AccuracyFilter<'a> {
         AccuracyFilter {
             scene_robot,
             function,
-            yardstick: None,
+            reference_formulation: None,
         }
     }
 
@@ -82,11 +82,11 @@ impl<'a> AccuracyFilter<'a> {
     /// The program's error over the largest that is accepted; zero where
     /// nothing is measured.
     pub(crate) fn excess(&self, graph: &Graph) -> f64 {
-        let Some(yardstick) = &self.yardstick else {
+        let Some(reference_formulation) = &self.reference_formulation else {
             return 0.0;
         };
         let own = estimate(self.scene_robot, self.function, graph);
-        own.factor(yardstick, FLOOR) / WORSE
+        own.factor(reference_formulation, FLOOR) / WORSE
     }
 
     /// The program's largest normwise error, in units of u.

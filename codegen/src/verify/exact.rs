@@ -2,7 +2,7 @@
 //!
 //! Both are evaluated with their exact constants modulo [`PRIMES`] primes of
 //! 63 bits, each with a random point of its own. Above [`WRITTEN_LIMIT`] joints
-//! the yardstick is the link-frame recursion modulo the same primes, itself
+//! the reference_formulation is the link-frame recursion modulo the same primes, itself
 //! proved against Lagrange–Euler for every joint kind and convention at up to
 //! that many joints by tests. The formula is executed once, by a scalar that
 //! [records](dalembert_model::scalar::record) the operations it asks for; the
@@ -40,7 +40,7 @@ use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
 use crate::scene::SceneRobot;
 
-/// The most joints for which Lagrange–Euler itself is the yardstick: its cost
+/// The most joints for which Lagrange–Euler itself is the reference_formulation: its cost
 /// grows with n⁴ to n⁵.
 pub(crate) const WRITTEN_LIMIT: usize = 10;
 
@@ -55,7 +55,7 @@ pub(super) const MAX_DRAWS: usize = 64;
 pub struct Proof {
     /// The formulation that the program equals; none of a load, which has its
     /// definition.
-    pub yardstick: Option<Formulation>,
+    pub reference_formulation: Option<Formulation>,
     /// At how many primes and points.
     pub primes: usize,
     /// Degree of the difference in the random parameters, from above.
@@ -108,7 +108,7 @@ pub enum Disproof {
 
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let formula = match self.yardstick {
+        let formula = match self.reference_formulation {
             None => "its definition",
             Some(Formulation::LagrangeEuler) => "Lagrange–Euler as written",
             Some(_) => "the Newton–Euler recursion",
@@ -165,7 +165,7 @@ pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Dispr
     if program.rows != scene_robot.rows() || program.speeds != of_robot.speeds {
         return Err(Disproof::Shape);
     }
-    let yardstick = if scene_robot.robot().joints.len() <= WRITTEN_LIMIT {
+    let reference_formulation = if scene_robot.robot().joints.len() <= WRITTEN_LIMIT {
         Formulation::LagrangeEuler
     } else {
         Formulation::NewtonEulerLink
@@ -177,7 +177,7 @@ pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Dispr
         scene_robot,
         program,
     };
-    let formula = Formula::new(scene_robot, program.function, yardstick);
+    let formula = Formula::new(scene_robot, program.function, reference_formulation);
     let own = |point: &Point| inputs.run(point);
     compare(transcript, program, own, |point| formula.at(point))?;
     let denominators = RefCell::default();
@@ -186,7 +186,8 @@ pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Dispr
     let denominators = denominators.borrow().clone();
     let (degree, height) = bounded(&own, &formula, &denominators)?;
     Ok(Proof {
-        yardstick: (program.function != Function::Load).then_some(yardstick),
+        reference_formulation: (program.function != Function::Load)
+            .then_some(reference_formulation),
         primes: PRIMES,
         degree,
         height,
@@ -230,13 +231,19 @@ struct Formula {
 }
 
 impl Formula {
-    fn new(scene_robot: &SceneRobot, function: Function, yardstick: Formulation) -> Self {
+    fn new(
+        scene_robot: &SceneRobot,
+        function: Function,
+        reference_formulation: Formulation,
+    ) -> Self {
         let (length, residuals) = (Cell::new(0), Cell::new(0));
         let record = |with_residual: bool| {
             scene_robot.record(function, |posed, _| {
-                let all = posed.all(function, yardstick);
+                let all = posed.all(function, reference_formulation);
                 let residual = match with_residual {
-                    true => function.residual(yardstick, &posed.arm, &posed.motion, &all),
+                    true => {
+                        function.residual(reference_formulation, &posed.arm, &posed.motion, &all)
+                    }
                     false => Vec::new(),
                 };
                 let mut values = posed.select(scene_robot, function, all);

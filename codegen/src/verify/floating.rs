@@ -177,7 +177,7 @@ impl Runtime {
     /// The results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
         let mut quantities = function.quantities().iter();
-        let arm = match quantities.any(|quantity| quantity.feels_base()) {
+        let arm = match quantities.any(|quantity| quantity.depends_on_base()) {
             true => &self.whole,
             false => &self.arm,
         };

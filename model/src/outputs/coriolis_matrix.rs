@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -41,7 +41,7 @@ impl Formula for CoriolisMatrix {
             flows: true,
         }),
         by_differences: true,
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Facts, kilograms, load, turns};
-use super::{Argument, Burden, ErrorScale, Quantity, Shape, Written};
+use super::{Argument, ErrorScale, PayloadDependence, Quantity, Shape, Written};
 use crate::equations::dalembert::Part;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -38,7 +38,7 @@ impl Formula for RotationInertia {
         shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
-        burden: Burden::More,
+        payload_dependence: PayloadDependence::Full,
         ..Facts::PLAIN
     };
 
@@ -70,7 +70,7 @@ impl Formula for TranslationInertia {
         shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
-        burden: Burden::More,
+        payload_dependence: PayloadDependence::Full,
         ..Facts::PLAIN
     };
 
@@ -104,7 +104,7 @@ impl Formula for RotationCoriolis {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
-        burden: Burden::More,
+        payload_dependence: PayloadDependence::Full,
         ..Facts::PLAIN
     };
 
@@ -136,7 +136,7 @@ impl Formula for TranslationCoriolis {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
-        burden: Burden::More,
+        payload_dependence: PayloadDependence::Full,
         ..Facts::PLAIN
     };
 

@@ -6,8 +6,8 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::{Unknowns, Unspun};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::{EliminatedTip, Unknowns};
 use crate::equations::matrix::zeros;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -27,7 +27,7 @@ pub(super) struct Acceleration;
 /// q̈ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns) -> Vec<S> {
     let motion = at.motion;
-    if let Some(unspun) = Unspun::new(&at.composite, &motion.moves) {
+    if let Some(unspun) = EliminatedTip::new(&at.composite, &motion.moves) {
         let given = [motion.qd.as_slice(), &motion.tau];
         return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
@@ -55,7 +55,7 @@ impl Formula for Acceleration {
             travel: true,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
     };

@@ -10,7 +10,7 @@ use super::forward_dynamics::accelerations;
 use super::function::Definition;
 use super::inertia_inverse::{InertiaInverse, inverse};
 use super::quantity::{Choices, Facts, Index};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::forward::{against, free};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -96,7 +96,7 @@ impl Formula for AccelerationByPosition {
         },
         given: Some("dqdd_dq"),
         choices: CHOICES,
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
     };

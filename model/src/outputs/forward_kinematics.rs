@@ -34,7 +34,7 @@ impl Formula for Pose {
             _ => "1",
         },
         given: Some("pose"),
-        feels_base: true,
+        depends_on_base: true,
         ..Facts::PLAIN
     };
 

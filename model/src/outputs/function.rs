@@ -3,7 +3,9 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Argument, Axis, Burden, Function, Motion, Quantity, RuntimeParameter, Sizes, Written};
+use super::{
+    Argument, Axis, Function, Motion, PayloadDependence, Quantity, RuntimeParameter, Sizes, Written,
+};
 use crate::equations::chain::Form;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
@@ -69,19 +71,23 @@ impl Function {
     }
 
     /// What it has to do with a payload: as much as any of its results.
-    pub fn burden(self) -> Burden {
-        let has = |burden| self.quantities().iter().any(|q| q.burden() == burden);
-        match (has(Burden::More), has(Burden::Load)) {
-            (true, _) => Burden::More,
-            (false, true) => Burden::Load,
-            (false, false) => Burden::None,
+    pub fn payload_dependence(self) -> PayloadDependence {
+        let has = |payload_dependence| {
+            self.quantities()
+                .iter()
+                .any(|q| q.payload_dependence() == payload_dependence)
+        };
+        match (has(PayloadDependence::Full), has(PayloadDependence::Torque)) {
+            (true, _) => PayloadDependence::Full,
+            (false, true) => PayloadDependence::Torque,
+            (false, false) => PayloadDependence::None,
         }
     }
 
     /// Whether it depends on a parameter that can be an argument.
-    pub fn feels(self, parameter: RuntimeParameter) -> bool {
+    pub fn depends_on(self, parameter: RuntimeParameter) -> bool {
         match parameter {
-            RuntimeParameter::Payload => self.burden() == Burden::Load,
+            RuntimeParameter::Payload => self.payload_dependence() == PayloadDependence::Torque,
             RuntimeParameter::Gravity => self.quantities().iter().any(|q| q.feels_gravity()),
         }
     }

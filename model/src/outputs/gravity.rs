@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
-use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -37,7 +37,7 @@ impl Formula for Gravity {
             travel: true,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
     };

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
-use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -38,7 +38,7 @@ impl Formula for Inertia {
             flows: false,
         }),
         definite: true,
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 

@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Unspun;
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::EliminatedTip;
 use crate::equations::forward::{free, inverted};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -26,7 +26,7 @@ pub(super) struct InertiaInverse;
 /// D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
-    match Unspun::new(&at.composite, moves) {
+    match EliminatedTip::new(&at.composite, moves) {
         Some(unspun) => unspun.inertia_inverse(moves, travel),
         None => inverted(&at.composite.inertia(travel), moves),
     }
@@ -51,7 +51,7 @@ impl Formula for InertiaInverse {
             travel: true,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
-use super::{Argument, Burden, ErrorScale, Quantity, Regrouped, Shape, Written};
+use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{plus, times, zero_vector};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::{Divide, Scalar};
@@ -62,7 +62,7 @@ impl Formula for Torque {
             flows: false,
         }),
         starts_from_recursion: true,
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
     };

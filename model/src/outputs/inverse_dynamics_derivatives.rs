@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -48,7 +48,7 @@ impl Formula for TorqueByPosition {
             travel: true,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
     };
@@ -99,7 +99,7 @@ impl Formula for TorqueByVelocity {
             travel: true,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 

@@ -35,7 +35,7 @@ impl Formula for Jacobian {
             _ => "1",
         },
         given: Some("jacobian"),
-        feels_base: true,
+        depends_on_base: true,
         ..Facts::PLAIN
     };
 

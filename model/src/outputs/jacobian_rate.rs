@@ -34,7 +34,7 @@ impl Formula for JacobianRate {
             _ => "1/s²",
         },
         given: Some("jacobian_rate_qd"),
-        feels_base: true,
+        depends_on_base: true,
         ..Facts::PLAIN
     };
 

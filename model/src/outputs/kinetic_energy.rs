@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::matrix::{halved, times, total};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
@@ -39,7 +39,7 @@ impl Formula for KineticEnergy {
             travel: true,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 

@@ -35,7 +35,7 @@ impl Formula for LinkPoses {
             [.., Index::Fixed(3)] => "m",
             _ => "1",
         },
-        feels_base: true,
+        depends_on_base: true,
         ..Facts::PLAIN
     };
 

@@ -56,7 +56,7 @@ pub use bundle::{Bundle, BundleError};
 pub use formula::{Motion, Regrouped, Written};
 pub use function::Columns;
 pub use quantity::{ErrorScale, Index};
-pub use runtime::{Burden, RuntimeParameter};
+pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};
 
 registry! {

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load, turns};
-use super::{Argument, Burden, Quantity, Regrouped, Shape, Written};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -39,7 +39,7 @@ impl Formula for Momentum {
             travel: false,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 
@@ -77,7 +77,7 @@ impl Formula for MomentumSlope {
             travel: false,
             flows: false,
         }),
-        burden: Burden::Load,
+        payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 

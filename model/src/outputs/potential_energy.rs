@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, Burden, Quantity, Shape, Written};
+use super::{Argument, PayloadDependence, Quantity, Shape, Written};
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
@@ -32,8 +32,8 @@ impl Formula for PotentialEnergy {
         shape: Shape::SCALAR,
         unit: |_| "J",
         given: Some("potential"),
-        feels_base: true,
-        burden: Burden::More,
+        depends_on_base: true,
+        payload_dependence: PayloadDependence::Full,
         gravity: true,
         ..Facts::PLAIN
     };

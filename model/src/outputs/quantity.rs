@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Argument, Axis, Burden, Quantity, Shape, Sizes};
+use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
@@ -48,9 +48,9 @@ pub(super) struct Facts {
     pub definite: bool,
     /// Whether it depends on lengths that no torque depends on: where the
     /// first joints stand.
-    pub feels_base: bool,
+    pub depends_on_base: bool,
     /// What it has to do with a payload.
-    pub burden: Burden,
+    pub payload_dependence: PayloadDependence,
     /// Whether it depends on gravity.
     pub gravity: bool,
 }
@@ -73,8 +73,8 @@ impl Facts {
         starts_from_recursion: false,
         by_differences: false,
         definite: false,
-        feels_base: false,
-        burden: Burden::None,
+        depends_on_base: false,
+        payload_dependence: PayloadDependence::None,
         gravity: false,
     };
 }
@@ -196,13 +196,13 @@ impl Quantity {
     }
 
     /// Whether it depends on where the first joints stand.
-    pub fn feels_base(self) -> bool {
-        self.facts().feels_base
+    pub fn depends_on_base(self) -> bool {
+        self.facts().depends_on_base
     }
 
     /// What it has to do with a payload.
-    pub fn burden(self) -> Burden {
-        self.facts().burden
+    pub fn payload_dependence(self) -> PayloadDependence {
+        self.facts().payload_dependence
     }
 
     /// Whether it depends on gravity.

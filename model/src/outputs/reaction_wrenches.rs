@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, Axis, Burden, Index, Quantity, Shape, Written};
+use super::{Argument, Axis, Index, PayloadDependence, Quantity, Shape, Written};
 use crate::equations::newton_euler::Wrench as ForceAndMoment;
 use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
@@ -39,8 +39,8 @@ impl Formula for Wrench {
             _ => "N·m",
         },
         given: Some("wrench"),
-        feels_base: true,
-        burden: Burden::More,
+        depends_on_base: true,
+        payload_dependence: PayloadDependence::Full,
         gravity: true,
         ..Facts::PLAIN
     };

@@ -36,11 +36,11 @@ impl RuntimeParameter {
 
 /// What a payload has to do with a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Burden {
+pub enum PayloadDependence {
     /// Nothing.
     None,
     /// It depends on what joints feel of a payload.
-    Load,
+    Torque,
     /// It depends on more of a payload than what joints feel.
-    More,
+    Full,
 }

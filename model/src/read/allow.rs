@@ -7,12 +7,12 @@ use toml_span::Value;
 use super::report::quote;
 use super::suggest;
 use super::value::Context;
-use crate::robot::Doubt;
+use crate::robot::RobotWarning;
 
 /// Reads the list and keeps its warnings from being said. A name that there is
 /// not is an error: it silences nothing, and whoever wrote it thinks it does.
 pub(super) fn read(cx: &mut Context, value: &Value) {
-    let names = Doubt::WORDS.map(|(name, _)| name);
+    let names = RobotWarning::WORDS.map(|(name, _)| name);
     let Some(items) = value.as_array() else {
         let help = format!("allow = [\"{}\"]", names[0]);
         cx.wanted(value, "an array of the names of warnings", &help);
@@ -22,9 +22,9 @@ pub(super) fn read(cx: &mut Context, value: &Value) {
         let Some(text) = cx.string(item) else {
             continue;
         };
-        let mut words = Doubt::WORDS.iter();
-        if let Some((_, doubt)) = words.find(|(name, _)| *name == text) {
-            cx.sink.allow(*doubt);
+        let mut words = RobotWarning::WORDS.iter();
+        if let Some((_, warning)) = words.find(|(name, _)| *name == text) {
+            cx.sink.allow(*warning);
             continue;
         }
         let message = format!("there is no warning {}", quote(&text));

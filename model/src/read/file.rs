@@ -60,7 +60,7 @@ pub(super) fn read<'s>(
         }
         let span = places.span(finding.place).unwrap_or(0..0);
         let help = finding.help.unwrap_or_default();
-        cx.sink.found(finding.doubt, span, finding.message, &help);
+        cx.sink.found(finding.warning, span, finding.message, &help);
     }
     let scenes = root.as_table().and_then(|table| table.get("scene"));
     // Without joints, every joint of a scene would be unknown as well.

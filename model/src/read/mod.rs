@@ -21,7 +21,7 @@
 //! axis = [0, 0, 1]
 //! ```
 //!
-//! What is odd and not wrong is a warning, each with a name ([`Doubt`]) in its help.
+//! What is odd and not wrong is a warning, each with a name ([`RobotWarning`]) in its help.
 //! Of those that the file allows nothing is said.
 //!
 //! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's
@@ -56,7 +56,7 @@ use crate::number::Snap;
 use crate::robot::Robot;
 use crate::scene::Scene;
 
-pub use crate::robot::{Doubt, Severity};
+pub use crate::robot::{RobotWarning, Severity};
 pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
 pub use suggest::{closest, for_bundle};

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use super::{Doubt, Reading, Severity};
+use super::{Reading, RobotWarning, Severity};
 use crate::robot::Robot;
 use crate::scene::Scene;
 
@@ -22,7 +22,7 @@ pub struct Diagnostic {
     /// Error, warning or note.
     pub severity: Severity,
     /// What a warning of a robot file is about; `None` of anything else.
-    pub doubt: Option<Doubt>,
+    pub warning: Option<RobotWarning>,
     /// What is wrong, and what was expected.
     pub message: String,
     /// Bytes of the source that it is about.
@@ -131,7 +131,7 @@ pub(super) struct Sink<'s> {
     source: &'s str,
     line_starts: Vec<usize>,
     found: Vec<Diagnostic>,
-    allowed: BTreeSet<Doubt>,
+    allowed: BTreeSet<RobotWarning>,
 }
 
 impl<'s> Sink<'s> {
@@ -149,8 +149,8 @@ impl<'s> Sink<'s> {
     }
 
     /// Nothing is said of this, wherever in the file it is.
-    pub(super) fn allow(&mut self, doubt: Doubt) {
-        self.allowed.insert(doubt);
+    pub(super) fn allow(&mut self, warning: RobotWarning) {
+        self.allowed.insert(warning);
     }
 
     pub(super) fn error(&mut self, span: Range<usize>, message: String, help: &str) {
@@ -164,25 +164,25 @@ impl<'s> Sink<'s> {
     /// Its help ends with the way to silence it.
     pub(super) fn warning(
         &mut self,
-        doubt: Doubt,
+        warning: RobotWarning,
         span: Range<usize>,
         message: String,
         help: &str,
     ) {
-        let help = format!("{help}; allow = [\"{doubt}\"] silences this");
-        self.push(Severity::Warning, Some(doubt), span, message, &help);
+        let help = format!("{help}; allow = [\"{warning}\"] silences this");
+        self.push(Severity::Warning, Some(warning), span, message, &help);
     }
 
-    /// A warning, or an error if there is no doubt.
+    /// A warning, or an error if there is no warning.
     pub(super) fn found(
         &mut self,
-        doubt: Option<Doubt>,
+        warning: Option<RobotWarning>,
         span: Range<usize>,
         message: String,
         help: &str,
     ) {
-        match doubt {
-            Some(doubt) => self.warning(doubt, span, message, help),
+        match warning {
+            Some(warning) => self.warning(warning, span, message, help),
             None => self.error(span, message, help),
         }
     }
@@ -190,7 +190,7 @@ impl<'s> Sink<'s> {
     fn push(
         &mut self,
         severity: Severity,
-        doubt: Option<Doubt>,
+        warning: Option<RobotWarning>,
         span: Range<usize>,
         message: String,
         help: &str,
@@ -198,7 +198,7 @@ impl<'s> Sink<'s> {
         let (line, column) = self.position(span.start);
         self.found.push(Diagnostic {
             severity,
-            doubt,
+            warning,
             message,
             span,
             line,
@@ -225,7 +225,7 @@ impl<'s> Sink<'s> {
     ) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
         let allowed = self.allowed;
-        let known = |found: &Diagnostic| found.doubt.is_some_and(|d| allowed.contains(&d));
+        let known = |found: &Diagnostic| found.warning.is_some_and(|d| allowed.contains(&d));
         self.found.retain(|found| !known(found));
         let (mut errors, notes): (Vec<_>, Vec<_>) = self
             .found

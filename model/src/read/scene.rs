@@ -82,7 +82,7 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, places: &Places, scenes: &Va
             };
             let span = span.unwrap_or_else(|| head.clone());
             let sink = &mut reader.cx.sink;
-            sink.found(finding.doubt, span, finding.message, &finding.help);
+            sink.found(finding.warning, span, finding.message, &finding.help);
         }
         read.push(scene);
     }

@@ -13,7 +13,7 @@ use toml_span::value::{Table, ValueInner};
 
 use super::report::{Sink, quote};
 use super::table::Keys;
-use super::{Doubt, foreign, suggest};
+use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
 use crate::robot::{Inertia, Placement};
@@ -185,8 +185,8 @@ impl<'s> Context<'s, '_> {
                 let message =
                     format!("{text} is {distance:.1e} from {multiple}; it stays as written");
                 let help = format!("write {} if you mean it", written(&multiple));
-                let doubt = Doubt::NearRightAngle;
-                self.sink.warning(doubt, span, message, &help);
+                let warning = RobotWarning::NearRightAngle;
+                self.sink.warning(warning, span, message, &help);
                 angle
             }
         }

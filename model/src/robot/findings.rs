@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Doubt, Place};
+use super::{Place, RobotWarning};
 
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -34,7 +34,7 @@ pub struct Finding {
     /// Error or warning.
     pub severity: Severity,
     /// What a warning is about; `None` of an error.
-    pub doubt: Option<Doubt>,
+    pub warning: Option<RobotWarning>,
     /// Which part of the robot.
     pub place: Place,
     /// What is wrong.
@@ -58,14 +58,20 @@ impl Findings {
         self.push(None, place, message, help);
     }
 
-    pub(super) fn warning(&mut self, doubt: Doubt, place: Place, message: String, help: &str) {
-        self.push(Some(doubt), place, message, help);
+    pub(super) fn warn(
+        &mut self,
+        warning: RobotWarning,
+        place: Place,
+        message: String,
+        help: &str,
+    ) {
+        self.push(Some(warning), place, message, help);
     }
 
-    fn push(&mut self, doubt: Option<Doubt>, place: Place, message: String, help: &str) {
+    fn push(&mut self, warning: Option<RobotWarning>, place: Place, message: String, help: &str) {
         self.0.push(Finding {
-            severity: doubt.map_or(Severity::Error, |_| Severity::Warning),
-            doubt,
+            severity: warning.map_or(Severity::Error, |_| Severity::Warning),
+            warning,
             place,
             message,
             help: (!help.is_empty()).then(|| help.to_owned()),

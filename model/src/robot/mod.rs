@@ -6,7 +6,7 @@
 //! - `placement`: where a frame is in another, [`Placement`]
 //! - `place`: names of the parts of a robot, for findings
 //! - `findings`: what is said of a robot, and how much it matters
-//! - `doubt`: the names of warnings, by which a file silences them ([`Doubt`])
+//! - `warning`: the names of warnings, by which a file silences them ([`RobotWarning`])
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
 //! - `reach`: how far an arm reaches, and inertias too large for that
 //! - `units`: sizes that were probably meant in another unit
@@ -15,7 +15,6 @@
 //! - `write`: the robot file that says the same ([`write`](write())), and its hash
 
 mod body;
-mod doubt;
 mod findings;
 mod place;
 mod placement;
@@ -23,6 +22,7 @@ pub(crate) mod reach;
 mod units;
 mod validate;
 pub mod values;
+mod warning;
 mod write;
 
 use alloc::format;
@@ -33,10 +33,10 @@ use num_traits::Zero;
 
 use crate::number::{Angle, Rational};
 
-pub use doubt::Doubt;
 pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
 pub use placement::Placement;
+pub use warning::RobotWarning;
 
 pub use validate::suggested_name;
 pub use write::write;

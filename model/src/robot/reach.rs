@@ -7,7 +7,7 @@ use num_traits::{Signed, Zero};
 
 use super::findings::Findings;
 use super::units::{shown, whole};
-use super::{Doubt, Field, Inertia, Joint, Place, Placement, Position, Robot};
+use super::{Field, Inertia, Joint, Place, Placement, Position, Robot, RobotWarning};
 use crate::number::{Rational, Rounded};
 
 /// A body whose mass is further from its centre than this many times the arm's reach
@@ -80,7 +80,7 @@ impl Findings {
     pub(super) fn doubtful_inertia(&mut self, index: usize, joint: &Joint, reach: &Rational) {
         if let Some((message, help)) = large_inertia(&joint.inertia, &joint.mass, reach) {
             let place = Place::Joint(index, Field::Inertia);
-            self.warning(Doubt::LargeInertia, place, message, &help);
+            self.warn(RobotWarning::LargeInertia, place, message, &help);
         }
     }
 }

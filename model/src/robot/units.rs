@@ -11,7 +11,7 @@ use alloc::string::{String, ToString};
 use num_traits::{Signed, Zero};
 
 use super::findings::Findings;
-use super::{Doubt, Field, Joint, JointKind, Place, Placement, Position};
+use super::{Field, Joint, JointKind, Place, Placement, Position, RobotWarning};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -42,9 +42,9 @@ fn thousandth(value: &Rational) -> String {
 }
 
 impl Findings {
-    fn doubt(&mut self, doubt: Doubt, place: Place, message: String, help: &str) {
+    fn warning(&mut self, warning: RobotWarning, place: Place, message: String, help: &str) {
         let help = format!("{help}; it is taken as it stands");
-        self.warning(doubt, place, message, &help);
+        self.warn(warning, place, message, &help);
     }
 
     pub(super) fn doubtful_gravity(&mut self, gravity: &[Rational; 3]) {
@@ -64,8 +64,8 @@ impl Findings {
         ];
         let meant = units.iter().find(|(unit, _)| near(*unit));
         let meant = meant.map_or("gravity is in m/s²", |(_, meant)| *meant);
-        self.doubt(
-            Doubt::UnusualGravity,
+        self.warning(
+            RobotWarning::UnusualGravity,
             Place::Gravity,
             format!("the acceleration of gravity is {size:.4} m/s², far from the Earth's 9.81"),
             &format!("{meant}: on the Earth it is [0, 0, -9.81] if z points up"),
@@ -97,8 +97,8 @@ impl Findings {
         }
         if joint.mass >= whole(MAX_MASS) {
             let mass = &joint.mass;
-            self.doubt(
-                Doubt::LargeMass,
+            self.warning(
+                RobotWarning::LargeMass,
                 at(Field::Mass),
                 format!("the link's mass is {} kg: a tonne or more", shown(mass)),
                 &format!("masses are in kg: of grams, write {}", thousandth(mass)),
@@ -121,8 +121,8 @@ impl Findings {
             JointKind::Revolute => "rad/s",
             JointKind::Prismatic => "m/s",
         };
-        self.doubt(
-            Doubt::LargeWidth,
+        self.warning(
+            RobotWarning::LargeWidth,
             Place::Joint(index, Field::CoulombWidth),
             format!(
                 "the sign of Coulomb friction is smoothed over {} {unit}, and the joint reaches {}",
@@ -138,8 +138,8 @@ impl Findings {
         for position in joint.limits.position.iter().flatten() {
             match position {
                 Position::Angle(Angle::Radians(value)) if value.abs() > whole(MAX_POSITION) => {
-                    self.doubt(
-                        Doubt::LargeLimit,
+                    self.warning(
+                        RobotWarning::LargeLimit,
                         at(Field::Position),
                         format!("a limit of {} rad is more than five turns", shown(value)),
                         &format!(
@@ -177,7 +177,12 @@ impl Findings {
             }
         };
         let message = format!("a joint that reaches {} {unit} is fast", shown(velocity));
-        self.doubt(Doubt::LargeVelocity, at(Field::Velocity), message, &help);
+        self.warning(
+            RobotWarning::LargeVelocity,
+            at(Field::Velocity),
+            message,
+            &help,
+        );
     }
 
     fn doubtful_angle(&mut self, place: Place, what: &str, angle: &Angle) {
@@ -187,8 +192,8 @@ impl Findings {
         };
         let size = Angle::Radians(value.abs());
         if size.cmp_value(&Angle::right_angles(4)).is_gt() {
-            self.doubt(
-                Doubt::LargeAngle,
+            self.warning(
+                RobotWarning::LargeAngle,
                 place,
                 format!("{what} is {} rad: more than a turn", shown(value)),
                 &format!(
@@ -201,8 +206,8 @@ impl Findings {
 
     fn doubtful_length(&mut self, place: Place, what: &str, length: &Rational) {
         if length.abs() > whole(MAX_LENGTH) {
-            self.doubt(
-                Doubt::LargeLength,
+            self.warning(
+                RobotWarning::LargeLength,
                 place,
                 format!(
                     "{} is {} m: longer than {MAX_LENGTH} m",

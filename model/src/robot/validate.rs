@@ -15,7 +15,8 @@ use num_traits::{Signed, Zero};
 use super::body::Defect;
 use super::findings::{Finding, Findings};
 use super::{
-    Convention, Doubt, Field, Joint, JointKind, Place, Placement, Position, Robot, reach, units,
+    Convention, Field, Joint, JointKind, Place, Placement, Position, Robot, RobotWarning, reach,
+    units,
 };
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
@@ -285,7 +286,7 @@ impl Findings {
         // A missing mass that leaves the tensor a possible one is usual in
         // published tables, and so is a broken one: either way only a warning.
         let message = defect.message().to_owned();
-        self.warning(Doubt::ImpossibleInertia, place, message, help);
+        self.warn(RobotWarning::ImpossibleInertia, place, message, help);
     }
 }
 

@@ -19,7 +19,7 @@ use num_traits::Signed;
 use super::Scene;
 use crate::number::Rational;
 use crate::number::parse::write_decimal;
-use crate::robot::{Doubt, Field, Joint, JointKind, Position, Robot, Severity, reach};
+use crate::robot::{Field, Joint, JointKind, Position, Robot, RobotWarning, Severity, reach};
 
 /// A part of a scene, so that a reader can say on which line it is. Indices
 /// are places in the scene's lists, zero-based.
@@ -50,7 +50,7 @@ pub struct SceneFinding {
     /// Error or warning.
     pub severity: Severity,
     /// What a warning is about; `None` of an error.
-    pub doubt: Option<Doubt>,
+    pub warning: Option<RobotWarning>,
     /// Which part.
     pub part: Part,
     /// What is wrong.
@@ -99,14 +99,14 @@ impl<'a> Check<'a> {
         self.push(None, part, message, help);
     }
 
-    fn warn(&mut self, doubt: Doubt, part: Part, message: String, help: &str) {
-        self.push(Some(doubt), part, message, help);
+    fn warn(&mut self, warning: RobotWarning, part: Part, message: String, help: &str) {
+        self.push(Some(warning), part, message, help);
     }
 
-    fn push(&mut self, doubt: Option<Doubt>, part: Part, message: String, help: &str) {
+    fn push(&mut self, warning: Option<RobotWarning>, part: Part, message: String, help: &str) {
         self.found.push(SceneFinding {
-            severity: doubt.map_or(Severity::Error, |_| Severity::Warning),
-            doubt,
+            severity: warning.map_or(Severity::Error, |_| Severity::Warning),
+            warning,
             part,
             message,
             help: help.to_owned(),
@@ -227,7 +227,7 @@ impl<'a> Check<'a> {
         let odd = reach::large_inertia(&payload.inertia, &payload.mass, &reach);
         if let Some((message, help)) = odd {
             let part = Part::Payload(Field::Inertia);
-            self.warn(Doubt::LargeInertia, part, message, &help);
+            self.warn(RobotWarning::LargeInertia, part, message, &help);
         }
     }
 }

@@ -21,7 +21,7 @@ use crate::program::fused::underflows;
 use crate::program::scalar_type::underflow;
 use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Speed, Step};
 use crate::sincos::AngleKernel;
-use crate::sincos::called::Called;
+use crate::sincos::library_error::Called;
 use crate::sincos::proof::Errors;
 
 /// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,

@@ -5,7 +5,7 @@
 //! products and η = 0 for sums; literals are constants rounded once; `sin`
 //! and `cos` are libm's within one ulp, which is at most u·2 relative and u
 //! absolute, or within the errors that are proved of `dalembert-sines`
-//! ([`called`](crate::sincos::called)) or of polynomials; nothing is contracted
+//! ([`library_error`](crate::sincos::library_error)) or of polynomials; nothing is contracted
 //! to a fused multiply-add but what the program fuses: there the product has
 //! neither δ nor η, and the sum that takes it an η as products have.
 //!

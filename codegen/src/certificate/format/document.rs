@@ -13,7 +13,7 @@ use crate::function::{Argument, Function};
 use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType};
 use crate::scene::SceneKey;
-use crate::split::Split;
+use crate::split::ErrorByCause;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
@@ -79,7 +79,7 @@ impl Document {
             limits, emitted, ..
         } = certificate;
         let ends = |ranges: &[Interval]| ranges.iter().map(|x| [x.low(), x.high()]).collect();
-        let part = |part: fn(&Split) -> f64| {
+        let part = |part: fn(&ErrorByCause) -> f64| {
             let bounds = certificate.bounds.iter();
             bounds.map(|bound| Number(part(bound))).collect()
         };
@@ -211,13 +211,13 @@ impl Document {
         })
     }
 
-    fn bounds(&self) -> Result<Vec<Split>, FormatFault> {
+    fn bounds(&self) -> Result<Vec<ErrorByCause>, FormatFault> {
         let (model, sincos, rounding) = (&self.model, &self.sincos, &self.rounding);
         if model.len() != sincos.len() || model.len() != rounding.len() {
             return Err(FormatFault::Bounds);
         }
         let parts = model.iter().zip(sincos).zip(rounding);
-        let bounds = parts.map(|((model, sincos), rounding)| Split {
+        let bounds = parts.map(|((model, sincos), rounding)| ErrorByCause {
             model: model.0,
             sincos: sincos.0,
             rounding: rounding.0,

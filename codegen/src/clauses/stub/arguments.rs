@@ -11,7 +11,9 @@ use crate::program::ScalarType;
 /// The arguments of a function that takes these parameters.
 pub(super) fn of(function: Function, taken: &[RuntimeParameter]) -> Vec<Argument> {
     let mut arguments = function.arguments();
-    let taken = taken.iter().filter(|&&parameter| function.feels(parameter));
+    let taken = taken
+        .iter()
+        .filter(|&&parameter| function.depends_on(parameter));
     arguments.extend(taken.map(|parameter| parameter.argument()));
     arguments.sort();
     arguments

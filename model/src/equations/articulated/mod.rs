@@ -67,9 +67,9 @@ pub fn forward_dynamics<S: Divide>(
         let (whole, whole_bias) = (body.plus(&own), add(&bias, &own_bias));
         let (whole, whole_bias) = step.at_joint(whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
-        let pivot = plus(&step.feels(&push), &link.armature);
+        let pivot = plus(&step.depends_on(&push), &link.armature);
         let damped = minus(&tau[i], &link.friction.torque(&qd[i]));
-        let left = minus(&damped, &step.feels(&whole_bias));
+        let left = minus(&damped, &step.depends_on(&whole_bias));
         let inverse = match moves[i] {
             true => over(&S::one(), &pivot),
             false => S::zero(),

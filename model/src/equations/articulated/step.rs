@@ -44,8 +44,8 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// The part of a wrench in the joint's frame that the joint feels.
-    pub(super) fn feels(&self, wrench: &Wrench<S>) -> S {
+    /// The part of a wrench in the joint's frame that the joint depends_on.
+    pub(super) fn depends_on(&self, wrench: &Wrench<S>) -> S {
         match self.link.kind {
             JointKind::Revolute => wrench.moment[2].clone(),
             JointKind::Prismatic => wrench.force[2].clone(),

@@ -48,7 +48,7 @@ pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
-pub use spin::Unspun;
+pub use spin::EliminatedTip;
 
 use super::SinCosPair;
 use super::friction::Friction;

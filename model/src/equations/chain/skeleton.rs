@@ -2,7 +2,7 @@
 //!
 //! A locked joint is a constant step like any other. It contributes a
 //! rotation and an offset, its body joins the link before it (or the base,
-//! which feels nothing), and regrouping works through it.
+//! which depends_on nothing), and regrouping works through it.
 
 use alloc::vec::Vec;
 
@@ -101,7 +101,7 @@ impl<S: Scalar> Skeleton<S> {
                 turned = product(&turned, &rest);
                 if let Some(carrier) = links.last_mut() {
                     carrier.body = carrier.body.with(&body.carried(&turned, &moved));
-                    // A drive that is locked feels nothing.
+                    // A drive that is locked depends_on nothing.
                     let own = probes(columns, joint, &turned, &moved);
                     carrier.probes.extend(own.filter(Probe::is_body));
                 }

@@ -36,7 +36,7 @@ use crate::scalar::{Divide, Scalar};
 
 /// A chain without its last joint, which turns about a principal axis of its link.
 #[derive(Clone, Debug)]
-pub struct Unspun<'a, S> {
+pub struct EliminatedTip<'a, S> {
     whole: &'a Composite<'a, S>,
     /// The joints before; the last link is fixed to theirs.
     chain: Chain<S>,
@@ -52,7 +52,7 @@ pub struct Unspun<'a, S> {
     rest: S,
 }
 
-impl<'a, S: Divide> Unspun<'a, S> {
+impl<'a, S: Divide> EliminatedTip<'a, S> {
     /// Of a chain at its position, if its last joint moves, is not the only one and
     /// turns about a principal axis. J + A is the last joint's entry of D, a constant
     /// that is above zero where D has an inverse.
@@ -89,7 +89,7 @@ impl<'a, S: Divide> Unspun<'a, S> {
             let fixed = body.carried(&link.rotation, &link.offset);
             last.body = last.body.with(&fixed);
         }
-        Some(Unspun {
+        Some(EliminatedTip {
             whole,
             chain,
             link: body,

@@ -10,7 +10,7 @@ use core::cmp::Ordering;
 use num_traits::Signed;
 
 use super::{Check, Part, compare, decimal, of_kind, shown};
-use crate::robot::{Doubt, Field, Position};
+use crate::robot::{Field, Position, RobotWarning};
 
 /// What to do about a box beyond the limits.
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
@@ -76,7 +76,7 @@ impl Check<'_> {
             let message = format!(
                 "the box of scene `{scene}` goes beyond the limits of joint {name}, {limits}"
             );
-            self.warn(Doubt::BoxBeyondLimits, part, message, BEYOND);
+            self.warn(RobotWarning::BoxBeyondLimits, part, message, BEYOND);
         }
     }
 
@@ -107,7 +107,7 @@ impl Check<'_> {
                 let message = format!(
                     "the box of scene `{scene}` goes beyond the {what} limit of joint {name}, {limit}"
                 );
-                self.warn(Doubt::BoxBeyondLimits, part, message, BEYOND);
+                self.warn(RobotWarning::BoxBeyondLimits, part, message, BEYOND);
             }
         }
     }

@@ -9,7 +9,7 @@ use num_traits::{One, Signed, Zero};
 use super::{Check, Part};
 use crate::number::Rational;
 use crate::outputs::{Argument, ErrorScale, Function};
-use crate::robot::{Doubt, Field, JointKind};
+use crate::robot::{Field, JointKind, RobotWarning};
 use crate::scene::Scale;
 
 impl Check<'_> {
@@ -38,7 +38,12 @@ impl Check<'_> {
             let message =
                 "a tolerance of 1 or more allows an error as large as the output".to_owned();
             let help = "it is a part of what it is relative to: 0.01 for 1%";
-            self.warn(Doubt::LooseTolerance, Part::Tolerance(index), message, help);
+            self.warn(
+                RobotWarning::LooseTolerance,
+                Part::Tolerance(index),
+                message,
+                help,
+            );
         }
         self.needs(tolerance.relative_to);
     }

@@ -5,7 +5,7 @@ use core::fmt;
 /// What a warning is about. A robot file that knows better says so by the name,
 /// `allow = ["large_mass"]`, and hears no more of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Doubt {
+pub enum RobotWarning {
     /// No body has this inertia.
     ImpossibleInertia,
     /// Gravity is not that of the Earth, nor of the other planets.
@@ -32,32 +32,32 @@ pub enum Doubt {
     LooseTolerance,
 }
 
-impl Doubt {
+impl RobotWarning {
     /// All of them with their names in robot files.
-    pub const WORDS: [(&'static str, Doubt); 12] = [
-        ("impossible_inertia", Doubt::ImpossibleInertia),
-        ("unusual_gravity", Doubt::UnusualGravity),
-        ("large_length", Doubt::LargeLength),
-        ("large_mass", Doubt::LargeMass),
-        ("large_inertia", Doubt::LargeInertia),
-        ("large_angle", Doubt::LargeAngle),
-        ("large_limit", Doubt::LargeLimit),
-        ("large_velocity", Doubt::LargeVelocity),
-        ("large_width", Doubt::LargeWidth),
-        ("near_right_angle", Doubt::NearRightAngle),
-        ("box_beyond_limits", Doubt::BoxBeyondLimits),
-        ("loose_tolerance", Doubt::LooseTolerance),
+    pub const WORDS: [(&'static str, RobotWarning); 12] = [
+        ("impossible_inertia", RobotWarning::ImpossibleInertia),
+        ("unusual_gravity", RobotWarning::UnusualGravity),
+        ("large_length", RobotWarning::LargeLength),
+        ("large_mass", RobotWarning::LargeMass),
+        ("large_inertia", RobotWarning::LargeInertia),
+        ("large_angle", RobotWarning::LargeAngle),
+        ("large_limit", RobotWarning::LargeLimit),
+        ("large_velocity", RobotWarning::LargeVelocity),
+        ("large_width", RobotWarning::LargeWidth),
+        ("near_right_angle", RobotWarning::NearRightAngle),
+        ("box_beyond_limits", RobotWarning::BoxBeyondLimits),
+        ("loose_tolerance", RobotWarning::LooseTolerance),
     ];
 
     /// The name in robot files.
     pub fn name(self) -> &'static str {
-        let mut words = Doubt::WORDS.iter();
-        let found = words.find(|(_, doubt)| *doubt == self);
+        let mut words = RobotWarning::WORDS.iter();
+        let found = words.find(|(_, warning)| *warning == self);
         found.map_or("", |(name, _)| name)
     }
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for RobotWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
