@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::ArgGroup;
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::processor::target::Target;
 

@@ -7,11 +7,11 @@
 use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::clauses::words::bundle;
 use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::Prefer;
+use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::simplify::Effort;

@@ -10,10 +10,10 @@ use super::friction;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{Interface, arguments, fused, interface, parameters, sines, variant};
-use crate::backend::entries::angles::Angles;
-use crate::backend::entries::{self, Around};
-use crate::backend::{Entries, Printed, function, result};
 use crate::emit::GeneratedFunction;
+use crate::language::entries::angles::Angles;
+use crate::language::entries::{self, Around};
+use crate::language::{Entries, Printed, function, result};
 use crate::program::{Lowered, ScalarType};
 use crate::scene::SceneRobot;
 

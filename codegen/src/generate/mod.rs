@@ -28,13 +28,15 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 pub use crate::approximate::error::{ToleranceError, Unbounded};
-use crate::backend::entries::angles::Angles;
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::{Columns, Function};
+use crate::language::Printed;
+use crate::language::entries::Around;
+use crate::language::entries::angles::Angles;
 use crate::parallel;
 use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
@@ -350,16 +352,14 @@ fn read_back(
     let scalar = code.scalar;
     let fail = |why| GenerateError::Text(generated.function, scalar, why);
     let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
-    let (function, entries) = (generated.function, request.entries);
-    let read = Lowered::parse_entries(
-        section,
-        function,
-        scalar,
-        entries,
+    let printed = Printed::of(&generated.program, code);
+    let around = Around {
+        path: &request.math.path,
+        batch: &request.batch,
         angles,
-        generated.program.sizes(),
-    )
-    .map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
+    };
+    let read = Lowered::parse_entries(section, &printed, request.entries, &around)
+        .map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(TextDefect::Differs(difference)));
     }

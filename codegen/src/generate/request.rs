@@ -4,9 +4,9 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use crate::backend::{Entries, MathPath};
 use crate::emit::{Interface, Layout};
 use crate::function::Function;
+use crate::language::{Entries, MathPath};
 use crate::plan::Plan;
 use crate::portfolio::{Start, load};
 use crate::program::shallow::Cycles;

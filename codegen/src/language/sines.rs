@@ -10,7 +10,7 @@
 
 use std::fmt::Write;
 
-use crate::backend::scope::Scope;
+use crate::language::scope::Scope;
 use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, Term, Value};
 

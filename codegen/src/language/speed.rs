@@ -7,19 +7,19 @@
 
 use std::fmt::Write;
 
+use crate::language::dialect::Dialect;
 use crate::program::text::input_name;
-use crate::program::{Input, Lowered};
+use crate::program::{Input, Literal, Lowered};
 
 /// Prints those that are read. Roots are correctly rounded, whoever computes them.
-pub(super) fn write(text: &mut String, code: &Lowered, path: &str) {
-    let (scalar, suffix) = (code.scalar, code.scalar.math_suffix());
+pub(super) fn write(text: &mut String, dialect: Dialect, code: &Lowered, path: &str) {
+    let one = dialect.literal(Literal(1.0));
     for own in &code.speeds {
         let (name, joint) = (input_name(Input::PerSpeed(own.joint)), own.joint);
-        let square = own.square.text(scalar);
+        let square = dialect.literal(own.square);
+        let sum = format!("qd[{joint}] * qd[{joint}] + {square}");
+        let value = format!("{one} / {}", dialect.call(path, "sqrt", &sum));
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "    let {name} = 1.0 / {path}::sqrt{suffix}(qd[{joint}] * qd[{joint}] + {square});"
-        );
+        let _ = writeln!(text, "    {}", dialect.declare(&name, &value));
     }
 }

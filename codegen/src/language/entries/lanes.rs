@@ -21,8 +21,8 @@
 use std::fmt::Write;
 
 use super::{Around, places};
-use crate::backend::scope::Scope;
-use crate::backend::{Printed, result, trig};
+use crate::language::scope::Scope;
+use crate::language::{Printed, result, trig};
 use crate::program::LoweredTrig;
 
 /// Prints it, after the struct that it returns, if it does.

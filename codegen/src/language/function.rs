@@ -7,10 +7,10 @@
 
 use std::fmt::Write;
 
-use crate::backend::result::{self, array_type};
-use crate::backend::statement::{last_uses, operand, statement};
-use crate::backend::{Printed, parts, speed, trig};
 use crate::function::{Argument, Function, Sizes};
+use crate::language::dialect::Dialect;
+use crate::language::result::{self, array_type};
+use crate::language::{Printed, parts, speed, trig};
 use crate::program::fused::pieces;
 use crate::program::{Literal, Lowered, Operand, Output, ScalarType};
 
@@ -46,7 +46,7 @@ pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
 /// What follows the sines: what is read of speeds, the arithmetic and the result.
 pub(super) fn write_body(text: &mut String, printed: &Printed<'_>, path: &str) {
     let code = printed.code;
-    speed::write(text, code, path);
+    speed::write(text, Dialect::rust(code.scalar), code, path);
     write_steps(text, printed);
     let (function, sizes) = (printed.function, printed.sizes);
     let items = code.outputs.iter().map(|o| result_item(o, code.scalar));
@@ -63,9 +63,10 @@ pub(super) fn write_doc(text: &mut String, doc: &[String]) {
 
 fn write_steps(text: &mut String, printed: &Printed<'_>) {
     let code = printed.code;
+    let dialect = Dialect::rust(code.scalar);
     if code.steps.len() <= FLAT {
         for index in 0..code.steps.len() {
-            if let Some(line) = statement(code, index) {
+            if let Some(line) = dialect.statement(code, index) {
                 push(text, format_args!("    {line}"));
             }
         }
@@ -84,7 +85,7 @@ fn write_steps(text: &mut String, printed: &Printed<'_>) {
             let _ = write!(live, "t{}, ", step + 1);
         }
         push(text, format_args!("    let ({}) = {{", live.trim_end()));
-        for line in block.filter_map(|index| statement(code, index)) {
+        for line in block.filter_map(|index| dialect.statement(code, index)) {
             push(text, format_args!("        {line}"));
         }
         push(text, format_args!("        ({})", live.trim_end()));
@@ -148,11 +149,29 @@ fn reads(code: &Lowered, argument: Argument) -> bool {
 
 fn result_item(output: &Output<Literal>, scalar: ScalarType) -> String {
     let sign = if output.negative { "-" } else { "" };
-    format!("{sign}{}", operand(&output.value, scalar))
+    format!("{sign}{}", Dialect::rust(scalar).operand(&output.value))
 }
 
 /// A line. Writing to a string cannot fail.
 fn push(text: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(line);
     text.push('\n');
+}
+
+/// The last step that reads each step; past the end for results.
+pub(super) fn last_uses(code: &Lowered) -> Vec<usize> {
+    let mut last = vec![0; code.steps.len()];
+    for (index, step) in code.steps.iter().enumerate() {
+        for operand in [&step.left, &step.right] {
+            if let Operand::Step(read) = operand {
+                last[*read] = index;
+            }
+        }
+    }
+    for output in &code.outputs {
+        if let Operand::Step(read) = output.value {
+            last[read] = usize::MAX;
+        }
+    }
+    last
 }

@@ -10,8 +10,9 @@
 
 use std::fmt::Write;
 
-use crate::backend::scope::Scope;
-use crate::backend::sines;
+use crate::language::dialect::Dialect;
+use crate::language::scope::Scope;
+use crate::language::sines;
 use crate::program::{Library, Lowered, LoweredTrig};
 
 /// Prints them; `path` is where those are that are called.
@@ -53,14 +54,11 @@ pub(super) fn alone(
         (false, true) => "cos",
         _ => "sincos",
     };
-    let suffix = code.scalar.math_suffix();
     let Scope {
         indent, binding, ..
     } = scope;
-    let _ = writeln!(
-        text,
-        "{indent}{binding}{pair} = {path}::{call}{suffix}({angle});"
-    );
+    let value = Dialect::rust(code.scalar).call(path, call, &angle);
+    let _ = writeln!(text, "{indent}{binding}{pair} = {value};");
 }
 
 /// One call for all of them; what is not needed gets no name. In lanes, names

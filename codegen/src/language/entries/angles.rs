@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::backend::scope::Scope;
+use crate::language::scope::Scope;
 use crate::program::{AngleSum, LoweredTrig, Program, ScalarType};
 use crate::sincos::angle_name;
 

@@ -1,8 +1,8 @@
-//! Programs as flat Rust, printed and read back.
+//! Programs as flat text of a language, printed and read back.
 //!
+//! - [`dialect`]: how a language writes a line, one table for printing and reading
 //! - [`function`]: one program as one function
 //! - [`entries`]: more ways to call it, which share its arithmetic
-//! - `statement`: one operation as one line
 //! - [`result`]: the array or the struct that it ends with
 //! - `scope`: what a line calls values, in a state or in a lane
 //! - `trig`: sines and cosines that are called
@@ -11,6 +11,7 @@
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`read`]: the printed text, and whether it is the program
 
+pub(crate) mod dialect;
 pub(crate) mod entries;
 pub(crate) mod function;
 pub(crate) mod parts;
@@ -19,7 +20,6 @@ pub(crate) mod result;
 mod scope;
 mod sines;
 mod speed;
-mod statement;
 mod trig;
 
 use crate::function::{Argument, Function, Sizes};

@@ -10,7 +10,7 @@
 use std::fmt::Write;
 
 use super::{Around, arguments};
-use crate::backend::{Printed, function, trig};
+use crate::language::{Printed, function, trig};
 
 /// Prints it.
 pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, doc: &[String]) {

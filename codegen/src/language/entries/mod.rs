@@ -16,7 +16,7 @@ mod given;
 mod lanes;
 mod single;
 
-use crate::backend::Printed;
+use crate::language::Printed;
 use angles::Angles;
 
 /// How a function can be called; each has those before it, too.
@@ -56,7 +56,7 @@ impl Entries {
 
 /// What the functions of a module have in common.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Around<'a> {
+pub struct Around<'a> {
     /// Where sines and roots are that are called.
     pub path: &'a str,
     /// Where `dalembert-batch` is.

@@ -20,9 +20,10 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::backend::Printed;
-use crate::backend::statement::{last_uses, statement};
 use crate::function::{Argument, Sizes};
+use crate::language::Printed;
+use crate::language::dialect::Dialect;
+use crate::language::function::last_uses;
 use crate::program::fused::pieces;
 use crate::program::text::input_name;
 use crate::program::{Input, Literal, Operand, ScalarType};
@@ -36,6 +37,7 @@ pub const PART: usize = 1000;
 /// Prints the arithmetic in parts.
 pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
     let (code, scalar) = (printed.code, printed.code.scalar);
+    let dialect = Dialect::rust(scalar);
     let last_use = last_uses(code);
     for part in pieces(&code.steps, PART) {
         let (start, end) = (part.start, part.end);
@@ -56,7 +58,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
             8,
             &format!("fn part({parameters}) -> [{scalar}; {count}] {{"),
         );
-        for statement in part.filter_map(|index| statement(code, index)) {
+        for statement in part.filter_map(|index| dialect.statement(code, index)) {
             line(12, &statement);
         }
         line(12, &format!("[{results}]"));

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::{Around, arguments, lanes, places};
-use crate::backend::{Printed, function, result};
+use crate::language::{Printed, function, result};
 
 /// Prints them.
 pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {

@@ -12,9 +12,9 @@ use std::fmt::Write;
 
 use super::Around;
 use super::angles::list;
-use crate::backend::scope::Scope;
-use crate::backend::{Printed, function};
 use crate::function::Argument;
+use crate::language::scope::Scope;
+use crate::language::{Printed, function};
 use crate::program::{Input, Literal, Lowered, LoweredTrig, Operand};
 
 /// Prints it.
