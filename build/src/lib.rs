@@ -103,7 +103,7 @@ pub use dalembert_codegen::workspace::generate::in_scene::UnknownScene;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::generate::{Fma, GenerateError, Prefer};
 #[doc(inline)]
-pub use dalembert_codegen::workspace::language::Entries;
+pub use dalembert_codegen::workspace::language::{Entries, Language};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::portfolio::Start as Formulation;
 #[doc(inline)]
@@ -257,6 +257,14 @@ impl Generator {
     #[must_use]
     pub fn fma(mut self, fma: Fma) -> Self {
         self.request.fma = fma;
+        self
+    }
+
+    /// The language of the file: [`Language::C`] writes one header of C99, which C++ reads
+    /// too, with the functions of all scalars.
+    #[must_use]
+    pub fn language(mut self, language: Language) -> Self {
+        self.request.language = language;
         self
     }
 

@@ -82,7 +82,7 @@ pub use generate::in_scene::UnknownScene;
 #[doc(inline)]
 pub use generate::{Fma, GenerateError, Generated, Prefer, Request, generate};
 #[doc(inline)]
-pub use language::{Entries, MathPath};
+pub use language::{Entries, Language, MathPath};
 #[doc(inline)]
 pub use plan::{Plan, PlanError};
 #[doc(inline)]

@@ -18,7 +18,10 @@ pub mod approximate {
 }
 
 pub mod language {
-    pub use crate::language::{Entries, MathPath, Printed};
+    pub use crate::language::{Entries, Language, MathPath, Printed};
+    pub mod c99 {
+        pub use crate::language::c99::Names;
+    }
     pub mod entries {
         pub use crate::language::entries::Around;
         pub mod angles {

@@ -196,7 +196,7 @@ pub(crate) fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
 }
 
 /// Robot, conventions, DH table, counts and proof.
-fn header(
+pub(super) fn header(
     robot: &Robot,
     scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
@@ -344,7 +344,7 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
 }
 
 /// A placement as a header has it.
-fn function_doc(
+pub(super) fn function_doc(
     generated: &GeneratedFunction,
     scene_robot: &SceneRobot,
     scalar: ScalarType,

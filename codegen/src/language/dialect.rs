@@ -48,7 +48,12 @@ impl Dialect {
 
     /// A literal, as short as it reads back to the same bits.
     pub(crate) fn literal(&self, value: Literal) -> String {
-        filled(self.literal, &[&value.text(self.scalar)])
+        self.digits(&value.text(self.scalar))
+    }
+
+    /// A literal of these digits.
+    pub(crate) fn digits(&self, digits: &str) -> String {
+        filled(self.literal, &[digits])
     }
 
     /// Reads a literal; an integer would be of another type.

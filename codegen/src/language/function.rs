@@ -137,7 +137,7 @@ pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) 
     }
 }
 
-fn reads(code: &Lowered, argument: Argument) -> bool {
+pub(super) fn reads(code: &Lowered, argument: Argument) -> bool {
     let is = |operand: &Operand<Literal>| match operand {
         Operand::Input(input) => input.argument() == argument,
         _ => false,

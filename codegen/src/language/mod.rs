@@ -1,6 +1,7 @@
 //! Programs as flat text of a language, printed and read back.
 //!
 //! - [`dialect`]: how a language writes a line, one table for printing and reading
+//! - [`c99`]: functions in C
 //! - [`function`]: one program as one function
 //! - [`entries`]: more ways to call it, which share its arithmetic
 //! - [`result`]: the array or the struct that it ends with
@@ -11,6 +12,7 @@
 //! - [`parts`]: very long functions, cut into functions of their own
 //! - [`read`]: the printed text, and whether it is the program
 
+pub(crate) mod c99;
 pub(crate) mod dialect;
 pub(crate) mod entries;
 pub(crate) mod function;
@@ -25,6 +27,29 @@ mod trig;
 use crate::function::{Argument, Function, Sizes};
 use crate::program::{Library, Lowered, Program};
 pub use entries::Entries;
+
+/// The language of generated code.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Language {
+    /// Rust: modules.
+    #[default]
+    Rust,
+    /// C99, which C++ reads too: one header.
+    C,
+}
+
+impl Language {
+    /// All, the default first.
+    pub const ALL: [Language; 2] = [Language::Rust, Language::C];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Rust => "rust",
+            Language::C => "c",
+        }
+    }
+}
 
 /// A function as it is printed: its code over literals, and what it is called with and
 /// returns.

@@ -64,7 +64,7 @@ impl Lowered {
 }
 
 /// Compares the lines from `first` with what they must be; documentation is for people.
-fn same(lines: &[&str], first: usize, expected: &str) -> Result<(), TextError> {
+pub(super) fn same(lines: &[&str], first: usize, expected: &str) -> Result<(), TextError> {
     let is_code = |line: &&str| !line.is_empty() && !line.starts_with("///");
     let expected = expected.lines().map(str::trim).filter(is_code);
     let mut found = lines.iter().enumerate().skip(first);

@@ -6,7 +6,9 @@
 //! - `wrap`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
 //! - `entries`: functions that can be called in several ways
+//! - `c99`: what C writes in its own way
 
+mod c99;
 mod entries;
 mod reader;
 mod result;

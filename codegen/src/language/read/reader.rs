@@ -56,7 +56,7 @@ impl<'a> Reader<'a> {
     pub(super) fn line(&mut self, line: &str) -> Result<bool, String> {
         if let Some(mut block) = self.block.take() {
             match block.line(line, self.dialect)? {
-                true => self.program.trig.push(block.trig),
+                true => self.program.trig.push(block.done()),
                 false => self.block = Some(block),
             }
             return Ok(true);

@@ -12,12 +12,33 @@ pub(super) struct Block {
     pub(super) trig: LoweredTrig,
     /// How its lines name the angle.
     argument: String,
-    kernel: Kernel,
+    /// How its lines name their steps, before the number.
+    prefix: String,
+    pub(super) kernel: Kernel,
     /// Whether the result was read.
     done: bool,
 }
 
 impl Block {
+    /// Opens the block of an angle by the names in its lines.
+    pub(super) fn new(trig: LoweredTrig, argument: String, prefix: String) -> Block {
+        Block {
+            trig,
+            argument,
+            prefix,
+            kernel: Kernel::default(),
+            done: false,
+        }
+    }
+
+    /// Returns what was read.
+    pub(super) fn done(self) -> LoweredTrig {
+        LoweredTrig {
+            kernel: Some(self.kernel),
+            ..self.trig
+        }
+    }
+
     /// Returns the block that a line opens: `let (s1, c1) = {`. A sum of angles is the one
     /// that the line before formed.
     pub(super) fn begin(line: &str, sums: &mut Vec<AngleSum>) -> Option<Block> {
@@ -29,30 +50,17 @@ impl Block {
             0 => format!("q[{}]", angle.terms().next()?.0),
             _ => format!("a{}", sums.pop_if(|sum| *sum == angle)?),
         };
-        Some(Block {
-            trig,
-            argument,
-            kernel: Kernel::default(),
-            done: false,
-        })
+        Some(Block::new(trig, argument, "x".to_owned()))
     }
 
     /// Takes a line; whether it ends the block.
     pub(super) fn line(&mut self, line: &str, dialect: Dialect) -> Result<bool, String> {
         if self.done {
             expect(line, "};")?;
-            self.trig.kernel = Some(std::mem::take(&mut self.kernel));
             return Ok(true);
         }
         match holes(dialect.declaration, line) {
-            Some([name, value]) => {
-                expect(name, &format!("x{}", self.kernel.steps.len() + 1))?;
-                let step = one_operation(value, |word| self.term(word, dialect))?;
-                if matches!(step.operation, Operation::Div | Operation::Fused) {
-                    return Err(format!("`{value}` is no operation of a polynomial"));
-                }
-                self.kernel.steps.push(step);
-            }
+            Some([name, value]) => self.step(name, value, dialect)?,
             None => {
                 let mut values = list(line).into_iter();
                 let mut next = |taken: bool| match (taken, &mut values) {
@@ -73,11 +81,25 @@ impl Block {
         Ok(false)
     }
 
-    fn term(&self, word: &str, dialect: Dialect) -> Result<Term, String> {
+    /// Takes an operation and its name.
+    pub(super) fn step(&mut self, name: &str, value: &str, dialect: Dialect) -> Result<(), String> {
+        expect(
+            name,
+            &format!("{}{}", self.prefix, self.kernel.steps.len() + 1),
+        )?;
+        let step = one_operation(value, |word| self.term(word, dialect))?;
+        if matches!(step.operation, Operation::Div | Operation::Fused) {
+            return Err(format!("`{value}` is no operation of a polynomial"));
+        }
+        self.kernel.steps.push(step);
+        Ok(())
+    }
+
+    pub(super) fn term(&self, word: &str, dialect: Dialect) -> Result<Term, String> {
         if word == self.argument {
             return Ok(ANGLE);
         }
-        if let Some(step) = word.strip_prefix('x') {
+        if let Some(step) = word.strip_prefix(self.prefix.as_str()) {
             let step = step.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
             let step = step.filter(|&step| step < self.kernel.steps.len());
             return match step {
@@ -180,7 +202,7 @@ impl Reader<'_> {
     }
 }
 
-fn trig(angle: AngleSum, sin: bool, cos: bool) -> LoweredTrig {
+pub(super) fn trig(angle: AngleSum, sin: bool, cos: bool) -> LoweredTrig {
     LoweredTrig {
         angle,
         sin,
