@@ -41,7 +41,7 @@ where
     Ok(())
 }
 
-/// Whether there is an argument of each for every result.
+/// Checks that there is an argument of each for every result.
 pub(crate) fn check_states<T, const N: usize>(
     arguments: &[&[[T; N]]],
     states: usize,
@@ -52,7 +52,7 @@ pub(crate) fn check_states<T, const N: usize>(
     Ok(())
 }
 
-/// Whether all columns are of one length.
+/// Checks that all columns are of one length.
 pub(crate) fn check_columns<T, const N: usize>(
     arguments: &[&[&[T]; N]],
     results: &[&mut [T]],
@@ -165,7 +165,7 @@ pub(crate) fn run_columns<F, const L: usize, const A: usize, const N: usize, con
     }
 }
 
-/// What a column begins with; if it is too short, its first number in the other
+/// Copies the beginning of a column; if it is too short, its first number fills the other
 /// lanes.
 #[inline(always)]
 fn fill<T: Copy, const L: usize>(lane: &mut [T; L], rest: &[T]) {

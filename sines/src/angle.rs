@@ -8,7 +8,7 @@ use crate::number::{Floats, Number};
 pub trait Angle:
     Floats<Self> + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// Which bit is the sign.
+    /// The bit of the sign.
     const SIGN: usize;
     /// Up to here, in magnitude, the polynomials are for.
     const LARGEST: Self;
@@ -27,7 +27,7 @@ pub trait Angle:
     /// (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
     fn polynomials<V: Number<Self>>(z: V, w: V) -> (V, V);
 
-    /// What is right for every angle.
+    /// Computes sine and cosine of any angle, by libm.
     fn library(self) -> (Self, Self);
 }
 
