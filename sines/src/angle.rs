@@ -111,12 +111,21 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
         }
         angle += 1;
     }
-    if !usual {
-        for ((angles, sines), cosines) in angles.iter().zip(&mut sines).zip(&mut cosines) {
-            unusual(angles, sines, cosines);
-        }
+    match usual {
+        true => (sines, cosines),
+        false => one_by_one(*angles),
     }
-    (sines, cosines)
+}
+
+/// Computes all lanes one after the other, where an angle needs libm. By value: an array
+/// whose address is taken on the rare path would stay in memory on the usual one.
+#[cold]
+#[inline(never)]
+fn one_by_one<T: Angle, const N: usize, const L: usize>(
+    angles: [[T; L]; N],
+) -> ([[T; L]; N], [[T; L]; N]) {
+    let pairs = angles.map(|lanes| singly(&lanes));
+    (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
 }
 
 /// The angles that the polynomials are not for.
