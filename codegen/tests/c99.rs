@@ -244,7 +244,7 @@ fn compiled_functions_have_the_bits_of_the_program() {
             };
             let mut request = request(sincos, entries);
             request.plan = RobotFile::read(
-                Path::new(env!("CARGO_MANIFEST_DIR"))
+                &Path::new(env!("CARGO_MANIFEST_DIR"))
                     .join(format!("../generated/robots/{name}.toml")),
             )
             .unwrap()
@@ -417,7 +417,7 @@ fn every_change_of_a_line_is_found() {
                 (" * ", " + "),
                 ("[0]", "[1]"),
                 ("F", ""),
-                ("F;", "1F;"),
+                ("F;", "e1F;"),
                 ("const ", ""),
                 ("float", "double"),
                 ("t1 ", "t2 "),

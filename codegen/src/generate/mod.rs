@@ -92,6 +92,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             return Err(GenerateError::Namesakes(other, function));
         }
     }
+    language::check(robot, request, &functions)
+        .map_err(|why| GenerateError::Language(request.language, why))?;
     if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.cheapest_scalar {
         return Err(GenerateError::Contents);
     }
@@ -122,8 +124,6 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     parameters::check(request, &scene_robot).map_err(GenerateError::Parameter)?;
-    language::check(robot, request, &functions)
-        .map_err(|why| GenerateError::Language(request.language, why))?;
     let (mut functions, scalars) = all(&scene_robot, request)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
