@@ -153,9 +153,8 @@ fn short(name: &str) -> String {
 /// Compiles and runs it on states, and compares bits with the proved programs.
 fn same_bits(robot: &Robot, request: &Request, count: usize, batch: bool, flags: &[&[&str]]) {
     let generated = generate(robot, request).unwrap();
-    let folder = folder(
-        &format!("{}_{batch}_{:?}", robot.name, request.sincos).replace([' ', '{', '}', ':'], ""),
-    );
+    let name = format!("{}_{batch}_{}", robot.name, request.functions.len());
+    let folder = folder(&name);
     fs::write(folder.join("arm.h"), &generated.text).unwrap();
     fs::write(folder.join("main.c"), main_of(robot, &generated, batch)).unwrap();
     let mut seed = 1u64;

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use dalembert_model::robot::Robot;
 
-use super::GeneratedFunction;
 use super::module::{ModuleOptions, function_doc, header};
 use super::state_box::StateBox;
+use super::{GeneratedFunction, fused};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names, float};
 use crate::language::dialect::Dialect;
@@ -125,6 +125,15 @@ pub(crate) fn write(
                 text.push_str(&structure);
             }
             let mut doc = function_doc(generated, scene_robot, scalar);
+            let of_rust = fused::doc(&generated.program);
+            if !of_rust.is_empty() {
+                doc.retain(|line| line.is_empty() || !of_rust.contains(line));
+                doc.push(
+                    "A product and the sum that alone reads it are one operation, `fma`, rounded once: slow \
+                     on a processor that has none."
+                        .to_owned(),
+                );
+            }
             doc.push(String::new());
             for argument in printed.arguments {
                 let (name, length) = (argument.name(), argument.length(printed.sizes));
@@ -133,7 +142,7 @@ pub(crate) fn write(
             for quantity in generated.function.quantities() {
                 let rows = scene_robot.rows();
                 let count = quantity.len(printed.sizes);
-                let units = (0..count).map(|i| quantity.unit(i, &rows, printed.sizes, robot));
+                let units = (0..count).map(|i| quantity.unit(i, rows, printed.sizes, robot));
                 let mut units: Vec<&str> = units.collect();
                 units.dedup();
                 units.truncate(4);
@@ -215,8 +224,7 @@ fn sines(text: &mut String, names: &Names, scalar: ScalarType) {
          /*\n * Sine and cosine, each within one ulp: to {largest} rad the operations of the Rust crate\n \
          * dalembert-sines, to the same bits; beyond, and for what is no\n * number, the C library's, where angles may be far.\n */\n\
          static inline {kind} {function}(const int far, const {float} angle)\n{{\n    {unfused}\n    \
-         const int is_near = (fabs{f}(angle) <= {largest}) ? 1 : 0;\n    \
-         const {float} x0 = (is_near != 0) ? angle : {zero};\n{steps}    \
+         const {float} x0 = (fabs{f}(angle) <= {largest}) ? angle : {zero};\n{steps}    \
          /* x3 counts the quarter turns: an odd one exchanges sine and cosine. */\n    \
          const unsigned int turns = (unsigned int)(int)x3;\n    \
          const {float} one = ((turns & 1U) == 0U) ? {sin} : {cos};\n    \
@@ -224,7 +232,7 @@ fn sines(text: &mut String, names: &Names, scalar: ScalarType) {
          {kind} pair;\n    \
          pair.sin = ((turns & 2U) == 0U) ? one : -one;\n    \
          pair.cos = (((turns + 1U) & 2U) == 0U) ? other : -other;\n    \
-         if ((far != 0) && (is_near == 0)) {{\n        \
+         if ((far != 0) && !(fabs{f}(angle) <= {largest})) {{\n        \
          pair.sin = sin{f}(angle);\n        pair.cos = cos{f}(angle);\n    }}\n    \
          return pair;\n}}\n"
     );

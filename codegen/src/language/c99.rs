@@ -362,7 +362,7 @@ pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
     let at = |index: usize| match index {
         0 => "s".to_owned(),
         1 => "n + s".to_owned(),
-        more => format!("{more}U * n + s"),
+        more => format!("({more}U * n) + s"),
     };
     for argument in printed.arguments {
         let (name, length) = (argument.name(), argument.length(sizes));
