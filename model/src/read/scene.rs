@@ -250,12 +250,12 @@ impl Reader<'_, '_, '_> {
         if found.is_none() {
             let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
             let help = match (number, suggest::closest(text, &names)) {
-                (Some(_), _) => format!("joints are counted from 1 to {n}"),
                 (None, Some(meant)) => format!("did you mean `{meant}`?"),
                 (None, None) if names.is_empty() => {
                     format!("the joints have no names: count them from 1 to {n}")
                 }
-                (None, None) => format!("known: {}", names.join(", ")),
+                _ if names.is_empty() => format!("joints are counted from 1 to {n}"),
+                _ => format!("joints are counted from 1 to {n}: {}", names.join(", ")),
             };
             let message = format!("there is no joint {}", quote(text));
             self.cx.sink.error(span, message, &help);

@@ -33,6 +33,7 @@ use num_traits::Zero;
 
 use crate::number::{Angle, Rational};
 
+pub use body::Defect;
 pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
 pub use placement::Placement;

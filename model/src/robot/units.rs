@@ -72,6 +72,20 @@ impl Findings {
         );
     }
 
+    /// Warns of gravity that points along the base's z more than along its other axes.
+    pub(super) fn upward_gravity(&mut self, [x, y, z]: &[Rational; 3]) {
+        if !z.is_positive() || x.abs() > *z || y.abs() > *z {
+            return;
+        }
+        self.warning(
+            RobotWarning::UpwardGravity,
+            Place::Gravity,
+            "gravity points upwards, along the base's z".to_owned(),
+            "it is the acceleration of what falls, [0, 0, -9.81] if z points up; of an arm that \
+             hangs, say base = { rpy = [\"pi\", 0, 0] }",
+        );
+    }
+
     pub(super) fn doubtful_placement(&mut self, place: Place, placement: &Placement) {
         if let Some(longest) = placement.xyz.iter().max_by_key(|x| x.abs()) {
             self.doubtful_length(place, "xyz", longest);
@@ -135,6 +149,19 @@ impl Findings {
 
     fn doubtful_limits(&mut self, index: usize, joint: &Joint) {
         let at = |field| Place::Joint(index, field);
+        for (field, limit) in [
+            (Field::Velocity, &joint.limits.velocity),
+            (Field::Acceleration, &joint.limits.acceleration),
+        ] {
+            if limit.as_ref().is_some_and(Zero::is_zero) {
+                self.warning(
+                    RobotWarning::ZeroLimit,
+                    at(field),
+                    format!("the limit of {} is 0: the joint never moves", field.key()),
+                    "leave it out where it is not known; a scene locks a joint that stands still",
+                );
+            }
+        }
         for position in joint.limits.position.iter().flatten() {
             match position {
                 Position::Angle(Angle::Radians(value)) if value.abs() > whole(MAX_POSITION) => {

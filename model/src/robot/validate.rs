@@ -41,6 +41,7 @@ impl Robot {
             findings.size(Place::Gravity, value);
         }
         findings.doubtful_gravity(&self.gravity);
+        findings.upward_gravity(&self.gravity);
         for (place, _, placement) in self.placements() {
             if let Some(placement) = placement {
                 findings.placement(place, placement);
@@ -80,6 +81,7 @@ impl Robot {
             };
             let place = Place::Joint(index, Field::Name);
             findings.joint_name(place, name);
+            findings.joint_number(index, name);
             if let Some(first) = names.get(name) {
                 findings.error(
                     place,
@@ -131,6 +133,21 @@ impl Findings {
                 "a joint's name has no character that turns the direction of text".to_owned(),
                 &units::without_turns(name),
             );
+        }
+    }
+
+    /// Refuses a name that is another joint's number: scenes name joints by either.
+    fn joint_number(&mut self, index: usize, name: &str) {
+        let Ok(number) = name.trim().parse::<i64>() else {
+            return;
+        };
+        if usize::try_from(number) != Ok(index + 1) {
+            let message = format!(
+                "joint {} is called {name:?}, which is a joint's number and not its own",
+                index + 1
+            );
+            let help = format!("write \"joint_{number}\"");
+            self.error(Place::Joint(index, Field::Name), message, &help);
         }
     }
 
@@ -276,7 +293,8 @@ impl Findings {
         };
         let help = match defect {
             Defect::NegativeMoment => {
-                "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass; taken as it stands"
+                let help = "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass";
+                return self.error(place, defect.message().to_owned(), help);
             }
             Defect::Triangle => {
                 "expected for a link whose other moments were left out; taken as it stands"
