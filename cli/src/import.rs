@@ -34,7 +34,7 @@ pub fn run(args: &ImportArgs) -> Outcome {
     }
 }
 
-/// The same for programs.
+/// Returns the same for programs.
 fn json(imported: &Imported, name: &str, source: &str) -> Value {
     let robot = &imported.robot;
     let snaps = imported.snaps.iter().map(|snap| {
@@ -76,8 +76,8 @@ fn json(imported: &Imported, name: &str, source: &str) -> Value {
     })
 }
 
-/// What a person wants to know: what was left out, which numbers were replaced by
-/// others, and what that changes.
+/// Prints what a person wants to know: what was left out, which numbers were
+/// replaced by others, and what that changes.
 fn report(imported: &Imported, name: &str, source: &str) {
     for note in &imported.notes {
         output::note(&note.render(name, source));

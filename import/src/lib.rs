@@ -48,6 +48,7 @@
 //! [`Options::exact`] takes the digits as they stand; the reader of robot files still
 //! takes the double next to a multiple of π/2 for it.
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 mod change;
 mod lock;
@@ -70,7 +71,7 @@ pub use snap::Snap;
 /// The largest URDF that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
 
-/// What to take of a URDF, and how.
+/// The chain to take of a URDF, and how.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The link that stands still; without one, the root.
@@ -86,7 +87,7 @@ pub struct Options {
     pub without: Vec<String>,
     /// Take every digit as it stands.
     pub exact: bool,
-    /// What the file is called, for the robot file's first line.
+    /// The name of the file, for the robot file's first line.
     pub file: String,
 }
 
@@ -97,11 +98,11 @@ pub struct Imported {
     pub text: String,
     /// The robot that it is read as.
     pub robot: Robot,
-    /// What a user should know, at its place in the URDF.
+    /// Warnings and notes, each at its place in the URDF.
     pub notes: Vec<Diagnostic>,
     /// Every number that was taken for another, in the order of the file.
     pub snaps: Vec<Snap>,
-    /// What that changes; `None` where there is none.
+    /// The change that they make; `None` where there is none.
     pub change: Option<Change>,
 }
 

@@ -88,8 +88,8 @@ pub(crate) fn advised(joint: &Joint) -> &str {
     }
 }
 
-/// Whether a position is outside its limits, all three as they were meant: 1.5708 is
-/// within a limit of pi/2.
+/// Returns whether a position is outside its limits, all three as they were meant:
+/// 1.5708 is within a limit of pi/2.
 fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) -> bool {
     let as_meant = |value: &Position, text: &str| match value {
         Position::Angle(angle) => Position::Angle(meant(angle, text).unwrap_or(angle.clone())),
@@ -100,7 +100,7 @@ fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) 
     compare(&at, &lower) == Ordering::Less || compare(&at, &upper) == Ordering::Greater
 }
 
-/// Of positions of one joint; of an angle and a length there is no order.
+/// Compares positions of one joint; an angle and a length have no order.
 fn compare(left: &Position, right: &Position) -> Ordering {
     match (left, right) {
         (Position::Angle(left), Position::Angle(right)) => left.cmp_value(right),

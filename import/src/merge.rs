@@ -123,7 +123,7 @@ fn without_mass(urdf: &Urdf, links: &[&str], problems: &mut Problems) {
     problems.warning(&span, message, help);
 }
 
-/// What lengths are small against.
+/// Returns what lengths are small against.
 fn size(urdf: &Urdf, chain: &Chain) -> Rational {
     let joints = chain.joints().into_iter();
     let sizes = joints.map(|joint| urdf.joints[joint].origin.placement().size());
@@ -147,7 +147,7 @@ fn way(urdf: &Urdf, steps: &[Step]) -> Option<Columns<Wide>> {
     })
 }
 
-/// What a locked joint has moved its child by.
+/// Returns what a locked joint has moved its child by.
 fn displaced(joint: &Joint, position: &Position) -> Option<Columns<Wide>> {
     let axis = direction_of(joint)?;
     Some(match position {

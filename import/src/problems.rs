@@ -13,7 +13,7 @@ pub(crate) const MAX_NAMES: usize = 30;
 pub(crate) struct Problems<'s> {
     source: &'s str,
     found: Vec<Diagnostic>,
-    /// How many there were beyond those that are listed.
+    /// The number of problems beyond those that are listed.
     more: usize,
 }
 

@@ -11,9 +11,9 @@ const ARM: usize = 3;
 /// Fingers have at most so many joints that move behind each other; of a hand with three or
 /// more, any number.
 const FINGER: usize = 4;
-/// What names of fingers have in them; a link called gripper is the palm.
+/// Parts of the names of fingers; a link called gripper is the palm.
 const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
-/// What names of frames have in them that an arm is used by.
+/// Parts of the names of frames that an arm is used by.
 const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
 
 impl Tree<'_, '_, '_> {

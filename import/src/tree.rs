@@ -263,7 +263,8 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         stays.then_some(Step { joint, at })
     }
 
-    /// Whether a joint of the chain moves by itself about or along one axis.
+    /// Returns whether a joint of the chain moves by itself about or along one
+    /// axis.
     fn can_move(&mut self, joint: usize) -> bool {
         let Joint {
             name,
@@ -433,8 +434,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         self.problems.error(span, message, &help);
     }
 
-    /// What hangs on the base moves no joint of the chain: it is said, and left
-    /// out.
+    /// Says what hangs on the base: it moves no joint of the chain, and is left out.
     fn beside_the_base(&mut self, base: usize, path: &BTreeSet<usize>) {
         let mut open = vec![base];
         let mut others = Vec::new();

@@ -168,7 +168,7 @@ fn limit_of<'u>(
     None
 }
 
-/// What of the URDF is not in the robot file: one note says it of all joints.
+/// Parts of the URDF that are not in the robot file: one note says it of all joints.
 #[derive(Default)]
 struct LeftOut<'u> {
     friction: Vec<(&'u Joint, &'u Number)>,

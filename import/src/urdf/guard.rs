@@ -13,7 +13,7 @@ use crate::problems::Problems;
 pub(crate) const MAX_ATTRIBUTES: usize = 64;
 /// The most namespaces of a file.
 const MAX_NAMESPACES: usize = 64;
-/// What begins an expression of xacro.
+/// The beginnings of expressions of xacro.
 const EXPRESSIONS: [&str; 2] = ["${", "$("];
 
 /// Returns whether the text may be parsed, after saying why not.

@@ -29,7 +29,7 @@ const MAX_LINKS: usize = 1024;
 /// A URDF, every joint with a parent and a child that there are.
 #[derive(Clone, Debug)]
 pub(crate) struct Urdf {
-    /// What the robot is called.
+    /// The name of the robot.
     pub(crate) name: String,
     /// The start tag of the robot.
     pub(crate) span: Range<usize>,
@@ -117,7 +117,7 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
     })
 }
 
-/// What to do with another format.
+/// Returns what to do with another format.
 fn other_format(root: Node) -> Option<&'static str> {
     match root.tag_name().name() {
         "robot" => None,

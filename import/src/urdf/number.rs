@@ -12,7 +12,7 @@ use super::{Reader, start_tag};
 /// A value of the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Value<T> {
-    /// What it is.
+    /// The value itself.
     pub(crate) value: T,
     /// As it stands in the file.
     pub(crate) text: String,

@@ -5,7 +5,7 @@ use alloc::string::String;
 
 use crate::outputs::{BundleError, Function};
 
-/// What other tools and textbooks call the same thing.
+/// Words of other tools and textbooks, with ours.
 const OTHER_WORDS: [(&str, &str); 32] = [
     ("m", "mass"),
     ("weight", "mass"),
@@ -41,8 +41,8 @@ const OTHER_WORDS: [(&str, &str); 32] = [
     ("sliding", "prismatic"),
 ];
 
-/// What to do about a bundle that is none, with the output that was probably
-/// meant.
+/// Returns what to do about a bundle that is none, with the output that was
+/// probably meant.
 pub fn for_bundle(error: &BundleError) -> String {
     let meant = match error {
         BundleError::Unknown(word) => closest(word, &Function::ALL.map(Function::name)),
@@ -61,8 +61,8 @@ const SEVERAL: [(&str, &[&str], &str); 1] = [(
     "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both",
 )];
 
-/// What to write instead of a key that is not known, if that is one or several of
-/// these.
+/// Returns what to write instead of a key that is not known, if that is one or
+/// several of these.
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     let has_all = |keys: &[&str]| keys.iter().all(|key| known.contains(key));
     let mut several = SEVERAL.iter();

@@ -22,7 +22,7 @@ const MAX_MASS: i64 = 1000;
 /// Limits of a turning joint's position beyond this many radians (five turns)
 /// were probably given in degrees.
 const MAX_POSITION: i64 = 31;
-/// The same of a velocity, in rad/s; in m/s of a sliding joint.
+/// Larger velocities, in rad/s or m/s, were probably given in degrees or millimetres.
 const MAX_VELOCITY: i64 = 100;
 /// From the Moon's gravity to Jupiter's, in m/s², with some room.
 const GRAVITY: [f64; 2] = [1.5, 30.0];
@@ -36,7 +36,7 @@ pub(super) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// The same number with another unit of a thousandth.
+/// Returns the same number with another unit of a thousandth.
 fn thousandth(value: &Rational) -> String {
     shown(&(value / whole(1000)))
 }
@@ -256,7 +256,7 @@ pub(super) fn turns_text(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// What to do about one of them.
+/// Returns what to do about one of them.
 pub(super) fn without_turns(name: &str) -> String {
     let plain: String = name.chars().filter(|c| !turns_text(*c)).collect();
     match plain.is_empty() {

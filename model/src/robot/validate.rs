@@ -31,8 +31,9 @@ impl Robot {
         self.validate_placed(&[])
     }
 
-    /// The same of a robot whose joints are placed, before it has rows: what is wrong
-    /// or odd about the numbers that somebody wrote, not about those that follow.
+    /// Returns the same of a robot whose joints are placed, before it has rows: what
+    /// is wrong or odd about the numbers that somebody wrote, not about those that
+    /// follow.
     pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Finding> {
         let mut findings = Findings::default();
         let reach = reach::reach(self, placed);

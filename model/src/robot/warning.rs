@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// What a warning is about. A robot file that knows better says so by the name,
-/// `allow = ["large_mass"]`, and hears no more of it.
+/// The name of a warning about a robot file. List it in the file to silence the warning:
+/// `allow = ["large_mass"]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RobotWarning {
     /// No body has this inertia.
