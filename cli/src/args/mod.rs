@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 pub use choice::Choice;
 pub use code::{CountArgs, ExplainArgs, GenerateArgs, Table3Args};
 pub use errors::{CertifyArgs, StressArgs, TradeoffArgs, VerifyArgs};
-pub use files::{CouplingsArgs, ImportArgs, NewArgs, ShowArgs};
+pub use files::{ChainArgs, CouplingsArgs, ImportArgs, NewArgs, ShowArgs};
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
