@@ -84,7 +84,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::generate::in_scene::find;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::{Request, generate_anew};
 use dalembert_codegen::workspace::program::Library;
 use dalembert_model::robot::Severity;
 
@@ -341,6 +341,7 @@ impl Generator {
         if let Some(path) = &self.math {
             request.math.path.clone_from(path);
         }
+        let request = request.for_file(&file.outputs);
         let request = request.choose(self.chosen()?, self.scalars.clone(), scene);
         let key = output::key(&file.source, &request);
         if output::is_current(path, &key) {
@@ -352,7 +353,7 @@ impl Generator {
                 cargo::warn(&place, &note.message, note.help.as_deref());
             }
         }
-        let generated = generate(&file.robot, &request)
+        let generated = generate_anew(&file.robot, &request, &robot.display().to_string())
             .map_err(|error| BuildError::Generate(robot.to_owned(), error))?;
         for warning in &generated.warnings {
             cargo::warn(&robot.display().to_string(), warning, None);

@@ -249,7 +249,7 @@ mod tests {
     fn which_function_of_how_many() {
         assert_eq!(
             place(&Function::by_default(), Function::Gravity),
-            "function 2 of 6: "
+            "function 2 of 7: "
         );
         assert_eq!(place(&[Function::Gravity], Function::Gravity), "");
     }

@@ -27,6 +27,9 @@ pub fn run(args: &ShowArgs) -> Outcome {
         &[("the robot file", &args.robot)],
         &[("the drawing", &target)],
     )?;
+    if !args.force {
+        target.ours()?;
+    }
     let at = position(args, &robot)?;
     for (index, (text, q)) in args.at.iter().zip(&at).enumerate() {
         if let Some(warning) = doubtful(&robot, index, text, *q) {

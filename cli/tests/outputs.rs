@@ -121,6 +121,44 @@ fn nothing_is_written_over_an_input_or_another_output() {
     assert_eq!(fs::read_to_string(&arm).unwrap(), source);
 }
 
+/// A file that the command did not write stays, unless it is told to write over it.
+#[test]
+fn files_of_others_stay() {
+    let (folder, arm) = arm("of_others");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    fs::write(folder.join("main.rs"), "fn main() {}\n").unwrap();
+    fs::write(folder.join("empty.rs"), "").unwrap();
+    fs::write(folder.join("code.certificate.json"), "{}").unwrap();
+    let before = names(&folder);
+    let words = "dalembert did not write it";
+    refused(
+        &hold(&arm, &["-o", &path("main.rs")]),
+        words,
+        &folder,
+        &before,
+    );
+    refused(
+        &hold(&arm, &["-o", &path("code.rs")]),
+        words,
+        &folder,
+        &before,
+    );
+    let show = ["show", &arm, "-o", &path("main.rs")];
+    refused(&run(&show), words, &folder, &before);
+    let text = fs::read_to_string(folder.join("main.rs")).unwrap();
+    assert_eq!(text, "fn main() {}\n");
+    for name in ["empty.rs", "empty.rs"] {
+        let ran = hold(&arm, &["-o", &path(name)]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+    }
+    let ran = hold(&arm, &["-o", &path("main.rs"), "--force"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for _ in 0..2 {
+        let ran = run(&["show", &arm, "-o", &path("arm.svg")]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+    }
+}
+
 /// A link keeps leading where it leads, to a file that is there or not; the
 /// certificate is beside the link.
 #[cfg(unix)]
@@ -129,7 +167,7 @@ fn links_are_followed() {
     use std::os::unix::fs::symlink;
     let (folder, arm) = arm("links");
     fs::create_dir_all(folder.join("far")).unwrap();
-    fs::write(folder.join("far/old.rs"), "old").unwrap();
+    fs::write(folder.join("far/old.rs"), "// By dalembert, old.").unwrap();
     for (link, target) in [("there.rs", "far/old.rs"), ("not.rs", "far/new.rs")] {
         symlink(target, folder.join(link)).unwrap();
         let ran = hold(&arm, &["-o", folder.join(link).to_str().unwrap()]);

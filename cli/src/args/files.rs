@@ -40,6 +40,9 @@ pub struct ImportArgs {
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write over a file that this command did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// A joint that stays where it is, with its position: a number of rad or m,
     /// pi/2 or 90deg; may be given again
     #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
@@ -72,17 +75,10 @@ pub struct ShowArgs {
     /// Write the drawing here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write over a file that this command did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// Print the poses of links and hand as JSON; without -o nothing is drawn
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `couplings`.
-#[derive(Debug, clap::Args)]
-pub struct CouplingsArgs {
-    /// The robot file
-    pub robot: PathBuf,
-    /// Print JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -27,6 +27,9 @@ pub(super) enum Destination {
     Stream(PathBuf),
 }
 
+/// As much of a file as says who wrote it.
+const HEAD: u64 = 4096;
+
 /// Links that are followed.
 const MAX_LINKS: usize = 40;
 
@@ -63,6 +66,29 @@ impl Target {
             Destination::Stream(path) => enter(path),
         };
         tried.map_err(|error| unwritable(&self.name, error))
+    }
+
+    /// Refuses to write over a file that this program did not write: each of its files says
+    /// that it did near its beginning.
+    ///
+    /// # Errors
+    /// The file is somebody else's.
+    pub fn ours(&self) -> Outcome {
+        let Some(file) = self.file() else {
+            return Ok(());
+        };
+        // What is not there, or cannot be read, is said by whoever writes it.
+        let head = crate::input::first(file, HEAD).unwrap_or_default();
+        let text = String::from_utf8_lossy(&head);
+        let ours = ["dalembert", "\"certificate\": "].map(|mark| text.contains(mark));
+        match head.is_empty() || ours.contains(&true) {
+            true => Ok(()),
+            false => Err(Failure::Input(format!(
+                "error: `{}` is there already, and dalembert did not write it\n  \
+                 = help: give another name, or --force to write over it",
+                self.name.display()
+            ))),
+        }
     }
 
     /// The file, unless it is a device or a pipe.

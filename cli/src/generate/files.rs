@@ -59,7 +59,13 @@ impl Files {
         };
         match args.check {
             true => files.comparable()?,
-            false => files.check(args, &path)?,
+            false => {
+                files.check(args, &path)?;
+                if !args.force {
+                    let written = [&files.code, &files.certificates];
+                    written.into_iter().flatten().try_for_each(Target::ours)?;
+                }
+            }
         }
         Ok(files)
     }

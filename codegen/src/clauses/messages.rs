@@ -40,6 +40,10 @@ pub(super) const NO_OUTPUTS: Message = message(
     "there is no clause `outputs`",
     "outputs: inverse_dynamics, gravity;",
 );
+pub(super) const NO_BATCH: Message = message(
+    "`entries: batch` needs the feature `batch` of the crate dalembert",
+    "in Cargo.toml: dalembert = { version = \"0.1\", features = [\"batch\"] }",
+);
 pub(super) const NO_WORD: Message = message("expected a word", "");
 pub(super) const NO_COMMA: Message = message("expected `,` or `;`", "");
 pub(super) const NO_PART: Message = message(

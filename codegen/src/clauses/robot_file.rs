@@ -9,6 +9,7 @@ use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
+use crate::function::Function;
 use crate::plan::{self, Plan, PlanFileError};
 
 /// A robot file that was read.
@@ -16,6 +17,8 @@ use crate::plan::{self, Plan, PlanFileError};
 pub struct RobotFile {
     /// The robot.
     pub robot: Robot,
+    /// The functions that the file is for; empty if it does not say.
+    pub outputs: Vec<Function>,
     /// Its scenes.
     pub scenes: Vec<Scene>,
     /// Warnings and notes.
@@ -46,6 +49,7 @@ impl RobotFile {
         match read::parse_bytes(&bytes, &Options::default()) {
             Ok(reading) => Ok(RobotFile {
                 robot: reading.robot,
+                outputs: reading.outputs,
                 scenes: reading.scenes,
                 notes: reading.notes,
                 source,

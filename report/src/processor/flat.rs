@@ -85,17 +85,6 @@ impl Flat {
         }
         uses
     }
-
-    /// Its operations, sums of angles and polynomials of sines included.
-    pub fn operations(&self) -> usize {
-        let is = |item: &&Item| matches!(item.deed, Deed::Operation(_) | Deed::Fused);
-        self.items.iter().filter(is).count()
-    }
-
-    /// So many items are of a kind.
-    pub fn count(&self, deed: Deed) -> usize {
-        self.items.iter().filter(|item| item.deed == deed).count()
-    }
 }
 
 /// What is read of the arguments is one value each, and so is a constant.
