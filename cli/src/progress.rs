@@ -27,7 +27,7 @@ pub struct Session(Option<Arc<Terminal>>);
 
 struct Terminal {
     bar: ProgressBar,
-    /// What is searched for, in this order.
+    /// The functions that are searched for, in this order.
     functions: Vec<Function>,
     stop: AtomicBool,
     /// Nothing is left to be ended.

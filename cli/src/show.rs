@@ -71,7 +71,7 @@ fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
     }))
 }
 
-/// What is odd about a position of a joint: beyond its limits, or more than a turn. A
+/// Returns what is odd about a position of a joint: beyond its limits, or more than a turn. A
 /// number by itself is of radians, and was perhaps meant otherwise.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;

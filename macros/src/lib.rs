@@ -1,5 +1,6 @@
 //! `dynamics!`: tokens to `dalembert-codegen`, tokens back.
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 use proc_macro::TokenStream;
 

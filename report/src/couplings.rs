@@ -45,7 +45,7 @@ impl fmt::Display for Reason {
     }
 }
 
-/// What was found about a coefficient.
+/// A finding about a coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finding {
     /// It vanishes in every state.
@@ -54,7 +54,7 @@ pub enum Finding {
     Repeats {
         /// The index of the other in [`Couplings::entries`].
         entry: usize,
-        /// Whether it is the opposite.
+        /// True if it is the opposite.
         opposite: bool,
         /// Why.
         reason: Reason,
@@ -70,9 +70,9 @@ pub struct Coupling {
     pub quantity: Quantity,
     /// Zero-based: i; i, k; or i, k, m.
     pub joints: Vec<usize>,
-    /// What was found.
+    /// The finding.
     pub finding: Finding,
-    /// Whether it is the same in every state.
+    /// True if it is the same in every state.
     pub constant: bool,
 }
 
@@ -85,7 +85,7 @@ pub struct Couplings {
     pub entries: Vec<Coupling>,
 }
 
-/// How many coefficients of a quantity there are, vanish, and differ.
+/// Numbers of coefficients of a quantity: all, those that vanish, those that differ.
 #[derive(Clone, Debug, PartialEq, Eq, Default, Serialize)]
 pub struct Summary {
     /// All, symmetric ones once.
@@ -94,11 +94,11 @@ pub struct Summary {
     pub zero: usize,
     /// Those that do not, equal and opposite ones once.
     pub distinct: usize,
-    /// How many vanish, and repeat another, for each reason.
+    /// Numbers of those that vanish, and repeat another, for each reason.
     pub reasons: BTreeMap<Reason, Tally>,
 }
 
-/// How many coefficients vanish and repeat for a reason.
+/// Numbers of coefficients that vanish and repeat for a reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize)]
 pub struct Tally {
     /// Those that vanish.
@@ -112,9 +112,9 @@ pub struct Tally {
 pub struct Listed {
     /// Its name, one-based: `h_346`.
     pub name: String,
-    /// Whether it vanishes.
+    /// True if it vanishes.
     pub zero: bool,
-    /// Whether it is the same in every state.
+    /// True if it is the same in every state.
     pub constant: bool,
     /// The one before that it equals.
     pub equals: Option<String>,
@@ -125,7 +125,7 @@ pub struct Listed {
 }
 
 impl Couplings {
-    /// Of a robot; `None` if it has too many joints to list all h_ikm.
+    /// Finds them for a robot; `None` if it has too many joints to list all h_ikm.
     pub fn of(robot: &Robot) -> Option<Couplings> {
         let function = Function::DynamicCoefficients;
         let n = robot.joints.len();
@@ -293,7 +293,7 @@ fn why_zero(robot: &Robot, quantity: Quantity, joints: &[usize]) -> Reason {
     }
 }
 
-/// Whether h_ikm = −h_kim, m ≤ min(i, k), ties the two, with the last two
+/// Returns whether h_ikm = −h_kim, m ≤ min(i, k), ties the two, with the last two
 /// indices of each in either order.
 fn antisymmetric(a: &[usize], b: &[usize]) -> bool {
     let (&[i, x, y], &[j, u, v]) = (a, b) else {

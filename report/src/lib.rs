@@ -10,6 +10,7 @@
 //! - [`processor`]: what compilers do not say of functions
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 pub mod couplings;
 pub mod drawing;

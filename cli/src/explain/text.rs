@@ -82,7 +82,7 @@ fn entries(couplings: &Couplings) -> String {
     output::table(&rows.collect::<Vec<_>>(), 2)
 }
 
-/// Whether a tolerance took f32 for a row.
+/// Returns whether a tolerance took f32 for a row.
 fn emits_single(explanations: &[Measured]) -> bool {
     let mut rows = explanations.iter().flat_map(|(e, _)| &e.rows);
     rows.any(|row| matches!(row.code, Code::Emitted(_, ScalarType::F32)))

@@ -25,7 +25,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// What the arguments say, looked at before the work.
+    /// Returns what the arguments say, looked at before the work.
     ///
     /// # Errors
     /// Something cannot be written, or would be written over something else.

@@ -29,7 +29,7 @@ impl Report {
     }
 }
 
-/// What the columns are; the guide's page on real time has the rest.
+/// The meaning of the columns; the guide's page on real time has the rest.
 const MODEL: &str = "
 mul, add, div: with those of polynomials; square roots are calls
 alive: the greatest number of values alive at once, of those that are computed
@@ -79,7 +79,7 @@ fn scalars(footprints: &[Footprint]) -> Vec<ScalarType> {
     scalars
 }
 
-/// What does not depend on the processor.
+/// Returns what does not depend on the processor.
 fn programs(footprints: &[&Footprint]) -> String {
     let fuses = footprints.iter().any(|f| f.counts.fma > 0);
     let mut head = vec!["function", "mul", "add"];
@@ -138,7 +138,7 @@ fn listed(words: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// The same for programs: by scalar, then by function.
+/// Writes it as JSON: by scalar, then by function.
 pub fn json(report: &Report) -> Value {
     let footprints = &report.footprints;
     let scalars = scalars(footprints).into_iter().map(|scalar| {

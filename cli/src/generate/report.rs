@@ -46,7 +46,7 @@ pub fn head(robot: &Robot, request: &Request) -> String {
     )
 }
 
-/// What a user should know.
+/// Returns what a user should know.
 pub fn warnings(generated: &Generated) -> String {
     let warnings = generated.warnings.iter();
     warnings
@@ -79,7 +79,7 @@ pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usi
     text + &warnings(generated)
 }
 
-/// What the limit on rounding errors cost each function.
+/// Returns what the limit on rounding errors cost each function.
 pub fn limits(generated: &Generated) -> String {
     let mut text = String::new();
     for function in &generated.functions {
@@ -104,7 +104,7 @@ pub fn limits(generated: &Generated) -> String {
     text
 }
 
-/// What rounding costs each program in each scalar; what a tolerance admits has
+/// Returns what rounding costs each program in each scalar; what a tolerance admits has
 /// its certificates.
 pub fn measured(
     robot: &Robot,
@@ -151,7 +151,7 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
     )
 }
 
-/// What a tolerance admitted: E by cause, and what was left out.
+/// Returns what a tolerance admitted: E by cause, and what was left out.
 fn tolerance(admitted: &Admitted, ended: bool) -> String {
     let mut text = String::new();
     for certificate in &admitted.certificates {

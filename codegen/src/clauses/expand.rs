@@ -168,7 +168,7 @@ fn path_exists(path: &str) -> bool {
     Path::new(path).is_file()
 }
 
-/// What is odd about the robot in the file, at the file's name: a macro knows
+/// Returns what is odd about the robot in the file, at the file's name: a macro knows
 /// no place in another file.
 fn warnings(file: &RobotFile, literal: &LitStr) -> Vec<Warning> {
     let shown = literal.value();

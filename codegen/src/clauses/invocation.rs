@@ -22,7 +22,7 @@ use crate::program::ScalarType;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
-/// What an invocation says.
+/// The content of an invocation.
 pub(super) struct Invocation {
     /// Its documentation and other attributes, for each module.
     pub(super) attributes: Vec<Attribute>,
@@ -176,7 +176,7 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
     pairs_of(&trees[..end], ';', may_stand, errors)
 }
 
-/// What may stand behind a clause's name, for who wrote nothing there.
+/// Returns what may stand behind a clause's name, for who wrote nothing there.
 fn may_stand(clause: &str) -> String {
     match clause {
         "outputs" => list::known::<Function>(),

@@ -2,7 +2,7 @@
 //! What can be wrong with a robot is the reader's to say, which words there
 //! are is [`words`](super::words)'.
 
-/// What is wrong, and what would be right.
+/// A message: the fault, and what would be right.
 pub(super) struct Message {
     pub(super) text: &'static str,
     pub(super) help: &'static str,

@@ -89,7 +89,7 @@ pub enum RobotFileError {
     Unreadable {
         /// The path as messages show it.
         shown: String,
-        /// What the system says.
+        /// The message of the system.
         error: String,
     },
     /// The plan beside it cannot be read.
@@ -100,13 +100,13 @@ pub enum RobotFileError {
         shown: String,
         /// The text.
         source: String,
-        /// What is wrong with it.
+        /// The fault.
         diagnostics: Diagnostics,
     },
 }
 
 impl RobotFileError {
-    /// What the system says of a path, in the words that every way in has for it;
+    /// Returns what the system says of a path, in the words that every way in has for it;
     /// messages call it by a shorter name.
     pub fn of_system(path: &Path, shown: &str, error: &std::io::Error) -> RobotFileError {
         match error.kind() {
@@ -147,7 +147,7 @@ impl RobotFileError {
         }
     }
 
-    /// How many joints the file seems to have. A file with an error in it has
+    /// Returns how many joints the file seems to have. A file with an error in it has
     /// no robot to ask, and what users wrote calls functions of some size.
     pub fn joints(&self) -> Option<usize> {
         let RobotFileError::Wrong { source, .. } = self else {

@@ -116,7 +116,7 @@ pub(super) fn beside(source: &str, name: &Ident, body: &Group, errors: &mut Erro
     }
 }
 
-/// What a robot's block consists of.
+/// The parts of a robot's block.
 #[derive(Default)]
 struct Blocks {
     keys: Vec<TokenTree>,
@@ -369,7 +369,7 @@ impl File {
         errors.say(self.tokens(found, name), &reword(&found.message), &help);
     }
 
-    /// What is odd, at the innermost tokens that it is about.
+    /// Returns what is odd, at the innermost tokens that it is about.
     fn warning(&self, found: &Diagnostic, name: &Ident) -> Warning {
         Warning {
             at: self.tokens(found, name),
@@ -403,7 +403,7 @@ fn join(value: &[TokenTree]) -> String {
     text
 }
 
-/// How the reader's messages about a file read in the macro.
+/// The reader's words about a file, and the macro's for the same.
 const DIALECT: [(&str, &str); 8] = [
     ("a [scene.NAME] table", "a `scene NAME { … }` block"),
     ("the robot has: name, ", "the robot has: "),

@@ -25,7 +25,7 @@ svg{font:12px sans-serif;color:#222}\
 .x{stroke:#ff8080}.y{stroke:#6cc98c}.z{stroke:#62b0ea}.t,.s{stroke:#d68ada}\
 .m{fill:#f0935a}.e{fill:#f0935a;stroke:#f0935a}}";
 
-/// What the marks mean.
+/// The meaning of the marks.
 const LEGEND: [&str; 2] = [
     "frames: x red, y green, z blue; arrows with numbers: axes of joints, dashed where they slide",
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",

@@ -12,28 +12,28 @@ use super::target::Target;
 pub struct Call {
     /// Its name, as the text has it.
     pub name: String,
-    /// How often it is called.
+    /// Number of calls.
     pub times: usize,
 }
 
-/// What a function meets in every run. The text of the function itself has no
+/// The calls and the slow paths of a function. The text of the function itself has no
 /// branch and no loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HotPath {
     /// The scalar.
     pub scalar: ScalarType,
-    /// What is called.
+    /// The functions that are called.
     pub calls: Vec<Call>,
     /// Whose sines, if any are called.
     pub library: Option<Library>,
-    /// Whether libm's square roots are called, for Coulomb friction.
+    /// True if libm's square roots are called, for Coulomb friction.
     pub roots: bool,
-    /// Whether products are fused with sums.
+    /// True if products are fused with sums.
     pub fuses: bool,
 }
 
 impl HotPath {
-    /// Of the printed text.
+    /// Reads the printed text.
     pub fn of(text: &Lowered) -> HotPath {
         let called: Vec<&LoweredTrig> = text.trig.iter().filter(|t| t.kernel.is_none()).collect();
         let library = (!called.is_empty()).then_some(text.library);
@@ -100,7 +100,7 @@ impl HotPath {
         }
     }
 
-    /// What is slow on a processor, and the way around.
+    /// Returns what is slow on a processor, and the way around.
     pub fn warnings(&self, target: &Target) -> Vec<String> {
         let all = [
             self.of_f64(target),

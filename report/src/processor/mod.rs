@@ -23,12 +23,12 @@ use flat::Flat;
 use hot_path::HotPath;
 use target::Target;
 
-/// What a function takes.
+/// All that is said of one function.
 #[derive(Clone, Debug)]
 pub struct Footprint {
     /// Which function.
     pub function: Function,
-    /// In which scalar.
+    /// The scalar.
     pub scalar: ScalarType,
     /// Its operations, and those of the polynomials of its sines.
     pub counts: Counts,

@@ -7,9 +7,9 @@ use dalembert_codegen::workspace::program::ScalarType;
 pub struct Target {
     /// Its name on the command line.
     pub name: &'static str,
-    /// Whether it computes in f64; without, every operation calls software.
+    /// True if it computes in f64; without, every operation calls software.
     pub f64: bool,
-    /// Whether it fuses a product with a sum in one instruction; without, `mul_add` calls a
+    /// True if it fuses a product with a sum in one instruction; without, `mul_add` calls a
     /// function.
     pub fma: bool,
 }

@@ -31,7 +31,7 @@ pub struct Pair {
 pub struct Comparison {
     /// Its name.
     pub formulation: &'static str,
-    /// What the paper's polynomials count at the robot's number of joints.
+    /// The counts of the paper's polynomials at the robot's number of joints.
     pub paper: Pair,
     /// The formula with the robot's numbers, zeros and ones left out.
     pub as_written: Pair,
