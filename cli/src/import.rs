@@ -18,6 +18,9 @@ pub fn run(args: &ImportArgs) -> Outcome {
     };
     distinct::distinct(&[("the URDF", &args.urdf)], &[("the robot file", &target)])?;
     target.check()?;
+    if !args.force {
+        target.ours()?;
+    }
     let name = args.urdf.display().to_string();
     let bytes = input::bytes(&args.urdf, MAX_BYTES as u64)?;
     let source = String::from_utf8(bytes)

@@ -39,6 +39,7 @@
 //! below, by one door:
 //! - `workspace`: what they use of each stage
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(unreachable_pub)]
 
 mod approximate;

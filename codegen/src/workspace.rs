@@ -114,7 +114,7 @@ pub mod function {
 pub mod generate {
     pub use crate::generate::{
         Fma, GenerateError, Generated, GeneratedFunction, MAX_OUTPUTS, Prefer, Request, TextDefect,
-        ToleranceError, Unbounded, generate,
+        ToleranceError, Unbounded, generate, generate_anew,
     };
     pub mod early {
         pub use crate::generate::early::price;

@@ -88,6 +88,9 @@ pub struct ImportArgs {
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write over a file that this command did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
     #[command(flatten)]
     pub chain: ChainArgs,
     /// Print what there is to say of the URDF as JSON; the robot file goes to -o
@@ -112,17 +115,10 @@ pub struct ShowArgs {
     /// Write the drawing here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write over a file that this command did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// Print the poses of links and hand as JSON; without -o nothing is drawn
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `couplings`.
-#[derive(Debug, clap::Args)]
-pub struct CouplingsArgs {
-    /// The robot file
-    pub robot: PathBuf,
-    /// Print JSON
     #[arg(long)]
     pub json: bool,
 }

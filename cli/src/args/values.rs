@@ -19,8 +19,7 @@ use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_report::processor::target::Target;
-use dalembert_report::processor::targets::TARGETS;
+use dalembert_report::processor::target::{TARGETS, Target};
 
 pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     StringValueParser::new().try_map(|text| match text.rsplit_once('=') {

@@ -5,12 +5,14 @@
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`mod@keep`]: what was generated, in a plan
 //! - [`early`]: a search that was ended early, and what programs are compared by
+//! - `anew`: plans of a robot or a scene that was edited since
 //! - `contradiction`: what was proved, tried
 //! - [`parameters`]: which parameters can be arguments
 //! - [`language`]: what a language lacks
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated; [`reason`]: what it says of that
 
+mod anew;
 mod contradiction;
 pub(crate) mod early;
 pub(crate) mod error;
@@ -51,6 +53,7 @@ use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
+pub use anew::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub(crate) use reason::NoSines;

@@ -13,7 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.",
     results: &[Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity],
     structure: Some("DynamicCoefficients"),
-    by_default: true,
+    by_default: false,
     parts: &[],
 };
 

@@ -16,7 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).",
     results: &[Quantity::Acceleration],
     structure: None,
-    by_default: false,
+    by_default: true,
     parts: &[],
 };
 

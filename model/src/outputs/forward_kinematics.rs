@@ -13,7 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.",
     results: &[Quantity::Pose],
     structure: None,
-    by_default: false,
+    by_default: true,
     parts: &[],
 };
 

@@ -13,7 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.",
     results: &[Quantity::Jacobian],
     structure: None,
-    by_default: false,
+    by_default: true,
     parts: &[],
 };
 

@@ -8,6 +8,7 @@ use core::fmt;
 use core::ops::Range;
 
 use super::{Reading, RobotWarning, Severity};
+use crate::outputs::Function;
 use crate::robot::Robot;
 use crate::scene::Scene;
 
@@ -221,7 +222,7 @@ impl<'s> Sink<'s> {
     /// only in the way.
     pub(super) fn finish(
         mut self,
-        read: Option<(Robot, Vec<Scene>)>,
+        read: Option<(Robot, Vec<Function>, Vec<Scene>)>,
     ) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
         let allowed = self.allowed;
@@ -239,8 +240,9 @@ impl<'s> Sink<'s> {
             }
         }
         match read {
-            Some((robot, scenes)) if errors.is_empty() => Ok(Reading {
+            Some((robot, outputs, scenes)) if errors.is_empty() => Ok(Reading {
                 robot,
+                outputs,
                 scenes,
                 notes,
             }),

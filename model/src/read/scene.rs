@@ -8,6 +8,7 @@ use core::ops::Range;
 
 use toml_span::Value;
 
+use super::outputs;
 use super::places::Places;
 use super::report::quote;
 use super::suggest;
@@ -159,51 +160,13 @@ impl Reader<'_, '_, '_> {
     }
 
     fn outputs(&mut self, keys: &Keys) -> Vec<Function> {
-        const HELP: &str = "outputs = [\"inverse_dynamics\"]";
         let Some(value) = keys.get("outputs") else {
             return Vec::new();
         };
         self.mark(Part::Outputs, value);
-        let items = self.list(value, HELP).unwrap_or_default();
-        let mut outputs: Vec<Function> = Vec::new();
-        for item in items {
-            let read = self.output(item, &outputs);
-            let Some(output) = self.noted(read) else {
-                continue;
-            };
-            if outputs.iter().any(|other| output.is_namesake(*other)) {
-                let message = format!("`{}` is in the list already", output.name());
-                let span = Context::span(item);
-                self.cx.sink.error(span, message, "once is enough");
-            } else {
-                outputs.push(output);
-            }
-        }
-        if items.is_empty() {
-            let span = first_line(self.cx.source, Context::span(value));
-            let message = "a scene wants one output at least".to_string();
-            let help = "leave `outputs` out for the request's";
-            self.cx.sink.error(span, message, help);
-        }
-        outputs
-    }
-
-    /// An output by its name, or a bundle of some.
-    fn output(&mut self, item: &Value, before: &[Function]) -> Option<Function> {
-        let words = Function::ALL.map(|function| (function.name(), function));
-        let Some(text) = item.as_str().filter(|text| text.contains(['=', '+'])) else {
-            return self.cx.word(item, &words);
-        };
-        match Function::parse(text) {
-            Ok(bundle) => Some(bundle),
-            Err(error) => {
-                let error = error.among(before);
-                let help = suggest::for_bundle(&error);
-                let span = Context::span(item);
-                self.cx.sink.error(span, error.message(), &help);
-                None
-            }
-        }
+        let read = outputs::read(self.cx, value, "a scene");
+        self.incomplete |= read.is_none();
+        read.unwrap_or_default()
     }
 
     fn joints(&mut self, keys: &Keys) -> Option<Vec<usize>> {

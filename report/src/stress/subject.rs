@@ -55,8 +55,11 @@ impl Code {
         }
     }
 
-    /// The functions that a request gives, read back from the text, in the
-    /// order of the request's scalars.
+    /// Generates the functions of a request, read back from the text, in the order of the
+    /// request's scalars.
+    ///
+    /// # Errors
+    /// Those of generating.
     pub fn emitted(robot: &Robot, request: &Request) -> Result<Vec<Code>, GenerateError> {
         let generated = generate(robot, request)?;
         let of = |scalar: &ScalarType| {
