@@ -135,7 +135,7 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
             .filter(|(other, _)| *other == own);
         let size = same.map(|(_, found)| found.seen.size).fold(0.0, f64::max);
         let of = |x: f64| if x == 0.0 { 0.0 } else { x / size };
-        let worse = |before: f64, x: f64| if x <= before { before } else { x };
+        let worse = |before: f64, x: f64| if x > before || x.is_nan() { x } else { before };
         distance.edits = worse(distance.edits, of(found.edits));
         distance.rounding = worse(distance.rounding, of(found.rounding));
         distance.seen = worse(distance.seen, of(found.seen.off));

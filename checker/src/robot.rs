@@ -22,6 +22,8 @@ pub(crate) struct File<S> {
     _name: IgnoredAny,
     #[serde(rename = "allow")]
     _allow: Option<IgnoredAny>,
+    #[serde(rename = "outputs")]
+    _outputs: Option<IgnoredAny>,
     #[serde(rename = "tool")]
     _tool: Option<IgnoredAny>,
 }

@@ -90,7 +90,9 @@ pub fn worst(
             let value = formula.terms.first().map_or(0.0, |term| term.1);
             let off = (computed - value).abs() - formula.rest;
             // So that a result that is no number counts.
-            worst.off = if off <= worst.off { worst.off } else { off };
+            if off > worst.off || off.is_nan() {
+                worst.off = off;
+            }
             worst.size = worst.size.max(value.abs() - formula.rest);
         }
     }

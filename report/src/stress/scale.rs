@@ -8,7 +8,7 @@ use nalgebra::DVector;
 use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::states::JointState;
 
-/// How many states the torque scales are taken over.
+/// Number of states that the torque scales are taken over.
 pub const STATES: usize = 1000;
 
 /// The seed of the torque scales.

@@ -25,7 +25,7 @@ const MAX_BYTES: u64 = 256 << 20;
 pub struct Rung {
     /// Zero for the exact program.
     pub tolerance: f64,
-    /// Whether anything was left out: if not, less tolerance leaves out
+    /// True if anything was left out: if not, less tolerance leaves out
     /// nothing either.
     pub fruitful: bool,
     /// The variants.
