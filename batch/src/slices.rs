@@ -152,7 +152,7 @@ pub(crate) fn run_columns<F, const L: usize, const A: usize, const N: usize, con
         from_fn(|argument| from_fn(|entry| &few[argument][entry][..]));
     let mut found = [[F::Scalar::default(); L]; M];
     let is_few = states < L;
-    let (arguments, mut columns, count) = match is_few {
+    let (arguments, columns, count) = match is_few {
         true => {
             let places = found.each_mut().map(|place| &mut place[..]);
             (own.each_ref(), places, L.min(states * L))
