@@ -25,6 +25,7 @@
 //! the macro, `model` the description, for which it needs an allocator.
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 
 #[cfg(feature = "model")]
 pub use dalembert_model::{equations, number, reference, robot, scalar};

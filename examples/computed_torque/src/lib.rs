@@ -22,8 +22,6 @@ use plant::{Plant, State};
 
 dalembert::dynamics! {
     /// The arm as the controller knows it.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
     outputs: inverse_dynamics, forward_dynamics;
     scalar: f64;
@@ -31,8 +29,6 @@ dalembert::dynamics! {
 
 dalembert::dynamics! {
     /// The arm with a payload in its hand.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod loaded = "robots/loaded.toml";
     outputs: forward_dynamics;
     scalar: f64;

@@ -2,8 +2,6 @@
 
 dalembert::dynamics! {
     /// Unimation PUMA 560.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
     outputs: inverse_dynamics;
     scalar: f64;

@@ -26,7 +26,12 @@ fn the_code_of_the_guide_is_this_crate() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let sources = files(&here.join("src"), "rs").into_iter();
     let mut sources: Vec<String> = sources.map(|f| fs::read_to_string(f).unwrap()).collect();
-    for example in ["adaptive_control", "bare_metal", "swing_up"] {
+    for example in [
+        "adaptive_control",
+        "bare_metal",
+        "swing_up",
+        "with_build_script",
+    ] {
         let others = files(&here.join("..").join(example).join("src"), "rs").into_iter();
         sources.extend(others.map(|f| fs::read_to_string(f).unwrap()));
     }

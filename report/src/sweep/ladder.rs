@@ -16,14 +16,14 @@ use dalembert_codegen::workspace::simplify::Effort;
 use super::rungs::{Rung, Rungs};
 use super::{Point, SweepError};
 
-/// How a sweep is done.
+/// The options of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// States at which each variant is run.
     pub samples: usize,
     /// Climbs from there to the largest error of each output.
     pub climbs: usize,
-    /// How long to search.
+    /// The effort of the search.
     pub effort: Effort,
 }
 
