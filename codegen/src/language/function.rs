@@ -76,7 +76,7 @@ fn write_steps(text: &mut String, printed: &Printed<'_>) {
         parts::write(text, printed);
         return;
     }
-    let last_use = last_uses(code);
+    let last_use = parts::last_uses(code);
     for block in pieces(&code.steps, BLOCK) {
         let end = block.end;
         // A block hands on what is read after it: that much is live.
@@ -156,22 +156,4 @@ fn result_item(output: &Output<Literal>, scalar: ScalarType) -> String {
 fn push(text: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(line);
     text.push('\n');
-}
-
-/// The last step that reads each step; past the end for results.
-pub(super) fn last_uses(code: &Lowered) -> Vec<usize> {
-    let mut last = vec![0; code.steps.len()];
-    for (index, step) in code.steps.iter().enumerate() {
-        for operand in [&step.left, &step.right] {
-            if let Operand::Step(read) = operand {
-                last[*read] = index;
-            }
-        }
-    }
-    for output in &code.outputs {
-        if let Operand::Step(read) = output.value {
-            last[read] = usize::MAX;
-        }
-    }
-    last
 }
