@@ -13,10 +13,11 @@
 pub(crate) mod angles;
 mod batch;
 mod given;
-mod lanes;
+pub(crate) mod lanes;
 mod single;
 
 use crate::backend::Printed;
+use crate::function::Function;
 use angles::Angles;
 
 /// How a function can be called; each has those before it, too.
@@ -101,6 +102,7 @@ fn places(printed: &Printed<'_>) -> Vec<String> {
     for quantity in function.quantities() {
         let field = match function.structure() {
             Some(_) => format!(".{}", quantity.field()),
+            None if function == Function::Load => ".0".to_owned(),
             None => String::new(),
         };
         let shape = quantity.shape();

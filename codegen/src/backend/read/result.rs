@@ -24,8 +24,15 @@ pub(super) fn items(text: &str, function: Function) -> Result<Vec<&str>, TextFau
     let mut items = Vec::new();
     match function.structure() {
         None => {
+            let is_load = function == Function::Load;
+            if is_load {
+                words.expect("Load(")?;
+            }
             let shape = function.quantities()[0].shape();
             array(&mut words, shape.0, &mut items)?;
+            if is_load {
+                words.expect(")")?;
+            }
         }
         Some(name) => {
             words.expect(name)?;

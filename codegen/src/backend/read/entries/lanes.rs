@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use super::call::{Call, expect, parameters};
 use super::{Reader, Text, TextError};
+use crate::backend::entries::lanes::in_lane;
 use crate::backend::read::error::{EntryFault, Kind, TextFault};
 use crate::function::Argument;
 use crate::program::Lowered;
@@ -74,9 +75,8 @@ pub(super) fn check(
     }
     lines.expect("for l in 0..L {")?;
     let columns = arguments.iter().map(|argument| {
-        let length = Argument::from_name(argument).map_or(0, |known| known.length(text.sizes));
-        let entries: Vec<String> = (0..length).map(|i| format!("{argument}[{i}][l]")).collect();
-        format!("&[{}]", entries.join(", "))
+        let known = Argument::from_name(argument);
+        known.map_or_else(String::new, |known| in_lane(known, text.sizes))
     });
     let call = Call {
         name,
