@@ -356,7 +356,7 @@ pub use dalembert_macros::dynamics;
 /// For generated code only.
 #[doc(hidden)]
 pub mod __private {
-    /// What bodies call, by one name whichever library it is from.
+    /// The functions that generated bodies call, by one name whichever library they are from.
     pub mod math {
         pub use dalembert_sines as together;
         pub use libm::{cos, cosf, sin, sincos, sincosf, sinf, sqrt, sqrtf};

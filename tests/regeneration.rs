@@ -29,7 +29,7 @@ fn robots() -> BTreeMap<String, PathBuf> {
         .collect()
 }
 
-/// Whether a file says this; if not, it does afterwards.
+/// Returns whether a file has this text, and writes it if not.
 fn keep(path: &Path, text: &str) -> bool {
     let same = fs::read_to_string(path).is_ok_and(|old| old == text);
     if !same {
@@ -75,8 +75,8 @@ fn checked_in_code_is_up_to_date() {
 /// The functions of each robot.
 type Table = BTreeMap<String, Vec<GeneratedFunction>>;
 
-/// What the plan has besides the functions of the file, and what takes parameters of the
-/// robot as arguments. Without the plan, a search of minutes would take its place.
+/// Generates what the plan has besides the functions of the file, and what takes parameters of
+/// the robot as arguments. Without the plan, a search of minutes would take its place.
 fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let plan = request.plan.as_ref().unwrap();
     let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());

@@ -40,7 +40,7 @@ pub type Joints = [f64; puma560::N];
 /// The period of the controller, s.
 pub const PERIOD: f64 = 1e-3;
 
-/// How far the arm was from where it should be.
+/// The tracking error of a run.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// Largest distance of a joint while gravity compensation held it, rad.

@@ -1,4 +1,4 @@
-//! What `dynamics!` costs in a crate with cargo's default profile.
+//! Measures what `dynamics!` costs in a crate with cargo's default profile.
 
 dalembert::dynamics! {
     /// Unimation PUMA 560.

@@ -125,7 +125,7 @@ fn a_motion_is_followed() {
     assert!(error < 1e-4, "{error:e}");
 }
 
-/// What the certificate of the scene says, at a state inside its box.
+/// The scene's torques stay within its certificate at a state inside its box.
 #[test]
 fn picking_is_within_its_tolerance() {
     let (q, qd, qdd) = ([0.0, 0.7, -1.1], [0.0, 1.5, -2.0], [0.0, 8.0, 5.0]);
