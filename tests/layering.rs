@@ -24,7 +24,7 @@ const CRATES: [&str; 13] = [
     "report",
     "import",
     "cli",
-    "audit",
+    "checker",
     ".",
     "sines",
     "batch",

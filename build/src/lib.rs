@@ -82,14 +82,12 @@ mod output;
 use std::env;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::generate::in_scene::find;
 use dalembert_codegen::workspace::generate::{Request, generate_anew};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::Library;
 use dalembert_model::robot::Severity;
 
-#[doc(inline)]
-pub use dalembert_codegen::workspace::backend::Entries;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::clauses::RobotFileError;
 #[doc(inline)]
@@ -104,6 +102,8 @@ pub use dalembert_codegen::workspace::function::RuntimeParameter as Parameter;
 pub use dalembert_codegen::workspace::generate::in_scene::UnknownScene;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::generate::{Fma, GenerateError, Prefer};
+#[doc(inline)]
+pub use dalembert_codegen::workspace::language::{Entries, Language};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::portfolio::Start as Formulation;
 #[doc(inline)]
@@ -257,6 +257,14 @@ impl Generator {
     #[must_use]
     pub fn fma(mut self, fma: Fma) -> Self {
         self.request.fma = fma;
+        self
+    }
+
+    /// Sets the language of the file: [`Language::C`] writes one header of C99, which C++ reads
+    /// too, with the functions of all scalars.
+    #[must_use]
+    pub fn language(mut self, language: Language) -> Self {
+        self.request.language = language;
         self
     }
 

@@ -5,12 +5,12 @@
 //! that costs by rounding is bounded as well and granted, so a violation
 //! found here is one.
 
-use crate::backend::read::TextError;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::relative;
 use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::{Rounding, rounding};
 use crate::certificate::Certificate;
+use crate::language::read::TextError;
 use crate::program::columns::Columns;
 use crate::program::{Lowered, ScalarType};
 use crate::random::Random;

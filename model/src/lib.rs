@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 extern crate alloc;
 #[cfg(feature = "std")]

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::{
     AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output,

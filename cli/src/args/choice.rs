@@ -1,8 +1,8 @@
 //! Which functions to generate, and from what.
 
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Fma, Prefer, Request};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Library, ScalarType};
 use dalembert_codegen::workspace::simplify::Effort;

@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use clap::ArgGroup;
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::processor::target::Target;
 
 use super::values::{
-    effort_parser, entries_parser, function_parser, interface_parser, states_parser, target_parser,
+    effort_parser, entries_parser, function_parser, interface_parser, language_parser,
+    states_parser, target_parser,
 };
 use super::{CODE, Choice, MORE};
 
@@ -48,6 +49,10 @@ pub struct GenerateArgs {
     /// that is a module of your crate (`mod puma560;`). It has one scalar
     #[arg(long, help_heading = CODE)]
     pub contents: bool,
+    /// The language of the code: `rust`, a module for each scalar; `c`, one header of C99 that
+    /// C++ reads too
+    #[arg(long, value_name = "NAME", default_value = "rust", value_parser = language_parser())]
+    pub language: Language,
     /// Which variants of each function to print, each choice with those before it:
     /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`,
     /// for several states at once; `batch`, for slices of states (needs the crate

@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 pub use choice::Choice;
 pub use code::{CountArgs, ExplainArgs, GenerateArgs};
 pub use errors::{CertifyArgs, StressArgs, TradeoffArgs, VerifyArgs};
-pub use files::{ImportArgs, NewArgs, ShowArgs};
+pub use files::{ChainArgs, ImportArgs, NewArgs, ShowArgs};
 
 /// Options that say how code is written.
 const CODE: &str = "How the code is written";

@@ -27,6 +27,7 @@ use files::Files;
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    request.language = args.language;
     request.entries = args.entries;
     request.interface = args.interface;
     if args.contents {

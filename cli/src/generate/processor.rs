@@ -1,7 +1,7 @@
 //! What functions take of processors, as text and for programs.
 
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::robot::Robot;
 use dalembert_report::processor::target::{TARGETS, Target};
@@ -69,7 +69,7 @@ pub fn text(robot: &Robot, request: &Request, generated: &Generated, report: &Re
 }
 
 fn cuts(steps: usize) -> bool {
-    steps > dalembert_codegen::workspace::backend::parts::LONG
+    steps > dalembert_codegen::workspace::language::parts::LONG
 }
 
 /// The scalars, in the order of the text.

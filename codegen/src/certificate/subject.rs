@@ -3,13 +3,13 @@
 use dalembert_model::scene::Scale;
 
 use super::Certificate;
-use crate::backend::{MathPath, Printed, function};
 use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::bound::turns::turns_freely;
 use crate::edits::{Stage, difference, has_edits};
+use crate::language::{MathPath, Printed, function};
 use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};

@@ -232,6 +232,7 @@ fn functions(
                 | GenerateError::Unexplained(_)
                 | GenerateError::StalePlan { .. }
                 | GenerateError::StaleScene { .. }
+                | GenerateError::Language(..)
                 | GenerateError::Scene(_) => None,
                 GenerateError::Parameter(
                     ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _),

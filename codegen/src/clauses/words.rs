@@ -6,10 +6,10 @@ use std::fmt;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::{closest, for_bundle};
 
-use crate::backend::Entries;
 use crate::emit::Interface;
 use crate::function::{BundleError, Function};
 use crate::generate::{Fma, Prefer};
+use crate::language::Entries;
 use crate::portfolio::Start;
 use crate::program::ScalarType;
 use crate::simplify::Effort;

@@ -6,8 +6,8 @@ use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::request::Request;
 use crate::approximate::error::Unbounded;
-use crate::backend::Entries;
 use crate::function::{Argument, Function};
+use crate::language::Entries;
 use crate::portfolio::Start;
 use crate::scene::SceneRobot;
 

@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -51,15 +50,6 @@ impl Formula for Christoffel {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let h = at.composite.christoffel();
         Some(h.into_iter().flatten().flatten().collect())
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        // Each symmetric: its columns are its rows.
-        let symbols = runtime.christoffel(&at.q)?;
-        Ok(symbols.iter().flatten().copied().collect())
     }
 }
 

@@ -64,7 +64,7 @@ pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
 pub use suggest::{closest, for_bundle};
 
-/// How to read.
+/// The options of a reading.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// When a number of radians counts as a multiple of π/2.

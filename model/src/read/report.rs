@@ -22,9 +22,9 @@ const MAX_WIDTH: usize = 120;
 pub struct Diagnostic {
     /// Error, warning or note.
     pub severity: Severity,
-    /// What a warning of a robot file is about; `None` of anything else.
+    /// The name of a robot file's warning; `None` of anything else.
     pub warning: Option<RobotWarning>,
-    /// What is wrong, and what was expected.
+    /// A sentence that says the mistake, and what was expected.
     pub message: String,
     /// Bytes of the source that it is about.
     pub span: Range<usize>,

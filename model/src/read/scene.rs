@@ -32,12 +32,12 @@ const KEYS: [&str; 10] = [
     "scalar",
 ];
 
-/// What one scene's tables say, and where.
+/// The reader of one scene's tables.
 struct Reader<'r, 's, 'k> {
     cx: &'r mut Context<'s, 'k>,
     robot: &'r Robot,
     spans: BTreeMap<Part, Range<usize>>,
-    /// Whether something could not be read: what seems to be missing then
+    /// True if something could not be read: what seems to be missing then
     /// may be that.
     incomplete: bool,
 }
@@ -90,7 +90,7 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, places: &Places, scenes: &Va
     read
 }
 
-/// Whether a finding here may come from what could not be read.
+/// Returns whether a finding here may come from what could not be read.
 fn is_of_absence(part: Part) -> bool {
     matches!(
         part,
@@ -121,7 +121,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// What was read, noting if it could not be.
+    /// Returns what was read, noting if it could not be.
     fn noted<T>(&mut self, read: Option<T>) -> Option<T> {
         self.incomplete |= read.is_none();
         read
@@ -213,12 +213,12 @@ impl Reader<'_, '_, '_> {
         if found.is_none() {
             let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
             let help = match (number, suggest::closest(text, &names)) {
-                (Some(_), _) => format!("joints are counted from 1 to {n}"),
                 (None, Some(meant)) => format!("did you mean `{meant}`?"),
                 (None, None) if names.is_empty() => {
                     format!("the joints have no names: count them from 1 to {n}")
                 }
-                (None, None) => format!("known: {}", names.join(", ")),
+                _ if names.is_empty() => format!("joints are counted from 1 to {n}"),
+                _ => format!("joints are counted from 1 to {n}: {}", names.join(", ")),
             };
             let message = format!("there is no joint {}", quote(text));
             self.cx.sink.error(span, message, &help);
@@ -255,7 +255,8 @@ impl Reader<'_, '_, '_> {
         locks
     }
 
-    /// How a lock is written: of the joint with this name or number, if there is one.
+    /// Returns how a lock is written: of the joint with this name or number, if there
+    /// is one.
     fn lock_of(&self, word: Option<&str>) -> String {
         let joints = self.robot.joints.iter().enumerate();
         let names = joints.map(|(i, joint)| (format!("{}", i + 1), joint.name.as_deref()));

@@ -67,7 +67,7 @@ fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
     }));
     // Below the table: such a sentence is wider than what is left beside it.
     rows.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
-        let why = joint.inertia.impossible(&joint.mass)?;
+        let why = joint.inertia.defect(&joint.mass)?.message();
         Some(line(format!("joint {}: {why}", i + 1)))
     }));
     rows

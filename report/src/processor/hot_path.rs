@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use dalembert_codegen::workspace::backend::parts::{LONG, PART};
+use dalembert_codegen::workspace::language::parts::{LONG, PART};
 use dalembert_codegen::workspace::program::{Library, Lowered, LoweredTrig, ScalarType};
 
 use super::target::Target;

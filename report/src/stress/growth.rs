@@ -8,9 +8,9 @@ use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robo
 use super::deviation::Measure;
 use super::subject::Code;
 use super::truth::Truth;
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::states::seeded;

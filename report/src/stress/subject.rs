@@ -100,7 +100,7 @@ fn run<T: Float>(
     let at = JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))));
     let mut results = Vec::new();
     for quantity in function.quantities() {
-        results.extend(quantity.runtime(runtime, &at)?);
+        results.extend(runtime.entries(*quantity, &at)?);
     }
     Ok(results.into_iter().map(widen).collect())
 }

@@ -12,8 +12,8 @@ pub mod rungs;
 
 use std::fmt;
 
-use dalembert_codegen::workspace::backend::read::TextError;
 use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::language::read::TextError;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::sincos;
 use fault::RungError;

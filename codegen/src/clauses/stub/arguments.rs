@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use dalembert_model::outputs::RuntimeParameter;
 
-use crate::backend::function::{LOAD, PAYLOAD, own_type};
 use crate::emit::arguments::{gravity_type, payload_type};
 use crate::function::{Argument, Function, Sizes};
+use crate::language::function::{LOAD, PAYLOAD, own_type};
 use crate::program::ScalarType;
 
 /// The arguments of a function that takes these parameters.

@@ -5,10 +5,10 @@ use std::fmt::Write;
 use dalembert_model::outputs::Axis;
 
 use super::arguments;
-use crate::backend::Entries;
 use crate::clauses::module::{BATCH, TRAITS};
 use crate::emit::interface::{ROBOT, answer, question};
 use crate::function::{Argument, Columns, Function, Quantity};
+use crate::language::Entries;
 use crate::program::ScalarType;
 
 /// Returns what a module has of a function beside itself. Lengths that are not known are

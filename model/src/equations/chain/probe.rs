@@ -7,7 +7,7 @@ use super::{Body, Rotation};
 use crate::equations::matrix::Vector;
 use crate::scalar::Scalar;
 
-/// What a column of a regressor is the torque of.
+/// The cause of a column of a regressor: the column is its torque.
 #[derive(Clone, Debug)]
 pub enum Column<S> {
     /// A body that is fixed to a link.
@@ -37,16 +37,16 @@ impl<S> Column<S> {
     }
 }
 
-/// What is fixed to a link beside its body.
+/// A cause of torque that is fixed to a link beside its body.
 #[derive(Clone, Debug)]
 pub struct Probe<S> {
     /// The column of the regressor.
     pub column: usize,
-    /// What it is.
+    /// The value itself.
     pub of: Probed<S>,
 }
 
-/// What a column of a regressor is of.
+/// The cause of a column of a regressor.
 #[derive(Clone, Debug)]
 pub enum Probed<S> {
     /// A body, about the origin and in the axes of the link's frame.

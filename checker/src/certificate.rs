@@ -1,0 +1,153 @@
+//! What is taken from a certificate: the text, and what is claimed of it. The programs,
+//! the edits and the parts of the bounds in it are not looked at.
+
+use serde::Deserialize;
+
+use crate::fault::Fault;
+
+/// The longest file, and the most certificates in it.
+const MOST_BYTES: usize = 16 << 20;
+const MOST_CLAIMS: usize = 16;
+
+/// The functions that are audited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Function {
+    /// τ = D q̈ + h + c + b∘q̇
+    InverseDynamics,
+    /// c
+    Gravity,
+    /// D, row by row
+    Inertia,
+    /// h
+    Coriolis,
+    /// Any other, which is refused.
+    #[serde(other)]
+    Other,
+}
+
+impl Function {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Function::InverseDynamics => "inverse_dynamics",
+            Function::Gravity => "gravity",
+            Function::Inertia => "inertia",
+            Function::Coriolis => "coriolis",
+            Function::Other => "another function",
+        }
+    }
+
+    /// How many of q, q̇ and q̈ it is a function of.
+    pub fn arguments(self) -> usize {
+        match self {
+            Function::InverseDynamics | Function::Other => 3,
+            Function::Coriolis => 2,
+            Function::Gravity | Function::Inertia => 1,
+        }
+    }
+}
+
+/// A claim: at every state of the box, each output of the text is within E·T of the
+/// function. Other fields of the file are not read.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Claim {
+    /// The version of the format.
+    certificate: u32,
+    /// The scene, if there is one.
+    #[serde(default)]
+    pub scene: Option<String>,
+    /// The function.
+    pub function: Function,
+    /// The joints, from one, that results are over.
+    pub rows: Vec<usize>,
+    /// `f64` or `f32`
+    pub scalar: String,
+    /// The ranges of q, rad or m.
+    pub position: Vec<[f64; 2]>,
+    /// The ranges of q̇, rad/s or m/s.
+    pub velocity: Vec<[f64; 2]>,
+    /// The ranges of q̈, rad/s² or m/s².
+    pub acceleration: Vec<[f64; 2]>,
+    /// T, one an output, in the output's unit.
+    pub scale: Vec<f64>,
+    /// What T is: `actuator` or `range`.
+    #[serde(default)]
+    pub relative_to: Option<String>,
+    /// E, one an output; null where nothing is claimed.
+    pub total: Vec<Option<f64>>,
+    /// The text of the function.
+    pub text: String,
+}
+
+impl Claim {
+    /// The joints, from zero, of an output: one, of an entry of D two.
+    pub fn joints(&self, output: usize) -> [usize; 2] {
+        let count = self.rows.len().max(1);
+        let row = |place: usize| self.rows.get(place).map_or(0, |row| row - 1);
+        match self.function {
+            Function::Inertia => [row(output / count), row(output % count)],
+            _ => [row(output); 2],
+        }
+    }
+
+    /// Whether the fields are of one claim.
+    ///
+    /// # Errors
+    /// The first that is not, with what was expected.
+    pub(crate) fn whole(&self) -> Result<(), Fault> {
+        let count = self.rows.len();
+        let outputs = if self.function == Function::Inertia {
+            count * count
+        } else {
+            count
+        };
+        let is_bound = |total: &Option<f64>| total.is_some_and(|e| e.is_finite() && e >= 0.0);
+        let known = ["f64", "f32"].contains(&self.scalar.as_str());
+        for (good, why) in [
+            (self.certificate == 2, "`certificate`: expected format 2"),
+            (
+                self.function != Function::Other,
+                "`function`: expected inverse_dynamics, gravity, inertia or coriolis",
+            ),
+            (known, "`scalar`: expected f64 or f32"),
+            (
+                count < 64 && !self.rows.contains(&0),
+                "`rows`: expected joints, from 1",
+            ),
+            (
+                self.scale.len() == outputs,
+                "`scale`: expected one an output",
+            ),
+            (
+                self.total.len() == outputs && self.total.iter().all(is_bound),
+                "`total`: expected E, zero or above, one an output",
+            ),
+        ] {
+            if !good {
+                return Err(Fault::certificate(why));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads a certificate, or a list of them.
+///
+/// # Errors
+/// What has not a certificate's fields; what they say is for [`crate::audit`] to judge.
+pub fn read(text: &str) -> Result<Vec<Claim>, Fault> {
+    if text.len() > MOST_BYTES {
+        return Err(Fault::certificate(format!("more than {MOST_BYTES} bytes")));
+    }
+    let read: Result<Vec<Claim>, serde_json::Error> = match text.trim_start().starts_with('[') {
+        true => serde_json::from_str(text),
+        false => serde_json::from_str(text).map(|one| vec![one]),
+    };
+    let claims = read.map_err(|error| Fault::certificate(error.to_string()))?;
+    if !(1..=MOST_CLAIMS).contains(&claims.len()) {
+        let why = format!("1 to {MOST_CLAIMS} in a file, not {}", claims.len());
+        return Err(Fault::certificate(why));
+    }
+    Ok(claims)
+}
