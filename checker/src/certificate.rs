@@ -4,49 +4,12 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
+use crate::quantity::{FUNCTIONS, Function};
+use crate::scene::Setting;
 
 /// The longest file, and the most certificates in it.
 const MOST_BYTES: usize = 16 << 20;
 const MOST_CLAIMS: usize = 16;
-
-/// The functions that are audited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Function {
-    /// τ = D q̈ + h + c + b∘q̇
-    InverseDynamics,
-    /// c
-    Gravity,
-    /// D, row by row
-    Inertia,
-    /// h
-    Coriolis,
-    /// Any other, which is refused.
-    #[serde(other)]
-    Other,
-}
-
-impl Function {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Function::InverseDynamics => "inverse_dynamics",
-            Function::Gravity => "gravity",
-            Function::Inertia => "inertia",
-            Function::Coriolis => "coriolis",
-            Function::Other => "another function",
-        }
-    }
-
-    /// How many of q, q̇ and q̈ it is a function of.
-    pub fn arguments(self) -> usize {
-        match self {
-            Function::InverseDynamics | Function::Other => 3,
-            Function::Coriolis => 2,
-            Function::Gravity | Function::Inertia => 1,
-        }
-    }
-}
 
 /// A claim: at every state of the box, each output of the text is within E·T of the
 /// function. Other fields of the file are not read.
@@ -57,8 +20,8 @@ pub struct Claim {
     /// The scene, if there is one.
     #[serde(default)]
     pub scene: Option<String>,
-    /// The function.
-    pub function: Function,
+    /// The name of the function.
+    pub function: String,
     /// The joints, from one, that results are over.
     pub rows: Vec<usize>,
     /// `f64` or `f32`
@@ -81,14 +44,44 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// The joints, from zero, of an output: one, of an entry of D two.
-    pub fn joints(&self, output: usize) -> [usize; 2] {
-        let count = self.rows.len().max(1);
-        let row = |place: usize| self.rows.get(place).map_or(0, |row| row - 1);
-        match self.function {
-            Function::Inertia => [row(output / count), row(output % count)],
-            _ => [row(output); 2],
+    /// The claim that nothing was left out of a text; E is for the checker to find.
+    pub(crate) fn exact(
+        name: &str,
+        is_single: bool,
+        rows: Vec<usize>,
+        setting: &Setting,
+        text: &str,
+    ) -> Claim {
+        let [position, velocity, acceleration] = setting.ranges.clone();
+        Claim {
+            certificate: 2,
+            scene: None,
+            function: name.to_owned(),
+            rows,
+            scalar: if is_single { "f32" } else { "f64" }.to_owned(),
+            position,
+            velocity,
+            acceleration,
+            scale: Vec::new(),
+            relative_to: None,
+            total: Vec::new(),
+            text: text.to_owned(),
         }
+    }
+
+    /// The function.
+    ///
+    /// # Errors
+    /// It is none of those that are checked.
+    pub fn function(&self) -> Result<&'static Function, Fault> {
+        let names = FUNCTIONS.each_ref().map(|function| function.name);
+        let missing = || format!("`function`: expected one of {}", names.join(", "));
+        Function::named(&self.function).ok_or_else(|| Fault::certificate(missing()))
+    }
+
+    /// The rows, from zero.
+    pub(crate) fn rows(&self) -> Vec<usize> {
+        self.rows.iter().map(|row| row - 1).collect()
     }
 
     /// Whether the fields are of one claim.
@@ -97,19 +90,11 @@ impl Claim {
     /// The first that is not, with what was expected.
     pub(crate) fn whole(&self) -> Result<(), Fault> {
         let count = self.rows.len();
-        let outputs = if self.function == Function::Inertia {
-            count * count
-        } else {
-            count
-        };
+        let outputs = self.function()?.places(count.min(64)).len();
         let is_bound = |total: &Option<f64>| total.is_some_and(|e| e.is_finite() && e >= 0.0);
         let known = ["f64", "f32"].contains(&self.scalar.as_str());
         for (good, why) in [
             (self.certificate == 2, "`certificate`: expected format 2"),
-            (
-                self.function != Function::Other,
-                "`function`: expected inverse_dynamics, gravity, inertia or coriolis",
-            ),
             (known, "`scalar`: expected f64 or f32"),
             (
                 count < 64 && !self.rows.contains(&0),

@@ -3,15 +3,18 @@
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::{Read, Write};
+use std::path::Path;
 
 use crate::certificate::{self, Claim};
 use crate::fault::Fault;
-use crate::{audit, file};
+use crate::{audit, exact, file};
 
 const USAGE: &str =
     "usage: dalembert-checker CERTIFICATE.json ROBOT.toml [--scene NAME] [--text FILE.rs]
+       dalembert-checker FILE.rs ROBOT.toml [--scene NAME]
 
-Shows that the function in a certificate is as near to the robot's dynamics as the
+Of a generated file FILE.rs it says how far each function can be from the robot's
+dynamics. Of a certificate it shows that the function in it is as near to the robot's dynamics as the
 certificate says, by means of its own. The scene is the certificate's unless it is named.
 FILE.rs is a generated file whose function of that name must be the certificate's. Exit
 codes: 0 every output is shown, 1 one is not, 2 bad input, or nothing that is checked.";
@@ -35,6 +38,14 @@ pub fn run(arguments: impl Iterator<Item = OsString>, out: &mut dyn Write) -> Re
     let scene = scene.transpose()?;
     let document = read(certificate)?;
     let robot = read(robot)?;
+    if text.is_none() && Path::new(certificate).extension() == Some(OsStr::new("rs")) {
+        let report = exact::check(&document, &robot, scene.as_deref());
+        let report = report.map_err(|fault| fault.to_string())?;
+        let code = u8::from(!report.is_shown());
+        print(out, &report.to_string())?;
+        print(out, if code == 0 { "shown\n" } else { "not shown\n" })?;
+        return Ok(code);
+    }
     let text = text.as_deref().map(read).transpose()?;
     let mut code = 0;
     for mut claim in certificate::read(&document).map_err(|fault| fault.to_string())? {
@@ -79,7 +90,7 @@ fn read(path: &OsStr) -> Result<String, String> {
 /// # Errors
 /// A file that the generator would not print, or another function of the name in it.
 pub fn is_called(claim: &Claim, source: &str) -> Result<(), Fault> {
-    let name = claim.function.name();
+    let name = claim.function.as_str();
     let own = claim.text.trim_end_matches('\n');
     let own = own.strip_prefix("#[must_use]\n").unwrap_or(own);
     let head = format!("pub fn {name}(");

@@ -164,7 +164,7 @@ pub fn torques<N: Number>(
     let (none, one) = (N::default(), N::one());
     let (mut w, mut wd, mut vd) = (zeros(), zeros(), zeros());
     if gravity {
-        // A base that is accelerated upward depends_on what one in gravity does.
+        // A base that is accelerated upward feels what one in gravity does.
         vd = setting.gravity.map(|g| N::constant(g).negated());
     }
     let unmoved = ([&none, &one], &none);

@@ -22,6 +22,8 @@ pub enum Node {
     Sub(usize, usize),
     /// A product.
     Mul(usize, usize),
+    /// A product and a sum, rounded once.
+    Fused(usize, usize, usize),
     /// The opposite, which is exact.
     Neg(usize),
     /// What stands for the sine of a value, or else for its cosine.

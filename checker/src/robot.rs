@@ -116,7 +116,7 @@ pub struct Joint {
     pub bodies: Vec<Body>,
     /// Viscous friction, N·m·s/rad or N·s/m.
     pub viscous: Real,
-    /// The inertia of the drive as the joint depends_on it, kg·m² or kg.
+    /// The inertia of the drive as the joint feels it, kg·m² or kg.
     pub armature: Real,
 }
 

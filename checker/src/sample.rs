@@ -1,52 +1,14 @@
 //! The text run at states of the box, beside the recursion at the same states: no proof,
 //! but what would contradict one.
 
-use crate::certificate::{Claim, Function};
-use crate::dynamics::{State, torques};
+use crate::certificate::Claim;
+use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::{SINE_ERROR, sin_cos};
 use crate::number::{Number, Real};
 use crate::polynomial::{Polynomial, Work};
 use crate::program::{Node, Program, Source};
 use crate::scene::Setting;
-
-/// The outputs of the function that is claimed, by the recursion.
-///
-/// # Errors
-/// As of [`torques`].
-pub fn outputs<N: Number>(
-    claim: &Claim,
-    setting: &Setting,
-    states: &[State<N>],
-    work: &mut Work,
-) -> Result<Vec<N>, Fault> {
-    let mut states = states.to_vec();
-    for state in &mut states {
-        if matches!(claim.function, Function::Gravity | Function::Inertia) {
-            state.velocity = N::default();
-        }
-        if claim.function != Function::InverseDynamics {
-            state.acceleration = N::default();
-        }
-    }
-    let loads = match claim.function {
-        Function::InverseDynamics | Function::Other => (true, true),
-        Function::Gravity => (true, false),
-        Function::Inertia | Function::Coriolis => (false, false),
-    };
-    let select = |all: Vec<N>| claim.rows.iter().map(|&row| all[row - 1].clone()).collect();
-    if claim.function != Function::Inertia {
-        return Ok(select(torques(setting, &states, loads, work)?));
-    }
-    let mut columns: Vec<Vec<N>> = Vec::new();
-    for row in &claim.rows {
-        states[row - 1].acceleration = N::one();
-        columns.push(select(torques(setting, &states, loads, work)?));
-        states[row - 1].acceleration = N::default();
-    }
-    let entries = |i: usize| columns.iter().map(move |column| column[i].clone());
-    Ok((0..claim.rows.len()).flat_map(entries).collect())
-}
 
 /// The states of all joints at numbers for q, q̇ and q̈.
 pub fn states<N: Number>(setting: &Setting, at: &[Vec<f64>; 3]) -> Vec<State<N>> {
@@ -76,20 +38,28 @@ pub fn states<N: Number>(setting: &Setting, at: &[Vec<f64>; 3]) -> Vec<State<N>>
     (0..setting.joints.len()).map(state).collect()
 }
 
-/// The largest difference between text and recursion that is seen, one an output: at
-/// `count` states, of every second one all rates at ends of their ranges.
+/// What is seen of an output.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    /// The largest difference between text and recursion.
+    pub off: f64,
+    /// The largest magnitude.
+    pub size: f64,
+}
+
+/// What is seen of each output at `count` states, of every second one all rates at ends of their ranges.
 ///
 /// # Errors
-/// As of [`torques`]; in practice none, numbers being short polynomials.
+/// As of [`crate::dynamics::torques`]; in practice none, numbers being short polynomials.
 pub fn worst(
     claim: &Claim,
     setting: &Setting,
     program: &Program,
     count: usize,
-) -> Result<Vec<f64>, Fault> {
+) -> Result<Vec<Seen>, Fault> {
     let (mut random, work) = (Random(1), &mut Work::default());
     let lists = [&claim.position, &claim.velocity, &claim.acceleration];
-    let mut worst = vec![0.0f64; program.outputs.len()];
+    let mut worst = vec![Seen::default(); program.outputs.len()];
     for index in 0..count {
         let mut draw = |which: usize, &[low, high]: &[f64; 2]| {
             let share = if which > 0 && index % 2 == 1 {
@@ -112,13 +82,18 @@ pub fn worst(
                 .collect::<Vec<f64>>()
         });
         let states: Vec<State<Polynomial>> = states(setting, &state);
-        let formula = outputs(claim, setting, &states, work)?;
+        let formula = claim
+            .function()?
+            .outputs(setting, &states, &claim.rows(), work)?;
         let computed = run(program, &state, claim.scalar == "f32");
         for ((worst, formula), computed) in worst.iter_mut().zip(formula).zip(computed) {
             let value = formula.terms.first().map_or(0.0, |term| term.1);
             let off = (computed - value).abs() - formula.rest;
             // So that a result that is no number counts.
-            *worst = if off <= *worst { *worst } else { off };
+            if off > worst.off || off.is_nan() {
+                worst.off = off;
+            }
+            worst.size = worst.size.max(value.abs() - formula.rest);
         }
     }
     Ok(worst)
@@ -162,6 +137,10 @@ fn run(program: &Program, state: &[Vec<f64>; 3], is_single: bool) -> Vec<f64> {
                 }
                 inside[result]
             }
+            Node::Fused(a, b, c) if is_single => {
+                let [a, b, c] = [a, b, c].map(|node| values[node] as f32);
+                f64::from(a.mul_add(b, c))
+            }
             _ => step(node, &values, state),
         };
         values.push(round(value));
@@ -181,6 +160,7 @@ fn step(node: Node, values: &[f64], state: &[Vec<f64>; 3]) -> f64 {
         Node::Sub(a, b) => values[a] - values[b],
         Node::Mul(a, b) => values[a] * values[b],
         Node::Neg(a) => -values[a],
+        Node::Fused(a, b, c) => values[a].mul_add(values[b], values[c]),
         Node::Sine(..) => f64::NAN,
     }
 }

@@ -153,7 +153,7 @@ fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
                     error: a.error,
                 }
             }
-            Node::Input(..) | Node::Sine(..) => last(&[], 0),
+            Node::Input(..) | Node::Sine(..) | Node::Fused(..) => last(&[], 0),
         };
         values.push(next);
     }

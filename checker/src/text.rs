@@ -10,10 +10,11 @@
 //! }
 //! ```
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::fault::Fault;
 use crate::program::{Node, Program, Source};
+use crate::quantity::Function;
 
 /// The most values of a function.
 const MOST_NODES: usize = 20_000;
@@ -21,16 +22,14 @@ const MOST_NODES: usize = 20_000;
 /// What a text must be.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind<'k> {
-    /// Its name.
-    pub name: &'k str,
+    /// The function.
+    pub function: &'k Function,
     /// Its scalar, `f64` or `f32`.
     pub scalar: &'k str,
     /// The joints of the arm.
     pub joints: usize,
-    /// How many numbers it returns, or rows and columns of a matrix.
+    /// How many joints results are over.
     pub rows: usize,
-    /// Whether it returns a matrix.
-    pub is_matrix: bool,
 }
 
 struct Parser<'t> {
@@ -43,6 +42,8 @@ struct Parser<'t> {
     arguments: HashMap<&'t str, usize>,
     /// Whether a block is read, and how it spells its angle, once it has.
     is_inside: bool,
+    /// Whether a part of a long function is read.
+    is_part: bool,
     angle: Option<&'t str>,
 }
 
@@ -59,6 +60,7 @@ pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
         names: HashMap::new(),
         arguments: HashMap::new(),
         is_inside: false,
+        is_part: false,
         angle: None,
     };
     if parser.function().is_some() {
@@ -81,25 +83,25 @@ impl<'t> Parser<'t> {
 
     fn function(&mut self) -> Option<()> {
         let Kind {
-            name,
+            function,
             scalar,
             joints,
             rows,
-            is_matrix,
         } = self.kind;
         let mut line = self.next()?;
         if line == "#[must_use]" {
             line = self.next()?;
         }
-        let row = format!("[{scalar}; {rows}]");
-        let returned = if is_matrix {
-            format!("[{row}; {rows}]")
-        } else {
-            row
+        let fields = function.fields;
+        let array =
+            |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
+        let returned = match function.structure {
+            Some(name) => name.to_owned(),
+            None => array(fields.first()?.1.axes()),
         };
         let list = line
             .strip_prefix("pub fn ")?
-            .strip_prefix(name)?
+            .strip_prefix(function.name)?
             .strip_prefix('(')?;
         for part in list
             .strip_suffix(&format!(") -> {returned} {{"))?
@@ -114,30 +116,55 @@ impl<'t> Parser<'t> {
             self.arguments.insert(argument, place);
         }
         line = self.statements()?;
-        if is_matrix {
-            let mut is_good = line == "[";
-            for _ in 0..rows {
-                let list = self.next()?.strip_prefix('[')?.strip_suffix("],")?;
-                is_good &= self.outputs(list)? == rows;
+        match function.structure {
+            None => self.array(line, fields.first()?.1.axes())?,
+            Some(name) => {
+                (line.strip_suffix(" {")? == name).then_some(())?;
+                for (field, quantity) in fields {
+                    let line = self.next()?.strip_prefix(field)?.strip_prefix(": ")?;
+                    self.array_before(line, quantity.axes(), ",")?;
+                }
+                (self.next()? == "}").then_some(())?;
             }
-            is_good &= self.next()? == "]";
-            is_good.then_some(())?;
-        } else {
-            let list = line.strip_prefix('[')?.strip_suffix(']')?;
-            (self.outputs(list)? == rows).then_some(())?;
         }
         let is_end = self.next()? == "}" && self.lines.all(|(_, line)| line.is_empty());
         is_end.then_some(())
     }
 
-    /// Adds results and counts them.
-    fn outputs(&mut self, list: &'t str) -> Option<usize> {
-        for (index, word) in list.split(", ").enumerate() {
-            let value = self.operand(word)?;
-            self.program.outputs.push(value);
-            (index < self.kind.rows).then_some(())?;
+    fn array(&mut self, line: &'t str, axes: usize) -> Option<()> {
+        self.array_before(line, axes, "")
+    }
+
+    /// Adds the entries of an array that begins in a line and ends before some text.
+    fn array_before(&mut self, line: &'t str, axes: usize, end: &str) -> Option<()> {
+        match axes {
+            0 => {
+                let value = self.operand(line.strip_suffix(end)?)?;
+                self.program.outputs.push(value);
+            }
+            1 => {
+                let list = line
+                    .strip_prefix('[')?
+                    .strip_suffix(end)?
+                    .strip_suffix(']')?;
+                let mut count = 0;
+                for word in list.split(", ") {
+                    let value = self.operand(word)?;
+                    self.program.outputs.push(value);
+                    count += 1;
+                }
+                (count == self.kind.rows).then_some(())?;
+            }
+            _ => {
+                (line == "[").then_some(())?;
+                for _ in 0..self.kind.rows {
+                    let line = self.next()?;
+                    self.array_before(line, axes - 1, ",")?;
+                }
+                (self.next()?.strip_suffix(end)? == "]").then_some(())?;
+            }
         }
-        Some(list.split(", ").count())
+        Some(())
     }
 
     /// All statements; returns the line behind them.
@@ -146,6 +173,7 @@ impl<'t> Parser<'t> {
         while let Some((names, value)) = line.strip_prefix("let ").and_then(|s| s.split_once(" = "))
         {
             match value.strip_suffix(';') {
+                None if value == "{" && names.ends_with(",)") => self.long(names)?,
                 None if value == "{" && !self.is_inside => self.block(names)?,
                 value => self.statement(names, value?)?,
             }
@@ -169,6 +197,15 @@ impl<'t> Parser<'t> {
                     _ => return None,
                 },
             );
+        }
+        if let Some((left, rest)) = value.split_once(".mul_add(") {
+            let left = left
+                .strip_prefix('(')
+                .map_or(Some(left), |left| left.strip_suffix(')'))?;
+            let (right, addend) = rest.strip_suffix(')')?.split_once(", ")?;
+            let [left, right] = [self.operand(left)?, self.operand(right)?];
+            let addend = self.operand(addend)?;
+            return self.name(names, Node::Fused(left, right, addend));
         }
         let (call, angles) = value.strip_suffix(')')?.split_once('(')?;
         let suffix = if self.kind.scalar == "f32" { "f" } else { "" };
@@ -260,6 +297,27 @@ impl<'t> Parser<'t> {
         let (argument, joint) = (*self.arguments.get(argument)?, index.parse::<usize>().ok()?);
         let is_entry = joint < self.kind.joints && index == joint.to_string();
         self.push(Node::Input(argument, joint)).filter(|_| is_entry)
+    }
+
+    /// A part of a long function: it hands on values by their names, and the others are
+    /// no more.
+    fn long(&mut self, names: &'t str) -> Option<()> {
+        if self.is_inside || std::mem::replace(&mut self.is_part, true) {
+            return None;
+        }
+        let before: HashSet<&str> = self.names.keys().copied().collect();
+        (self.statements()? == names && self.next()? == "};").then_some(())?;
+        let handed: HashSet<&str> = names
+            .strip_prefix('(')?
+            .strip_suffix(",)")?
+            .split(", ")
+            .collect();
+        let is_new = |name: &&str| self.names.contains_key(name) && !before.contains(name);
+        handed.iter().all(is_new).then_some(())?;
+        self.names
+            .retain(|name, _| before.contains(name) || handed.contains(name));
+        self.is_part = false;
+        Some(())
     }
 
     /// A block: arithmetic on one angle, with names of its own.

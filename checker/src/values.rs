@@ -39,6 +39,8 @@ struct Values<'a> {
     claim: &'a Claim,
     program: &'a Program,
     scalar: Scalar,
+    /// How many of q, q̇ and q̈ are arguments.
+    arguments: usize,
     /// How many errors of sines have a variable of their own.
     errors: usize,
 }
@@ -61,6 +63,7 @@ pub fn outputs(
         claim,
         program,
         scalar,
+        arguments: claim.function()?.arguments(),
         errors: 0,
     };
     let mut all = Vec::with_capacity(program.nodes.len());
@@ -140,6 +143,19 @@ impl Values<'_> {
                     error,
                 }
             }
+            Node::Fused(a, b, c) => {
+                let [a, b, c] = [number(all, a)?, number(all, b)?, number(all, c)?];
+                let sum = a.exact.times(&b.exact, work)?.plus(&c.exact);
+                let size = (a.size * b.size + c.size) * SLACK;
+                let size = self.ring.size(&sum).min(size);
+                let inherited = a.error * b.size + b.error * a.size + a.error * b.error;
+                let error = self.scalar.rounded(size, (inherited + c.error) * SLACK);
+                Value {
+                    exact: sum,
+                    size,
+                    error,
+                }
+            }
             Node::Sine(a, is_sine, source) => {
                 let Some(joints) = angle(a) else {
                     return Err(Fault::certificate("a sine of something that is no angle"));
@@ -159,7 +175,7 @@ impl Values<'_> {
             ..
         } = &self.ring.states[joint];
         let is_still = argument > 0 && self.setting.still[argument - 1];
-        let is_read = argument < self.claim.function.arguments() && !is_still;
+        let is_read = argument < self.arguments && !is_still;
         if !is_read || self.setting.locks[joint].is_some() {
             let why = match is_read {
                 true => format!(

@@ -2,12 +2,13 @@
 
 use std::fmt;
 
-use crate::certificate::{Claim, Function};
+use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::maximum;
 use crate::polynomial::Work;
+use crate::quantity::Quantity;
 use crate::ring::Ring;
-use crate::sample;
+use crate::sample::{self, Seen};
 use crate::scene::{self, Setting};
 use crate::text;
 use crate::values;
@@ -24,8 +25,8 @@ const SCALE_SLACK: f64 = 1e-4;
 /// What was found of one output; all in its own unit.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// Its joint, from zero; of an entry of D its row and its column.
-    pub joints: [usize; 2],
+    /// Its joints, from zero: of an entry of D its row and its column.
+    pub joints: Vec<usize>,
     /// T
     pub scale: f64,
     /// Bound of what the text differs from the function in real numbers.
@@ -66,7 +67,7 @@ impl Output {
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// The name of the function.
-    pub name: &'static str,
+    pub name: String,
     /// `f64` or `f32`
     pub scalar: String,
     /// One an output.
@@ -91,57 +92,97 @@ pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
     let setting = scene::read(robot, claim.scene.as_deref())?;
     claim.whole()?;
     about(claim, &setting)?;
+    let claimed = |index: usize| claim.total[index].unwrap_or(f64::NAN) * claim.scale[index];
+    let found = measure(claim, &setting, claimed)?;
+    let places = claim.function()?.places(claim.rows.len());
+    let most = attainable(claim, &setting, &places)?;
+    let mut outputs = Vec::new();
+    for (index, (found, (_, place))) in found.into_iter().zip(&places).enumerate() {
+        let joints: Vec<usize> = place.iter().map(|&place| claim.rows[place] - 1).collect();
+        let scale = claim.scale[index];
+        let tolerance = setting.tolerance.as_ref().map(|all| {
+            let each = joints.iter().map(|&joint| all[joint]);
+            each.fold(f64::INFINITY, f64::min)
+        });
+        let tolerated = tolerance.map(|tolerance| below(tolerance * scale.min(most[index])));
+        outputs.push(Output {
+            joints,
+            scale,
+            edits: found.edits,
+            rounding: found.rounding,
+            claimed: below(claimed(index)),
+            tolerated,
+            seen: found.seen.off,
+        });
+    }
+    Ok(Verdict {
+        name: claim.function.clone(),
+        scalar: claim.scalar.clone(),
+        outputs,
+    })
+}
+
+/// What was found of one output, in its own unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// Bound of what the text differs from the function in real numbers.
+    pub edits: f64,
+    /// Bound of what rounding and library sines cost.
+    pub rounding: f64,
+    /// What was seen at states.
+    pub seen: Seen,
+}
+
+impl Found {
+    /// The bound of both.
+    pub fn bound(&self) -> f64 {
+        let sum = self.edits + self.rounding;
+        if sum == 0.0 { 0.0 } else { sum.next_up() }
+    }
+}
+
+/// Bounds how far a text is from the function over the box of a claim, one an output; no
+/// smaller bound is looked for than what is wanted of an output.
+///
+/// # Errors
+/// A text that is not of the grammar or is contradicted by a state, or too much work.
+pub fn measure(
+    claim: &Claim,
+    setting: &Setting,
+    wanted: impl Fn(usize) -> f64,
+) -> Result<Vec<Found>, Fault> {
     let kind = text::Kind {
-        name: claim.function.name(),
+        function: claim.function()?,
         scalar: &claim.scalar,
         joints: setting.joints.len(),
         rows: claim.rows.len(),
-        is_matrix: claim.function == Function::Inertia,
     };
     let program = text::read(&claim.text, kind)?;
     let work = &mut Work::default();
-    let ring = Ring::new(&setting, claim, work)?;
-    let texts = values::outputs(&program, &setting, claim, &ring, work)?;
-    let formulas = sample::outputs(claim, &setting, &ring.states, work)?;
-    let seen = sample::worst(claim, &setting, &program, STATES)?;
-    let most = attainable(claim, &setting)?;
-    let mut outputs = Vec::new();
+    let ring = Ring::new(setting, claim, work)?;
+    let texts = values::outputs(&program, setting, claim, &ring, work)?;
+    let rows = claim.rows();
+    let formulas = kind.function.outputs(setting, &ring.states, &rows, work)?;
+    let seen = sample::worst(claim, setting, &program, STATES)?;
+    let mut all = Vec::new();
     for (index, (value, formula)) in texts.iter().zip(&formulas).enumerate() {
-        let scale = claim.scale[index];
-        let claimed = claim.total[index].unwrap_or(f64::NAN) * scale;
-        let tolerance = setting.tolerance.as_ref().map(|all| {
-            let [i, k] = claim.joints(index);
-            all[i].min(all[k])
-        });
         let difference = value.exact.plus(&formula.negated());
-        let wanted = (claimed - value.error).next_down().next_down();
-        let tolerated = tolerance.map(|tolerance| below(tolerance * scale.min(most[index])));
-        let output = Output {
-            joints: claim.joints(index),
-            scale,
+        let wanted = (wanted(index) - value.error).next_down().next_down();
+        let found = Found {
             edits: maximum::bound(&difference, &ring, wanted),
             rounding: value.error,
-            claimed: below(claimed),
-            tolerated,
             seen: seen[index],
         };
-        if !(output.seen <= output.bound()) {
-            let why = format!(
-                "output {} is off by {:.3e} at a state",
-                index + 1,
-                output.seen
-            );
+        if !(found.seen.off <= found.bound()) {
+            let (place, off) = (index + 1, found.seen.off);
+            let why = format!("output {place} is off by {off:.3e} at a state");
             return Err(Fault::certificate(format!(
                 "{why}, more than the checker's own bound"
             )));
         }
-        outputs.push(output);
+        all.push(found);
     }
-    Ok(Verdict {
-        name: claim.function.name(),
-        scalar: claim.scalar.clone(),
-        outputs,
-    })
+    Ok(all)
 }
 
 /// Whether a claim is about this robot in its scene: the same rows, a box that has all
@@ -158,6 +199,7 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
     if setting.tolerance.is_some() && claim.relative_to != setting.relative_to {
         return Err(Fault::certificate("`relative_to` is not that of the scene"));
     }
+    let arguments = claim.function()?.arguments();
     let [position, velocity, acceleration] = &setting.ranges;
     let inside = |(own, claimed): (&[f64; 2], &[f64; 2])| {
         let slack = BOX_SLACK * (own[0].abs() + own[1].abs());
@@ -172,7 +214,7 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
     let has_all = |(own, claimed): &(&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
         own.len() == claimed.len() && own.iter().zip(claimed.iter()).all(inside)
     };
-    match lists.iter().take(claim.function.arguments()).all(has_all) {
+    match lists.iter().take(arguments).all(has_all) {
         true => Ok(()),
         false => Err(Fault::certificate(
             "the box lacks states of the scene, or of the joints' limits",
@@ -192,17 +234,24 @@ fn below(value: f64) -> f64 {
 /// What T may be at most, one an output: the actuators' limits, or what the output
 /// reaches at a state of the box. Refuses a T that is above it: E would look smaller than
 /// it is.
-fn attainable(claim: &Claim, setting: &Setting) -> Result<Vec<f64>, Fault> {
-    let alone = |i: usize, k: usize| setting.torques[i] / setting.ranges[2][k][1];
-    let actuator = |index: usize| {
-        let [i, k] = claim.joints(index);
-        match claim.function {
-            Function::Inertia => alone(i, k).min(alone(k, i)),
-            _ => setting.torques[i],
-        }
+fn attainable(
+    claim: &Claim,
+    setting: &Setting,
+    places: &[(Quantity, Vec<usize>)],
+) -> Result<Vec<f64>, Fault> {
+    let row = |place: usize| claim.rows[place] - 1;
+    let rate = |which: usize, place: usize| setting.ranges[which][row(place)][1];
+    let torque = |place: usize| setting.torques[row(place)];
+    let actuator = |(quantity, place): &(Quantity, Vec<usize>)| match (quantity, place.as_slice()) {
+        (Quantity::Inertia, &[i, k]) => Ok((torque(i) / rate(2, k)).min(torque(k) / rate(2, i))),
+        (Quantity::Christoffel, &[i, k, m]) => Ok(torque(i) / (rate(1, k) * rate(1, m))),
+        (Quantity::Torque | Quantity::Gravity | Quantity::Coriolis, &[i]) => Ok(torque(i)),
+        _ => Err(Fault::certificate(
+            "`relative_to`: the actuators' limits are no measure of this function",
+        )),
     };
-    let most = match claim.relative_to.as_deref() {
-        Some("actuator") => (0..claim.scale.len()).map(actuator).collect(),
+    let most: Vec<f64> = match claim.relative_to.as_deref() {
+        Some("actuator") => places.iter().map(actuator).collect::<Result<_, Fault>>()?,
         Some("range") => witness::reached(claim, setting)?,
         _ => {
             return Err(Fault::certificate(
@@ -232,10 +281,8 @@ impl fmt::Display for Verdict {
             "  joint            T     edits  rounding     bound         E      seen"
         )?;
         for output in &self.outputs {
-            let label = match output.joints.map(|joint| joint + 1) {
-                [i, _] if self.name != "inertia" => i.to_string(),
-                [i, k] => format!("{i}, {k}"),
-            };
+            let label: Vec<String> = output.joints.iter().map(|j| (j + 1).to_string()).collect();
+            let label = label.join(", ");
             let of = |x: f64| if x == 0.0 { 0.0 } else { x / output.scale };
             let verdict = match (output.holds(), output.is_shown()) {
                 (true, true) => "holds",

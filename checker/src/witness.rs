@@ -12,7 +12,7 @@ use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::sin_cos;
 use crate::polynomial::{Polynomial, Work};
-use crate::sample::{Random, outputs, states};
+use crate::sample::{Random, states};
 use crate::scene::Setting;
 
 /// At how many states the search looks before it climbs, and from how many it climbs.
@@ -30,7 +30,7 @@ const PLACES: usize = 48;
 /// looked for until the scale of each is reached.
 ///
 /// # Errors
-/// As of [`outputs`].
+/// As of [`crate::dynamics::torques`].
 pub fn reached(claim: &Claim, setting: &Setting) -> Result<Vec<f64>, Fault> {
     let count = claim.scale.len();
     let mut random = Random(2);
@@ -102,12 +102,9 @@ fn ends([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 fn values(claim: &Claim, setting: &Setting, at: &[Vec<f64>; 3]) -> Result<Vec<f64>, Fault> {
-    outputs(
-        claim,
-        setting,
-        &states::<f64>(setting, at),
-        &mut Work::default(),
-    )
+    let states = states::<f64>(setting, at);
+    let (rows, work) = (claim.rows(), &mut Work::default());
+    claim.function()?.outputs(setting, &states, &rows, work)
 }
 
 /// What an output's magnitude is at least at a state.
@@ -118,7 +115,8 @@ fn least(
     at: &[Vec<f64>; 3],
 ) -> Result<f64, Fault> {
     let states: Vec<State<Polynomial>> = states(setting, at);
-    let all = outputs(claim, setting, &states, &mut Work::default())?;
+    let (rows, work) = (claim.rows(), &mut Work::default());
+    let all = claim.function()?.outputs(setting, &states, &rows, work)?;
     let value = all[output].terms.first().map_or(0.0, |term| term.1.abs());
     Ok((value - all[output].rest).next_down())
 }

@@ -2,9 +2,11 @@
 
 mod attacks;
 mod certificates;
+mod exact;
 mod forgeries;
 mod golden;
 mod intervals;
+mod lines;
 mod mutations;
 mod refusals;
 mod support;

@@ -1,7 +1,7 @@
 //! An attempt to refute a certificate: the emitted text is run at corners and
 //! random states of the box, and climbs to where it errs most.
 //!
-//! The reference_formulation is the certificate's exact program in double precision; what
+//! The reference is the certificate's exact program in double precision; what
 //! that costs by rounding is bounded as well and granted, so a violation
 //! found here is one.
 

@@ -15,11 +15,11 @@ use super::invocation::{self, Invocation, RobotSource};
 use super::messages as m;
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
-use crate::backend::Entries;
 use crate::function::Function;
 use crate::generate::in_scene::find;
 use crate::generate::parameters::ParameterError;
 use crate::generate::{GenerateError, Generated, Request, generate_anew};
+use crate::language::Entries;
 use crate::plan::{self, Plan};
 use crate::program::ScalarType;
 

@@ -27,7 +27,7 @@ pub enum ParameterError {
     },
     /// The scene has a tolerance, and no box bounds the argument.
     Tolerance(Function, Argument),
-    /// No joint depends_on what the last link carries.
+    /// No joint feels what the last link carries.
     Unfelt,
 }
 

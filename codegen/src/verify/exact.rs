@@ -2,7 +2,7 @@
 //!
 //! Both are evaluated with their exact constants modulo [`PRIMES`] primes of
 //! 63 bits, each with a random point of its own. Above [`WRITTEN_LIMIT`] joints
-//! the reference_formulation is the link-frame recursion modulo the same primes, itself
+//! the reference is the link-frame recursion modulo the same primes, itself
 //! proved against Lagrange–Euler for every joint kind and convention at up to
 //! that many joints by tests. The formula is executed once, by a scalar that
 //! [records](dalembert_model::scalar::record) the operations it asks for; the
@@ -40,7 +40,7 @@ use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
 use crate::scene::SceneRobot;
 
-/// The most joints for which Lagrange–Euler itself is the reference_formulation: its cost
+/// The most joints for which Lagrange–Euler itself is the reference: its cost
 /// grows with n⁴ to n⁵.
 pub(crate) const WRITTEN_LIMIT: usize = 10;
 

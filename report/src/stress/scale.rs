@@ -49,7 +49,7 @@ pub fn draw(bounds: &JointState, count: usize, seed: u64) -> Vec<JointState> {
 /// T_i: the largest |τ_i| over states, [`STATES`] of them as a rule.
 ///
 /// An arm that stands still may load a joint with nothing at all, whatever its
-/// position: a vertical axis depends_on no gravity. What is computed there is the
+/// position: a vertical axis feels no gravity. What is computed there is the
 /// dust of a cancellation, and so would be its scale. Such a joint is measured
 /// against what it meets at unit rates.
 pub fn torques(robot: &Robot, states: &[JointState]) -> Vec<f64> {

@@ -17,7 +17,7 @@ pub enum Column<S> {
         /// About the origin and in the axes of the link's DH frame.
         body: Body<S>,
     },
-    /// A unit of the rotor's inertia that a joint depends_on.
+    /// A unit of the rotor's inertia that a joint feels.
     Armature(usize),
     /// A unit of a joint's viscous friction.
     Viscous(usize),

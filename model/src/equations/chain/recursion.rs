@@ -275,7 +275,7 @@ impl<S: Scalar> Chain<S> {
         motions
     }
 
-    /// The part of a wrench on link i that the joint depends_on.
+    /// The part of a wrench on link i that the joint feels.
     pub(super) fn load(&self, i: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         match self.links[i].kind {
             JointKind::Revolute => moment[2].clone(),
