@@ -32,6 +32,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use dalembert_model::equations::JointPosition;
+use dalembert_model::equations::chain::Body;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Axis, Columns, Motion, RuntimeParameter, Sizes};
@@ -67,6 +68,20 @@ pub struct SceneRobot {
     base: Bases,
     /// Chosen where a payload is an argument.
     load: Option<LoadParameters>,
+    /// What the joints of the chain move in place of the robot's links.
+    fitted: Option<Vec<FittedLink>>,
+}
+
+/// What a joint of the chain moves where it is not the robot's link, but one that a
+/// search chose: it need not be physical.
+#[derive(Clone, Debug)]
+pub struct FittedLink {
+    /// About the origin and in the axes of the joint's segment.
+    pub body: Body<Exact>,
+    /// The rotor's inertia.
+    pub armature: Exact,
+    /// Viscous friction.
+    pub viscous: Exact,
 }
 
 /// The base parameters, an entry a quantity: there where one is over them.
@@ -109,6 +124,7 @@ impl SceneRobot {
             parameters: Vec::new(),
             base: no_bases(),
             load: None,
+            fitted: None,
         }
     }
 
@@ -138,6 +154,7 @@ impl SceneRobot {
             parameters: Vec::new(),
             base: no_bases(),
             load: None,
+            fitted: None,
         })
     }
 
@@ -161,6 +178,23 @@ impl SceneRobot {
             load: None,
             ..self
         }
+    }
+
+    /// Returns the robot with other links in its chain, one a segment, and results over
+    /// these joints. The textbook formulations do not know of them.
+    #[must_use]
+    pub(crate) fn fitted(&self, links: Vec<FittedLink>, rows: &[usize]) -> SceneRobot {
+        SceneRobot {
+            fitted: Some(links),
+            rows: rows.to_vec(),
+            base: no_bases(),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the links in place of the robot's, if a search chose any.
+    pub(crate) fn fitted_links(&self) -> Option<&[FittedLink]> {
+        self.fitted.as_deref()
     }
 
     /// Returns the robot with any velocities and accelerations and the torques of all joints

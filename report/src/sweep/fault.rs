@@ -90,7 +90,7 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Damage::Json(error) => f.write_str(error),
-            Damage::Version => f.write_str("this version reads rungs of version 1"),
+            Damage::Version => f.write_str("this version reads rungs of version 2"),
             Damage::Hash => f.write_str("its hash is not that of what it says"),
             Damage::Tolerance => f.write_str("it is of another tolerance"),
             Damage::Missing(key) => write!(f, "`{key}` is missing"),
