@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::support::run;
+use crate::support::{run, temporary};
 use dalembert_codegen::workspace::certificate::format;
 
 /// Torques of the PUMA over the box of its file.
@@ -51,4 +51,29 @@ fn the_puma_at_a_thousandth_of_its_actuators_limits() {
 #[test]
 fn the_puma_at_a_hundredth_of_its_ranges() {
     holds("puma560-range-1e-2.json", "range", 1e-2, 197);
+}
+
+/// Every function of a generated file, without a certificate.
+#[test]
+fn a_whole_file() {
+    let generated = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+    let file = generated.join("planar2r.rs");
+    let robot = generated.join("planar2r.toml");
+    let (file, robot) = (file.to_str().unwrap(), robot.to_str().unwrap());
+    let ran = run(&["certify", file, "--robot", robot]);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert_eq!(ran.out.matches("  shown\n").count(), 12, "{}", ran.out);
+    let changed = temporary("whole").join("arm.rs");
+    let source = std::fs::read_to_string(file).unwrap();
+    std::fs::write(&changed, source.replacen("14.715", "14.716", 1)).unwrap();
+    let ran = run(&["certify", changed.to_str().unwrap(), "--robot", robot]);
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.err.contains("not every function"), "{}", ran.err);
+    let ran = run(&["certify", file, "--robot", robot, "--json"]);
+    assert_eq!(ran.code, 2, "{}{}", ran.out, ran.err);
+    assert!(
+        ran.err.contains("--json is for a certificate"),
+        "{}",
+        ran.err
+    );
 }

@@ -57,7 +57,7 @@ pub struct StressArgs {
 /// Arguments of `certify`.
 #[derive(Debug, clap::Args)]
 pub struct CertifyArgs {
-    /// The certificate (JSON)
+    /// The certificate (JSON), or a generated file (.rs) of which every function is checked
     pub certificate: PathBuf,
     /// The robot file that it is for
     #[arg(long, value_name = "FILE")]

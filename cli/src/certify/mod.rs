@@ -2,8 +2,10 @@
 //!
 //! - this file: the check, and what a person reads of it
 //! - [`json`]: the same for programs
+//! - `whole_file`: a generated file without a certificate, by `dalembert-checker`
 
 mod json;
+mod whole_file;
 
 use dalembert_codegen::workspace::bound::input_box::InputBox;
 use dalembert_codegen::workspace::certificate::format::{self, MAX_BYTES};
@@ -28,6 +30,13 @@ use crate::{input, output};
 
 /// Runs the subcommand.
 pub fn run(args: &CertifyArgs) -> Outcome {
+    if args
+        .certificate
+        .extension()
+        .is_some_and(|kind| kind == "rs")
+    {
+        return whole_file::run(args);
+    }
     let reading = input::reading(&args.robot)?;
     let certificates = read(&args.certificate)?;
     let folder = args
