@@ -30,6 +30,20 @@ pub(crate) const LOAD: &str = "Load";
 /// The name of a payload's type.
 pub(crate) const PAYLOAD: &str = "Payload";
 
+/// The name of the type of gravity, where it is an argument.
+pub(crate) const GRAVITY: &str = "Gravity";
+
+/// The name of an argument's type, if it has one: a type for each, so that none is passed
+/// for another of as many numbers.
+pub(crate) fn own_type(argument: Argument) -> Option<&'static str> {
+    match argument {
+        Argument::Gravity => Some(GRAVITY),
+        Argument::Load => Some(LOAD),
+        Argument::Payload => Some(PAYLOAD),
+        _ => None,
+    }
+}
+
 /// Prints the function; `path` is where the sines and roots are that it calls, and `doc`
 /// stands above it, one line an item.
 pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
@@ -121,10 +135,9 @@ fn signature(printed: &Printed<'_>) -> String {
 /// The type of an argument: an array, which has a name where it is no joint vector
 /// of as many numbers as users would count.
 pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
-    match argument {
-        Argument::Load => LOAD.to_owned(),
-        Argument::Payload => PAYLOAD.to_owned(),
-        other => format!("[{scalar}; {}]", other.length(sizes)),
+    match own_type(argument) {
+        Some(name) => name.to_owned(),
+        None => format!("[{scalar}; {}]", argument.length(sizes)),
     }
 }
 
