@@ -34,7 +34,10 @@ fn robot(name: &str) -> Robot {
 
 fn searches(name: &str) {
     let robot = robot(name);
-    let all = Request::default();
+    let all = Request {
+        functions: Function::ALL[..6].to_vec(),
+        ..Request::default()
+    };
     let torques = Request {
         functions: vec![Function::InverseDynamics],
         ..Request::default()

@@ -199,16 +199,30 @@ pub mod matrices;
 ///     outputs: gravity, inertia;
 ///     parameters: payload, gravity;
 /// }
+/// use arm::{Gravity, Load, Payload};
 /// // Mass, centre of mass in the last link's frame, inertia about it as in a robot
 /// // file: once for each tool.
-/// let load: arm::Load = arm::load(&[0.5, 0.0, 0.0, 0.1, 1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
+/// let tool = Payload::new(0.5, [0.0, 0.0, 0.1], [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
+/// let load: Load = arm::load(&tool);
 /// let q = [0.3, -0.5];
-/// let upright = arm::gravity(&q, &[0.0, -9.81, 0.0], &load);
-/// let on_its_side = arm::gravity(&q, &[9.81, 0.0, 0.0], &load);
+/// let upright = arm::gravity(&q, &Gravity([0.0, -9.81, 0.0]), &load);
+/// let on_its_side = arm::gravity(&q, &Gravity([9.81, 0.0, 0.0]), &load);
 /// // Joints that turn about z feel nothing of gravity along it; D never does.
-/// assert_eq!(arm::gravity(&q, &[0.0, 0.0, -9.81], &load), [0.0, 0.0]);
+/// assert_eq!(arm::gravity(&q, &Gravity([0.0, 0.0, -9.81]), &load), [0.0, 0.0]);
 /// assert!(upright[0] > 0.0 && on_its_side[0] > 0.0);
-/// assert!(arm::inertia(&q, &load)[0][0] > arm::inertia(&q, &arm::load(&[0.0; 10]))[0][0]);
+/// assert!(arm::inertia(&q, &load)[0][0] > arm::inertia(&q, &arm::load(&Payload::NONE))[0][0]);
+/// ```
+///
+/// A payload is no load, and neither is gravity:
+///
+/// ```compile_fail
+/// # dalembert::dynamics! {
+/// #     mod arm = "generated/robots/planar2r.toml";
+/// #     outputs: gravity;
+/// #     parameters: payload, gravity;
+/// # }
+/// let tool = arm::Payload::NONE;
+/// arm::gravity(&[0.3, -0.5], &arm::Gravity([0.0, -9.81, 0.0]), &tool);
 /// ```
 ///
 /// `load` gives the regrouped parameters that the payload changes, which stand where

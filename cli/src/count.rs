@@ -48,7 +48,10 @@ pub fn run(args: &CountArgs) -> Outcome {
     if args.verbose {
         text += &report::limits(&generated);
     }
-    output::note(&report::warnings(&generated));
-    text += "\nproved equal to the equations of motion\n";
+    text += &format!("\n{}\n", report::proved(&generated));
+    let warnings = report::warnings(&generated);
+    if !warnings.is_empty() {
+        output::note(&warnings);
+    }
     output::print(&text)
 }

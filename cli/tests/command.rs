@@ -88,10 +88,13 @@ fn parameters_are_asked_for() {
     let asked = ["--outputs", "gravity", "--parameters", "payload,gravity"];
     let ran = run(&[&["generate", &planar][..], &asked].concat());
     assert_eq!(ran.code, 0, "{}", ran.err);
-    assert!(ran.out.contains("pub type Payload = [f32; 10];"));
     assert!(
         ran.out
-            .contains("pub fn gravity(q: &[f64; 2], g: &[f64; 3], load: &Load)")
+            .contains("pub struct Payload<T = f32>(pub [T; 10]);")
+    );
+    assert!(
+        ran.out
+            .contains("pub fn gravity(q: &[f64; 2], g: &Gravity, load: &Load)")
     );
     let verified = run(&[&["verify", &planar][..], &asked].concat());
     assert_eq!(verified.code, 0, "{}", verified.err);

@@ -183,10 +183,10 @@ fn a_text_with_other_sines_is_not_the_function() {
     let end = block + generated.text[block..].find("};").unwrap() + 2;
     for (from, to, why) in [
         ("x1 = q[0] * q[0]", "x1 = q[0] * q[1]", "neither the angle"),
-        ("let x2", "let x3", "`x2` is next"),
+        ("let x2", "let x3", "`x2` expected"),
         ("+ 1.", "+ 1.1", "differ"),
         ("1.0 -", "1.0 +", "differ"),
-        ("};", "", "does not end"),
+        ("};", "", "`};` expected"),
     ] {
         let changed = generated.text[block..end].replacen(from, to, 1);
         assert_ne!(changed, generated.text[block..end], "{from}");

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use dalembert_model::robot::values::{list, number, placement, position};
+use dalembert_model::robot::values::{list, number, placement, position, quoted};
 use dalembert_model::robot::{Placement, Position, suggested_name};
 use num_traits::{Signed, Zero};
 
@@ -249,20 +249,4 @@ fn comment(text: &mut String, what: &str) {
         .map(|c| if c.is_control() { '\u{fffd}' } else { c });
     let plain: String = plain.collect();
     let _ = writeln!(text, "# {plain}");
-}
-
-/// A TOML basic string.
-fn quoted(value: &str) -> String {
-    let mut text = String::from("\"");
-    for c in value.chars() {
-        match c {
-            '"' | '\\' => text.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(text, "\\U{:08X}", u32::from(c));
-            }
-            c => text.push(c),
-        }
-    }
-    text.push('"');
-    text
 }

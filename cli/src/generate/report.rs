@@ -23,24 +23,27 @@ pub fn brief(robot: &Robot, request: &Request, generated: &Generated) -> String 
             text += &tolerance(admitted, generated.ended);
         }
     }
-    let left_out = generated.functions.iter().any(|f| f.admitted.is_some());
-    text += match left_out {
-        true => {
-            "\nproved before anything was left out; the text was read back and is the certified program\n"
-        }
-        false => {
-            "\nproved equal to the equations of motion; the text was read back and is the proved program\n"
-        }
-    };
+    text += &format!("\n{}; the text was read back\n", proved(generated));
     text + &warnings(generated)
+}
+
+/// The sentence that the functions were proved.
+pub fn proved(generated: &Generated) -> &'static str {
+    match generated.functions.iter().any(|f| f.admitted.is_some()) {
+        true => "proved before anything was left out, and certified to stay within the tolerance",
+        false => "proved equal to the equations of motion",
+    }
 }
 
 /// Robot and scene.
 pub fn head(robot: &Robot, request: &Request) -> String {
+    let joints = match robot.joints.len() {
+        1 => "1 joint".to_owned(),
+        more => format!("{more} joints"),
+    };
     format!(
-        "robot {}, {} joints, input {}{}\n\n",
+        "robot {}, {joints}, input {}{}\n\n",
         robot.name,
-        robot.joints.len(),
         robot.short_hash(),
         scene(request)
     )

@@ -8,7 +8,7 @@ use dalembert_model::robot::Robot;
 
 use super::figures::{decimal, placed};
 use crate::function::{Argument, Function};
-use crate::language::function::{LOAD, PAYLOAD};
+use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
 use crate::program::ScalarType;
 use crate::scene::SceneRobot;
 
@@ -24,14 +24,15 @@ pub(super) fn gravity(robot: &Robot, scene_robot: &SceneRobot) -> String {
     }
 }
 
-/// The types of a payload and of its load; nothing where there is none.
+/// The types of arguments that are no joint vectors; nothing where there are none.
 pub(super) fn types(scene_robot: &SceneRobot, scalar: ScalarType) -> String {
     let mut text = String::new();
+    if scene_robot.has(RuntimeParameter::Gravity) {
+        text += &gravity_type(scalar);
+    }
     if !scene_robot.has(RuntimeParameter::Payload) {
         return text;
     }
-    let sizes = scene_robot.sizes(Function::Load);
-    let [payload, load] = [Argument::Payload, Argument::Load].map(|a| a.length(sizes));
     let n = scene_robot.joints().len();
     let frame = match scene_robot.robot().payload_frame.as_ref() {
         None => format!("that of joint {n} in the table"),
@@ -40,20 +41,58 @@ pub(super) fn types(scene_robot: &SceneRobot, scalar: ScalarType) -> String {
             format!("which is in that of joint {n} in the table\n/// at {at}")
         }
     };
+    text += &payload_type(scalar, &frame);
+    text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
+             /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
+    let length = Argument::Load.length(scene_robot.sizes(Function::Load));
+    newtype(&mut text, LOAD, scalar, length);
+    text
+}
+
+/// The type of gravity.
+pub(crate) fn gravity_type(scalar: ScalarType) -> String {
+    let mut text =
+        "/// The acceleration of gravity in base axes, in m/s²: x, y and z.\n".to_owned();
+    newtype(&mut text, GRAVITY, scalar, 3);
+    text
+}
+
+/// The type of a payload, whose frame is this.
+pub(crate) fn payload_type(scalar: ScalarType, frame: &str) -> String {
+    let mut text =
+        "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
+                    /// [`Payload::new`], whose arguments these are, in their order.\n"
+            .to_owned();
+    newtype(&mut text, PAYLOAD, scalar, 10);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "/// A body that is fixed to the last link, beside what the robot file has there: its mass in kg;\n\
-         /// x, y and z of its centre of mass in m, in the last link's frame, {frame}\n\
-         /// (a tool's pose moves poses and Jacobians only); and its inertia tensor about the centre of\n\
+        "impl {PAYLOAD} {{\n\
+         /// Nothing is carried.\n\
+         pub const NONE: {PAYLOAD} = {PAYLOAD}([0.0; 10]);\n\
+         /// A body of this `mass` in kg. `com` is its centre of mass in m, in the last link's frame,\n\
+         /// {frame}\n\
+         /// (a tool's pose moves poses and Jacobians only). `inertia` is its tensor about the centre of\n\
          /// mass in kg·m², in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the\n\
-         /// matrix. All zero: nothing is carried.\n\
-         pub type {PAYLOAD} = [{scalar}; {payload}];\n\
-         /// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
-         /// functions take. Compute it once for each tool; its numbers are this module's own.\n\
-         pub type {LOAD} = [{scalar}; {load}];",
+         /// matrix.\n\
+         #[must_use]\n\
+         pub const fn new(mass: {scalar}, com: [{scalar}; 3], inertia: [{scalar}; 6]) -> {PAYLOAD} {{\n    \
+         let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);\n    \
+         {PAYLOAD}([mass, x, y, z, xx, yy, zz, xy, yz, xz])\n}}\n}}"
     );
     text
+}
+
+/// A type of so many numbers, or of so many arrays of lanes.
+fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "#[derive(Clone, Copy, Debug, PartialEq)]\n#[repr(transparent)]\n\
+         pub struct {name}<T = {scalar}>(pub [T; {length}]);\n\
+         impl<T> ::core::ops::Deref for {name}<T> {{\n    type Target = [T; {length}];\n    \
+         #[inline(always)]\n    fn deref(&self) -> &[T; {length}] {{\n        &self.0\n    }}\n}}"
+    );
 }
 
 /// What a function's arguments are that are no joint vectors.

@@ -102,10 +102,10 @@ pub(crate) fn write(
         let _ = write!(
             text,
             "\n/* States of a batch are independent of one another. */\n\
-             #if defined(_OPENMP) || defined(DALEMBERT_OMP_SIMD)\n\
-             #define {simd} _Pragma(\"omp simd\")\n\
-             #elif defined(__GNUC__) && !defined(__clang__)\n\
+             #if defined(__GNUC__) && !defined(__clang__)\n\
              #define {simd} _Pragma(\"GCC ivdep\")\n\
+             #elif defined(_OPENMP) || defined(DALEMBERT_OMP_SIMD)\n\
+             #define {simd} _Pragma(\"omp simd\")\n\
              #else\n#define {simd}\n#endif\n"
         );
     }

@@ -30,6 +30,20 @@ pub(crate) const LOAD: &str = "Load";
 /// The name of a payload's type.
 pub(crate) const PAYLOAD: &str = "Payload";
 
+/// The name of the type of gravity, where it is an argument.
+pub(crate) const GRAVITY: &str = "Gravity";
+
+/// The name of an argument's type, if it has one: a type for each, so that none is passed
+/// for another of as many numbers.
+pub(crate) fn own_type(argument: Argument) -> Option<&'static str> {
+    match argument {
+        Argument::Gravity => Some(GRAVITY),
+        Argument::Load => Some(LOAD),
+        Argument::Payload => Some(PAYLOAD),
+        _ => None,
+    }
+}
+
 /// Prints the function; `path` is where the sines and roots are that it calls, and `doc`
 /// stands above it, one line an item.
 pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
@@ -76,7 +90,7 @@ fn write_steps(text: &mut String, printed: &Printed<'_>) {
         parts::write(text, printed);
         return;
     }
-    let last_use = last_uses(code);
+    let last_use = parts::last_uses(code);
     for block in pieces(&code.steps, BLOCK) {
         let end = block.end;
         // A block hands on what is read after it: that much is live.
@@ -121,10 +135,9 @@ fn signature(printed: &Printed<'_>) -> String {
 /// The type of an argument: an array, which has a name where it is no joint vector
 /// of as many numbers as users would count.
 pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
-    match argument {
-        Argument::Load => LOAD.to_owned(),
-        Argument::Payload => PAYLOAD.to_owned(),
-        other => format!("[{scalar}; {}]", other.length(sizes)),
+    match own_type(argument) {
+        Some(name) => name.to_owned(),
+        None => format!("[{scalar}; {}]", argument.length(sizes)),
     }
 }
 
@@ -156,22 +169,4 @@ fn result_item(output: &Output<Literal>, scalar: ScalarType) -> String {
 fn push(text: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(line);
     text.push('\n');
-}
-
-/// The last step that reads each step; past the end for results.
-pub(super) fn last_uses(code: &Lowered) -> Vec<usize> {
-    let mut last = vec![0; code.steps.len()];
-    for (index, step) in code.steps.iter().enumerate() {
-        for operand in [&step.left, &step.right] {
-            if let Operand::Step(read) = operand {
-                last[*read] = index;
-            }
-        }
-    }
-    for output in &code.outputs {
-        if let Operand::Step(read) = output.value {
-            last[read] = usize::MAX;
-        }
-    }
-    last
 }

@@ -23,10 +23,9 @@ use std::fmt::Write;
 use crate::function::{Argument, Sizes};
 use crate::language::Printed;
 use crate::language::dialect::Dialect;
-use crate::language::function::last_uses;
 use crate::program::fused::pieces;
 use crate::program::text::input_name;
-use crate::program::{Input, Literal, Operand, ScalarType};
+use crate::program::{Input, Literal, Lowered, Operand, ScalarType};
 
 /// A function of more operations than this is printed in parts.
 pub const LONG: usize = 5000;
@@ -122,4 +121,22 @@ impl Reads {
         arguments.push(format!("[{}]", self.values.join(", ")));
         arguments.join(", ")
     }
+}
+
+/// The last step that reads each step; past the end for results.
+pub(super) fn last_uses(code: &Lowered) -> Vec<usize> {
+    let mut last = vec![0; code.steps.len()];
+    for (index, step) in code.steps.iter().enumerate() {
+        for operand in [&step.left, &step.right] {
+            if let Operand::Step(read) = operand {
+                last[*read] = index;
+            }
+        }
+    }
+    for output in &code.outputs {
+        if let Operand::Step(read) = output.value {
+            last[read] = usize::MAX;
+        }
+    }
+    last
 }

@@ -53,8 +53,15 @@ pub(super) fn write(
     match structure {
         None => {
             let lengths: Vec<usize> = function.quantities()[0].shape().lengths(sizes).collect();
+            // A load is of a type of its own.
+            let [before, after] = match function {
+                Function::Load => ["Load(", ")"],
+                _ => [""; 2],
+            };
             text.push_str("    ");
+            text.push_str(before);
             write_array(text, &mut items, &lengths, 1);
+            text.push_str(after);
             text.push('\n');
         }
         Some(name) => {

@@ -75,7 +75,7 @@ pub struct SceneRobot {
 /// What a joint of the chain moves where it is not the robot's link, but one that a
 /// search chose: it need not be physical.
 #[derive(Clone, Debug)]
-pub struct FittedLink {
+pub(crate) struct FittedLink {
     /// About the origin and in the axes of the joint's segment.
     pub body: Body<Exact>,
     /// The rotor's inertia.

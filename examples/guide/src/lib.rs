@@ -3,6 +3,7 @@
 //! - [`hold`]: an arm held against gravity
 //! - [`simulate`]: an arm that moves under torques
 //! - [`payload`]: the mass in its hand, from torques
+//! - [`tool`]: what it carries, and gravity, as arguments
 //! - [`control`]: a controller that follows a motion
 #![forbid(unsafe_code)]
 
@@ -10,6 +11,7 @@ pub mod control;
 pub mod hold;
 pub mod payload;
 pub mod simulate;
+pub mod tool;
 
 dalembert::dynamics! {
     /// The arm of the guide.
@@ -23,6 +25,14 @@ dalembert::dynamics! {
     pub mod with_a_kilogram = "robots/arm.toml";
     scene: kilo;
     scalar: f64;
+}
+
+dalembert::dynamics! {
+    /// The same arm, what it carries and where gravity points as arguments.
+    pub mod carrying = "robots/arm.toml";
+    outputs: gravity;
+    scalar: f64;
+    parameters: payload, gravity;
 }
 
 dalembert::dynamics! {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use guide::simulate::{State, step};
-use guide::{Joints, arm, control, hold, payload, picking, with_a_kilogram};
+use guide::{Joints, arm, carrying, control, hold, payload, picking, tool, with_a_kilogram};
 
 /// The files below a folder with this ending.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
@@ -104,6 +104,19 @@ fn a_payload_is_found() {
     });
     assert!((payload::mass(&exact).unwrap() - 0.7).abs() < 1e-12);
     assert_eq!(payload::mass(&[]), None);
+}
+
+/// On the wall the first joint carries something, which it does not on the floor.
+#[test]
+fn a_tool_is_held_on_a_wall() {
+    let q = [0.3, 0.6, -0.4];
+    let empty = carrying::load(&carrying::Payload::NONE);
+    let floor = carrying::gravity(&q, &carrying::Gravity([0.0, 0.0, -9.81]), &empty);
+    for (found, expected) in floor.iter().zip(arm::gravity(&q)) {
+        assert!((found - expected).abs() < 1e-12);
+    }
+    let wall = tool::hold_a_tool(&q);
+    assert!(wall[0].abs() > 1.0 && floor[0].abs() < 1e-12, "{wall:?}");
 }
 
 #[test]

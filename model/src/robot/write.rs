@@ -10,7 +10,7 @@ use core::fmt::Write;
 
 use num_traits::Zero;
 
-use super::values::{angle, list, number, placement, position};
+use super::values::{angle, list, number, placement, position, quoted};
 use super::{Convention, Joint, JointKind, Robot};
 use crate::number::{Angle, Rational};
 
@@ -141,23 +141,4 @@ fn line(text: &mut String, key: &str, value: &str) {
     text.push_str(" = ");
     text.push_str(value);
     text.push('\n');
-}
-
-/// A TOML basic string.
-fn quoted(value: &str) -> String {
-    let mut text = String::from("\"");
-    for c in value.chars() {
-        match c {
-            '"' | '\\' => {
-                text.push('\\');
-                text.push(c);
-            }
-            c if c.is_control() => {
-                let _ = write!(text, "\\U{:08X}", c as u32);
-            }
-            c => text.push(c),
-        }
-    }
-    text.push('"');
-    text
 }

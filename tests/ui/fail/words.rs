@@ -103,7 +103,7 @@ fn main() {
     let _ = unknown_entries::gravity_with_sincos(&[0.5; 2], &[0.5; 2], &[0.5; 2]);
     let _ = unknown_fma::gravity(&[0.5; 2]);
     let _: [f64; 2] = unknown_output::gravity(&[0.0, 0.0]);
-    let load = unknown_parameter::load(&[0.0; 10]);
-    let _ = unknown_parameter::gravity(&[0.5; 2], &[0.0; 3], &load);
+    let load = unknown_parameter::load(&unknown_parameter::Payload::NONE);
+    let _ = unknown_parameter::gravity(&[0.5; 2], &unknown_parameter::Gravity([0.0; 3]), &load);
     let _ = unknown_parameter_other::reaction_wrenches(&[0.5; 2], &[0.5; 2], &[0.5; 2]);
 }

@@ -4,7 +4,6 @@ use dalembert_model::equations::chain::{Body, Chain, Form, Regrouping};
 use dalembert_model::equations::matrix::scaled;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational};
-use dalembert_model::robot::Inertia;
 use dalembert_model::scalar::Scalar;
 
 use super::path::Model;
@@ -82,25 +81,10 @@ impl Builder<'_> {
 }
 
 fn add(link: &mut FittedLink, unit: &FittedLink, factor: &Exact) {
-    let Inertia {
-        xx,
-        yy,
-        zz,
-        xy,
-        yz,
-        xz,
-    } = unit.body.second.map(|x| x.mul(factor));
     let body = Body {
         mass: unit.body.mass.mul(factor),
         first: scaled(factor, &unit.body.first),
-        second: Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        },
+        second: unit.body.second.map(|x| x.mul(factor)),
     };
     link.body = link.body.with(&body);
     link.armature = link.armature.add(&unit.armature.mul(factor));

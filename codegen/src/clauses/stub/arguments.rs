@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use dalembert_model::outputs::RuntimeParameter;
 
+use crate::emit::arguments::{gravity_type, payload_type};
 use crate::function::{Argument, Function, Sizes};
-use crate::language::function::{LOAD, PAYLOAD};
+use crate::language::function::{LOAD, PAYLOAD, own_type};
 use crate::program::ScalarType;
 
 /// The arguments of a function that takes these parameters.
@@ -19,26 +20,29 @@ pub(super) fn of(function: Function, taken: &[RuntimeParameter]) -> Vec<Argument
     arguments
 }
 
-/// An argument's array of entries, `length` of them if they are joints'.
+/// The type of an argument: an array of entries, `length` of them if they are joints'.
 pub(super) fn array(argument: Argument, entry: &str, length: &str) -> String {
-    match argument {
-        // How many there are, the robot would have said.
-        Argument::Load => LOAD.to_owned(),
-        other if other.is_of_joints() => format!("[{entry}; {length}]"),
-        other => format!("[{entry}; {}]", other.length(Sizes::whole(0))),
+    match own_type(argument) {
+        Some(name) => format!("{name}<{entry}>"),
+        None if argument.is_of_joints() => format!("[{entry}; {length}]"),
+        None => format!("[{entry}; {}]", argument.length(Sizes::whole(0))),
     }
 }
 
-/// The types of a payload and of its load, and the function between them.
+/// The types of these parameters, and the function between a payload and its load.
 pub(super) fn types(taken: &[RuntimeParameter], scalar: ScalarType) -> String {
     let mut text = String::new();
+    if taken.contains(&RuntimeParameter::Gravity) {
+        text += &gravity_type(scalar);
+    }
     if taken.contains(&RuntimeParameter::Payload) {
-        let length = Argument::Payload.length(Sizes::whole(0));
-        // Writing to a string cannot fail.
+        text += &payload_type(scalar, "that of the last joint");
+        // How many numbers there are, the robot would have said. Writing to a string cannot
+        // fail.
         let _ = writeln!(
             text,
-            "pub type {PAYLOAD} = [{scalar}; {length}];\n\
-             #[derive(Clone, Copy, Debug, PartialEq)]\npub struct {LOAD};\n\
+            "#[derive(Clone, Copy, Debug, PartialEq)]\n\
+             pub struct {LOAD}<T = {scalar}>(::core::marker::PhantomData<T>);\n\
              pub fn {}(_payload: &{PAYLOAD}) -> {LOAD} {{ ::core::unreachable!() }}",
             Function::Load
         );

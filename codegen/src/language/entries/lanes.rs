@@ -21,6 +21,8 @@
 use std::fmt::Write;
 
 use super::{Around, places};
+use crate::function::{Argument, Function, Sizes};
+use crate::language::function::{LOAD, own_type};
 use crate::language::scope::Scope;
 use crate::language::{Printed, result, trig};
 use crate::program::LoweredTrig;
@@ -30,9 +32,12 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     let (code, sizes) = (printed.code, printed.sizes);
     let (name, scalar) = (printed.function.name(), code.scalar);
     structure(text, printed);
-    let parameters = printed.arguments.iter().map(|argument| {
-        let (name, length) = (argument.name(), argument.length(sizes));
-        format!("{name}: &[[{scalar}; L]; {length}]")
+    let parameters = printed.arguments.iter().map(|&argument| {
+        let name = argument.name();
+        match own_type(argument) {
+            Some(kind) => format!("{name}: &{kind}<[{scalar}; L]>"),
+            None => format!("{name}: &[[{scalar}; L]; {}]", argument.length(sizes)),
+        }
     });
     let parameters: Vec<String> = parameters.collect();
     // Writing to a string cannot fail.
@@ -50,12 +55,10 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     let entry = |letter: char, taken: bool, trig: &LoweredTrig| {
         taken.then(|| format!("{letter}{}[l]", trig.angle))
     };
-    let columns = printed.arguments.iter().map(|argument| {
-        let (name, length) = (argument.name(), argument.length(sizes));
-        let entries: Vec<String> = (0..length).map(|i| format!("{name}[{i}][l]")).collect();
-        format!("&[{}], ", entries.join(", "))
-    });
-    let columns: String = columns.collect();
+    let columns = printed.arguments.iter();
+    let columns: String = columns
+        .map(|&argument| format!("{}, ", in_lane(argument, sizes)))
+        .collect();
     let angles = around.angles;
     let sin = angles.array(&code.trig, |trig| entry('s', trig.sin, trig));
     let cos = angles.array(&code.trig, |trig| entry('c', trig.cos, trig));
@@ -71,12 +74,24 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     text.push_str("    }\n    results\n}\n");
 }
 
+/// What one lane of an argument is.
+fn in_lane(argument: Argument, sizes: Sizes) -> String {
+    let (name, length) = (argument.name(), argument.length(sizes));
+    let entries: Vec<String> = (0..length).map(|i| format!("{name}[{i}][l]")).collect();
+    let entries = entries.join(", ");
+    match own_type(argument) {
+        Some(kind) => format!("&{kind}([{entries}])"),
+        None => format!("&[{entries}]"),
+    }
+}
+
 /// What it returns: arrays with an array of lanes for every number.
 pub(super) fn result_type(printed: &Printed<'_>) -> String {
     let function = printed.function;
     let lanes = format!("[{}; L]", printed.code.scalar);
     match function.structure() {
         Some(name) => format!("{name}Lanes<L>"),
+        None if function == Function::Load => format!("{LOAD}<{lanes}>"),
         None => result::array_of(&lanes, function.quantities()[0], printed.sizes),
     }
 }
@@ -143,6 +158,9 @@ fn zeros(text: &mut String, printed: &Printed<'_>) {
     let (function, sizes) = (printed.function, printed.sizes);
     let zeros = |quantity| result::array_of("[0.0; L]", quantity, sizes);
     let value = match function.structure() {
+        None if function == Function::Load => {
+            format!("{LOAD}({})", zeros(function.quantities()[0]))
+        }
         None => zeros(function.quantities()[0]),
         Some(name) => {
             let fields = function.quantities().iter();

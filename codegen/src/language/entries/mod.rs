@@ -16,6 +16,7 @@ mod given;
 mod lanes;
 mod single;
 
+use crate::function::Function;
 use crate::language::Printed;
 use angles::Angles;
 
@@ -101,6 +102,7 @@ fn places(printed: &Printed<'_>) -> Vec<String> {
     for quantity in function.quantities() {
         let field = match function.structure() {
             Some(_) => format!(".{}", quantity.field()),
+            None if function == Function::Load => ".0".to_owned(),
             None => String::new(),
         };
         let shape = quantity.shape();

@@ -1,9 +1,9 @@
 //! Reads a function in C99: the lines of the arithmetic as in every language, and how C
 //! writes sines, unread arguments and results.
 
+use super::block::{Block, output, trig};
 use super::entries::same;
-use super::reader::{Reader, output};
-use super::sines::{Block, trig};
+use super::reader::Reader;
 use super::{TextError, at, expect};
 use crate::language::c99::{FAR, Names, batch, head, single, targets};
 use crate::language::dialect::{Dialect, holes};

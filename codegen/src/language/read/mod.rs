@@ -2,12 +2,14 @@
 //!
 //! - this file: what a text says, and whether it is the program
 //! - `reader`: the statements, line by line, by the table of the dialect
-//! - `sines`: sines and cosines, by polynomials, calls and from a caller
+//! - `block`: sines and cosines by polynomials
+//! - `sines`: sines and cosines by calls and from a caller
 //! - `wrap`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
 //! - `entries`: functions that can be called in several ways
 //! - `c99`: what C writes in its own way
 
+mod block;
 mod c99;
 mod entries;
 mod reader;

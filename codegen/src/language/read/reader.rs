@@ -1,15 +1,13 @@
 //! The statements of an emitted function, line by line.
 
-use super::sines::Block;
+use super::block::{Block, one_operation, output};
 use super::wrap::Wrap;
 use super::{expect, index_of};
 use crate::function::Argument;
 use crate::language::dialect::{Dialect, holes};
 use crate::language::entries::angles::Angles;
 use crate::program::text::input_name;
-use crate::program::{
-    AngleSum, Input, Library, Literal, Lowered, Operand, Operation, Output, Speed, Step,
-};
+use crate::program::{AngleSum, Input, Library, Literal, Lowered, Operand, Operation, Speed, Step};
 
 /// Reads one function.
 pub(super) struct Reader<'a> {
@@ -230,38 +228,5 @@ impl<'a> Reader<'a> {
             self.program.outputs.push(output);
         }
         Ok(self.program)
-    }
-}
-
-/// Reads two operands and a symbol.
-pub(super) fn one_operation<I>(
-    value: &str,
-    operand: impl Fn(&str) -> Result<Operand<Literal, I>, String>,
-) -> Result<Step<Literal, I>, String> {
-    let words: Vec<&str> = value.split(' ').collect();
-    let operation = words
-        .get(1)
-        .and_then(|symbol| Operation::from_symbol(symbol));
-    match (words.as_slice(), operation) {
-        (&[left, _, right], Some(operation)) => Ok(Step {
-            operation,
-            left: operand(left)?,
-            right: operand(right)?,
-        }),
-        _ => Err(format!("`{value}` is not one operation")),
-    }
-}
-
-/// Reads a result: a negative literal is a literal, a negated value is negated.
-pub(super) fn output<I>(
-    word: &str,
-    operand: impl Fn(&str) -> Result<Operand<Literal, I>, String>,
-) -> Result<Output<Literal, I>, String> {
-    match word.strip_prefix('-') {
-        Some(rest) if !rest.starts_with(|c: char| c.is_ascii_digit()) => Ok(Output {
-            negative: true,
-            value: operand(rest)?,
-        }),
-        _ => Ok(Output::of(operand(word)?)),
     }
 }

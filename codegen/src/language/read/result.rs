@@ -25,7 +25,14 @@ pub(super) fn items(text: &str, function: Function) -> Result<Vec<&str>, String>
     match function.structure() {
         None => {
             let shape = function.quantities()[0].shape();
+            let is_load = function == Function::Load;
+            if is_load {
+                next(&mut words, "Load(")?;
+            }
             array(&mut words, shape.0, &mut items)?;
+            if is_load {
+                next(&mut words, ")")?;
+            }
         }
         Some(name) => {
             next(&mut words, name)?;
