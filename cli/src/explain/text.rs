@@ -181,7 +181,7 @@ fn link_text(robot: &Robot, link: &LinkParameters, before: Option<&LinkParameter
         let moved = values(link.moved.iter().map(|(p, value)| (*p, *value)));
         line(match before {
             Some(before) => format!("to link {}, {through}: {moved}", before.joint + 1),
-            None => format!("to the base, which depends_on nothing: {moved}"),
+            None => format!("to the base, which depends on nothing: {moved}"),
         });
     }
     let with = |fate: ParameterStatus| {

@@ -15,6 +15,7 @@ use crate::bound::grid::{self, Wanted};
 use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::rounding;
 use crate::edits::Stage;
+use crate::function::Argument;
 use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
 use crate::program::{Program, ScalarType};
@@ -134,6 +135,13 @@ fn shown(
 ) -> Result<f64, Indefinite> {
     let n = program.rows.len();
     let first = start(program).ok_or(Indefinite::Unproved)?;
+    // No box has the values of parameters that are arguments.
+    if [Argument::Load, Argument::Gravity]
+        .iter()
+        .any(|parameter| program.arguments.contains(parameter))
+    {
+        return Err(Indefinite::Unproved);
+    }
     let entry = |i: usize, j: usize| first + i * n + j;
     for i in 0..n {
         for j in 0..i {

@@ -40,7 +40,7 @@ pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
             lines.push(String::new());
             lines.extend(named.map(String::from));
             if has_drives(base) {
-                lines.push("armature2 is the rotor's inertia that joint 2 depends_on, viscous2 its friction; they have".into());
+                lines.push("armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have".into());
                 lines.push("columns where the robot file has them.".into());
             }
         }

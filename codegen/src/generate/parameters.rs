@@ -60,9 +60,9 @@ impl fmt::Display for ParameterError {
             ParameterError::Tolerance(function, argument) => {
                 write!(f, "`{function}`: {}", Unbounded::Reads(*argument))
             }
-            ParameterError::Unfelt => f.write_str(
-                "no joint that moves depends_on a payload: leave it out of the parameters",
-            ),
+            ParameterError::Unfelt => {
+                f.write_str("no joint that moves feels a payload: leave it out of the parameters")
+            }
         }
     }
 }

@@ -6,8 +6,7 @@ use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
-use super::path::Model;
-use super::terms::{Terms, nothing};
+use super::terms::{Model, Terms, nothing};
 use crate::edits::traced;
 use crate::graph::builder::Value;
 use crate::graph::{Builder as GraphBuilder, Folding, Graph};

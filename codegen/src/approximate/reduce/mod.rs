@@ -29,8 +29,7 @@ use crate::random::Random;
 use crate::scene::SceneRobot;
 use crate::watch::FunctionWatch;
 use build::Builder;
-use path::Model;
-use terms::Terms;
+use terms::{Model, Terms};
 
 /// Of the sampled positions.
 const SEED: u64 = 0x5eed;

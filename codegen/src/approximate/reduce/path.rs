@@ -2,7 +2,7 @@
 
 use super::build::Builder;
 use super::fit::{Fit, Solution};
-use super::terms::Terms;
+use super::terms::{Model, Terms};
 
 /// The largest error that a fit at the samples may have.
 const MOST: f64 = 0.95;
@@ -16,15 +16,6 @@ const ENOUGH: f64 = 0.2;
 /// Candidates whose programs are counted, and those of which a fit is tried, in each step.
 const COUNTED: usize = 8;
 const TRIED: usize = 5;
-
-/// A model: terms with factors.
-#[derive(Clone, Debug)]
-pub(super) struct Model {
-    pub terms: Vec<usize>,
-    pub factors: Vec<f64>,
-    /// The largest error at the samples, one being the allowance.
-    pub error: f64,
-}
 
 /// Returns the models on the way from all terms to few.
 pub(super) fn eliminate(
