@@ -254,7 +254,7 @@ fn parameters_are_arguments() {
     let taking = text(&[Parameter::Payload, Parameter::Gravity]);
     assert!(taking.contains("pub fn load(payload: &Payload) -> Load {"));
     assert!(
-        taking.contains("pub fn gravity(q: &[f32; 2], g: &[f32; 3], load: &Load) -> [f32; 2] {")
+        taking.contains("pub fn gravity(q: &[f32; 2], g: &Gravity, load: &Load) -> [f32; 2] {")
     );
     assert_eq!(text(&[]), plain);
 }

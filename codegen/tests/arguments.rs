@@ -515,11 +515,11 @@ fn entries_have_the_arguments() {
     };
     let text = generate(&support::robot("planar2r"), &request).text;
     for expected in [
-        "pub type Payload = [f64; 10];",
+        "pub struct Payload<T = f64>(pub [T; 10]);",
         "pub fn load(payload: &Payload) -> Load {",
-        "pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2], g: &[f64; 3], load: &Load) -> [f64; 2] {",
-        "pub fn gravity_lanes<const L: usize>(q: &[[f64; L]; 2], g: &[[f64; L]; 3], load: &[[f64; L]; ",
-        "pub fn gravity(q: &[f32; 2], g: &[f32; 3], load: &Load) -> [f32; 2] {",
+        "pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2], g: &Gravity, load: &Load) -> [f64; 2] {",
+        "pub fn gravity_lanes<const L: usize>(q: &[[f64; L]; 2], g: &Gravity<[f64; L]>, load: &Load<[f64; L]>) -> [[f64; L]; 2] {",
+        "pub fn gravity(q: &[f32; 2], g: &Gravity, load: &Load) -> [f32; 2] {",
     ] {
         assert!(text.contains(expected), "{expected}\n{text}");
     }
