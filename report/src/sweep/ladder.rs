@@ -1,8 +1,8 @@
 //! The variants, tolerance by tolerance.
 //!
 //! From the smallest tolerance up: each search also starts from the program of the one
-//! before, which its tolerance admits as well. So none is dearer than one before it, and
-//! none is dearer than what its tolerance finds alone.
+//! before, which its tolerance admits as well. So none is dearer than one before it. A search
+//! with other settings may still find less for one tolerance alone.
 
 use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
