@@ -37,6 +37,15 @@ def rounds(programs: dict, count: int) -> dict[str, float]:
     return {name: statistics.median(own) for name, own in times.items()}
 
 
+def pinocchio_of(path: Path, joints: list[str]):
+    """The URDF as Pinocchio reads it, all other joints locked at zero."""
+    import pinocchio as pin
+
+    model = pin.buildModelFromUrdf(str(path))
+    others = [model.getJointId(name) for name in model.names[1:] if name not in joints]
+    return pin.buildReducedModel(model, others, pin.neutral(model))
+
+
 def repeated(program, count: int):
     def run() -> None:
         for _ in range(count):
@@ -45,13 +54,12 @@ def repeated(program, count: int):
     return run
 
 
-def compiled_by_casadi(path: Path):
+def compiled_by_casadi(model):
     """Pinocchio's recursion as CasADi's C, compiled at -O3, mapped over the states."""
     import casadi
     import pinocchio.casadi as cpin
-    import pinocchio as pin
 
-    model = cpin.Model(pin.buildModelFromUrdf(str(path)))
+    model = cpin.Model(model)
     data = model.createData()
     q, qd, qdd = (casadi.SX.sym(name, model.nv) for name in ("q", "qd", "qdd"))
     tau = cpin.rnea(model, data, q, qd, qdd)
@@ -79,7 +87,8 @@ def starts() -> None:
         environment = {**os.environ, "DALEMBERT_CACHE": folder}
         load = (
             "import time, dalembert, numpy; t = time.perf_counter();"
-            f"arm = dalembert.load({urdf!r}, outputs='inverse_dynamics');"
+            f"arm = dalembert.load({urdf!r}, tip='panda_link8', lock='*',"
+            "outputs='inverse_dynamics');"
             "print(time.perf_counter() - t, time.process_time())"
         )
         code = "import time; t = time.perf_counter(); import dalembert; print(time.perf_counter() - t)"
@@ -101,6 +110,7 @@ def starts() -> None:
 def main() -> None:
     options = argparse.ArgumentParser()
     options.add_argument("--urdf", type=Path, default=ROOT / "import/tests/data/panda.urdf")
+    options.add_argument("--tip", default="panda_link8")
     options.add_argument("--rust", type=float, help="ns a state of the Rust batch")
     options.add_argument("--rounds", type=int, default=15)
     given = options.parse_args()
@@ -108,10 +118,12 @@ def main() -> None:
     import dalembert
     import pinocchio as pin
 
-    model = pin.buildModelFromUrdf(str(given.urdf))
-    data = model.createData()
-    arm = dalembert.load(given.urdf, outputs="inverse_dynamics", exact=True)
+    arm = dalembert.load(
+        given.urdf, tip=given.tip, lock="*", outputs="inverse_dynamics", exact=True
+    )
     n = len(arm.joints)
+    model = pinocchio_of(given.urdf, [joint.name for joint in arm.joints])
+    data = model.createData()
     if n != model.nv:
         raise SystemExit(f"{given.urdf}: dalembert has {n} joints, Pinocchio {model.nv}")
     q, qd, qdd = (np.random.default_rng(k).normal(size=(STATES, n)) for k in range(3))
@@ -146,7 +158,7 @@ def main() -> None:
         f"loop of pin.rnea, {few} states": loop,
     }
     try:
-        mapped = compiled_by_casadi(given.urdf)
+        mapped = compiled_by_casadi(model)
         transposed = [x.T.copy() for x in (q, qd, qdd)]
         programs["CasADi's map of compiled C"] = lambda: mapped(*transposed)
     except ImportError as error:

@@ -6,7 +6,7 @@ import os
 import sys
 from collections import namedtuple
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _dalembert
 
@@ -193,6 +193,23 @@ def _write(path: Path, text: str) -> None:
         file.write(text)
 
 
+def _locked(
+    source: Path | Mapping[str, Any], tip: str | None, lock: Mapping[str, float | str] | str | None
+) -> Mapping[str, float | str]:
+    if lock is None:
+        return {}
+    if isinstance(lock, Mapping):
+        return lock
+    if lock != "*":
+        raise ValueError(f'lock: expected "*" or a dictionary of positions, found {lock!r}')
+    if tip is None or isinstance(source, Mapping):
+        raise ValueError('lock: "*" wants a URDF and its tip=')
+    from ._urdf import beside
+
+    with open(source, encoding="utf-8") as file:
+        return dict(beside(file.read(), tip))
+
+
 def _words(option: str, value: str | Iterable[str] | None) -> list[str] | None:
     if value is None:
         return None
@@ -208,7 +225,7 @@ def load(
     *,
     base: str | None = None,
     tip: str | None = None,
-    lock: Mapping[str, float | str] | None = None,
+    lock: Mapping[str, float | str] | Literal["*"] | None = None,
     without: str | Sequence[str] = (),
     exact: bool = False,
     outputs: str | Sequence[str] | None = None,
@@ -232,7 +249,8 @@ def load(
         Of a URDF: the link that stands still, and the one whose frame is the hand.
     lock
         Of a URDF: joints that stay where they are, each with its position, such as
-        ``{"gripper": 0}`` or ``{"elbow": "90deg"}``.
+        ``{"gripper": 0}`` or ``{"elbow": "90deg"}``; ``"*"``: all that are not between the
+        root and ``tip``, which must then be given, at zero or the limit nearest to it.
     without
         Of a URDF: links to leave away, with everything that hangs on them.
     exact
@@ -265,7 +283,7 @@ def load(
     options = {
         "base": base,
         "tip": tip,
-        "lock": [(joint, str(position)) for joint, position in (lock or {}).items()],
+        "lock": [(joint, str(at)) for joint, at in _locked(source, tip, lock).items()],
         "without": _words("without", without),
         "exact": exact,
         "outputs": _words("outputs", outputs),

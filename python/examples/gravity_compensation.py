@@ -14,7 +14,9 @@ URDF = Path(__file__).resolve().parents[2] / "import" / "tests" / "data" / "so10
 
 
 def main(picture: str | None) -> float:
-    arm = dalembert.load(URDF, outputs=["gravity", "forward_dynamics"])
+    arm = dalembert.load(
+        URDF, tip="gripper_frame_link", lock="*", outputs=["gravity", "forward_dynamics"]
+    )
     names = [joint.name for joint in arm.joints]
     n, steps = len(names), 200
     # From one end of the joints' limits to the other and back.

@@ -113,6 +113,8 @@ pub fn load(
     load.watch = Watch::by(waiting.clone());
     let is_thorough = load.effort == Effort::Thorough;
     let (sender, receiver) = channel();
+    // Shared with the closure that waits while other threads of Python run.
+    let receiver = Mutex::new(receiver);
     let work = move || {
         let arm = match path {
             Some(path) => dalembert_jit::Arm::load(path, &load),
@@ -125,7 +127,10 @@ pub fn load(
     thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     let mut interrupted: Option<PyErr> = None;
     loop {
-        match py.detach(|| receiver.recv_timeout(PATIENCE)) {
+        match py.detach(|| {
+            let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
+            receiver.recv_timeout(PATIENCE)
+        }) {
             Ok(arm) => {
                 let arm = arm.map_err(|error| raised(&error))?;
                 return match interrupted {

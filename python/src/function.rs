@@ -261,7 +261,7 @@ impl Function {
             });
         }
         if self.raises_on_nan {
-            self.refuse_nan(function, &layouts, &arrays)?;
+            self.refuse_nan(function, &layouts)?;
         }
         let native = function.native();
         let mut run = || -> Result<(), CallError> {
@@ -317,15 +317,13 @@ impl Function {
         &self,
         function: &Compiled,
         layouts: &[Layout<T>],
-        arrays: &[Bound<'_, PyArrayDyn<T>>],
     ) -> PyResult<()> {
         let names = function.native().signature().arguments.iter();
-        for (layout, (array, (argument, _))) in layouts.iter().zip(arrays.iter().zip(names)) {
-            let states = match layout.place.state {
-                0 => 1,
-                _ => array.len() / layout.place.offsets.len().max(1),
-            };
+        for (layout, (argument, _)) in layouts.iter().zip(names) {
             let data = layout.slice();
+            let farthest = layout.place.offsets.iter().max().map_or(0, |offset| offset + 1);
+            let more = data.len().saturating_sub(farthest).checked_div(layout.place.state);
+            let states = if data.is_empty() { 0 } else { more.unwrap_or(0) + 1 };
             for state in 0..states {
                 let entries = layout.place.offsets.iter().enumerate();
                 for (entry, offset) in entries {

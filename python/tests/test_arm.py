@@ -53,17 +53,26 @@ def test_what_an_arm_knows(planar):
 
 def test_urdf_and_locks(tmp_path):
     options = {"outputs": "gravity", "cache": tmp_path}
-    arm = dalembert.load(urdf("so101"), **options)
+    options |= {"tip": "gripper_frame_link"}
+    arm = dalembert.load(urdf("so101"), lock={"gripper": 0}, **options)
     n = len(arm.joints)
     last = arm.joints[-1].name
-    shorter = dalembert.load(urdf("so101"), lock={last: 0.1}, **options)
+    assert (n, last) == (5, "wrist_roll")
+    shorter = dalembert.load(urdf("so101"), lock={last: 0.1, "gripper": 0}, **options)
     assert len(shorter.joints) == n - 1
     q = np.linspace(0.1, 0.3, n)
     q[-1] = 0.1
     assert_allclose(shorter.gravity(q[:-1]), arm.gravity(q)[:-1], atol=1e-12)
-    assert dalembert.load(urdf("so101"), **options).is_from_cache
+    again = dalembert.load(urdf("so101"), lock={"gripper": 0}, **options)
+    assert again.is_from_cache
+    every = dalembert.load(urdf("so101"), lock="*", **options)
+    assert_array_equal(every.gravity(q), arm.gravity(q))
+    with pytest.raises(ValueError, match="gripper"):
+        dalembert.load(urdf("so101"), **options)
     with pytest.raises(ValueError, match="nowhere"):
-        dalembert.load(urdf("so101"), tip="nowhere", **options)
+        dalembert.load(urdf("so101"), **{**options, "tip": "nowhere"})
+    with pytest.raises(ValueError, match="wants a URDF and its tip"):
+        dalembert.load(urdf("so101"), lock="*")
 
 
 def test_a_dictionary(planar):

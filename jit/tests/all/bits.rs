@@ -3,7 +3,7 @@
 use dalembert_codegen::workspace::program::{Lowered, Operation};
 use dalembert_generated as generated;
 use dalembert_jit::{
-    Arm, Effort, Fma, Load, Native, Output, RuntimeParameter, Scalar, Signature, SinCos,
+    Arm, Fma, Load, Native, Output, RuntimeParameter, Scalar, Signature, SinCos,
 };
 
 use crate::support::{
@@ -59,8 +59,8 @@ macro_rules! same_as_rustc {
     ($name:literal, $scalar:ident, $type:ty, $module:ident, $n:literal) => {{
         let text = std::fs::read_to_string(path(concat!("generated/robots/", $name, ".rs")));
         let text = text.unwrap();
-        let section = text.split("\npub mod ").skip(1);
-        let section = section.skip(usize::from(Scalar::$scalar == Scalar::F32)).next().unwrap();
+        let mut section = text.split("\npub mod ").skip(1);
+        let section = section.nth(usize::from(Scalar::$scalar == Scalar::F32)).unwrap();
         same_as_rustc!(@ section, $scalar, $type, $module, $n, InverseDynamics, inverse_dynamics,
             [$n], q qd qdd);
         same_as_rustc!(@ section, $scalar, $type, $module, $n, Gravity, gravity, [$n], q);
@@ -81,8 +81,7 @@ macro_rules! same_as_rustc {
             let arguments = state(&native, &states, at);
             let slices: Vec<&[$type]> = arguments.iter().map(Vec::as_slice).collect();
             native.call(&slices, &mut found).unwrap();
-            let arrays = arguments.iter().map(|x| <[$type; $n]>::try_from(&x[..]).unwrap());
-            let mut arrays = arrays;
+            let mut arrays = arguments.iter().map(|x| <[$type; $n]>::try_from(&x[..]).unwrap());
             $(let $argument = arrays.next().unwrap();)*
             let expected = generated::$module::$function($(&$argument),*);
             for (found, expected) in found.iter().zip(flat(&expected)) {
@@ -191,26 +190,14 @@ fn friction_takes_roots() {
 /// A scene with a tolerance: what was left out is left out of the code.
 #[test]
 fn a_tolerance_is_compiled() {
-    let text = format!(
-        "{SCARA}\n[scene.place]\nlimits.position = [[-1, 1], [-1, 1]]\n\
-         limits.velocity = [1, 1]\nlimits.acceleration = [2, 2]\n\
-         tolerance = 1e-3\noutputs = [\"inverse_dynamics\"]\n"
-    );
     let load = Load {
-        scene: Some("place".to_owned()),
-        effort: Effort::Quick,
+        scene: Some("swing".to_owned()),
         ..fresh()
     };
-    let arm = Arm::parse(&text, "arm.toml", &load).unwrap_or_else(|error| panic!("{error}"));
+    let arm = robot("stanford", &load);
     assert!(arm.certificates().is_some());
     compare_all("with a tolerance", &arm, STATES / 10);
 }
-
-const SCARA: &str = "name = \"two\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n\
-    [[joint]]\nkind = \"revolute\"\na = 0.4\nmass = 3\ncom = [-0.2, 0, 0]\n\
-    inertia = [0, 0.05, 0.05, 0, 0, 0]\n\
-    [[joint]]\nkind = \"revolute\"\na = 0.3\nmass = 2\ncom = [-0.15, 0, 0]\n\
-    inertia = [0, 0.03, 0.03, 0, 0, 0]\n";
 
 /// The same states on several threads.
 #[test]

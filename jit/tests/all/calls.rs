@@ -79,11 +79,11 @@ fn places_outside_and_on_each_other_are_refused() {
         call(place(usize::MAX, [0, 1]), Place::rows(2), 10),
         outside(0)
     );
-    let overlap = Err(CallError::Overlap { place: 0 });
+    let overlap = Err(CallError::Overlap { place: 1 });
     for written in [
         place(0, [0, 1]),
         place(1, [0, 1]),
-        place(2, [3, 3]),
+        place(2, [1, 1]),
         place(1, [0, 9]),
     ] {
         assert_eq!(call(Place::rows(2), written, 10), overlap);
