@@ -228,7 +228,8 @@ fn made(
         true => {
             let mut options = load.urdf.clone();
             if options.file.is_empty() {
-                name.clone_into(&mut options.file);
+                let file = Path::new(name).file_name().unwrap_or(name.as_ref());
+                options.file = file.to_string_lossy().into_owned();
             }
             let imported = import(source, &options)
                 .map_err(|errors| LoadError::Robot(errors.render(name, source)))?;
