@@ -38,7 +38,7 @@ fn states() -> [Vec<[f64; 6]>; 3] {
     })
 }
 
-/// What is to be compiled for chosen vectors, in which its lanes are.
+/// A function over states, to be compiled for chosen vectors.
 struct States<'a, F: Function<3, 6, 6>, const L: usize>(
     [&'a [[F::Scalar; 6]]; 3],
     &'a mut [F::State],

@@ -83,7 +83,7 @@ macro_rules! inverse_dynamics {
     }};
 }
 
-/// What sharing D, h and c saves, and what f32 does.
+/// Compares D, h and c together with D, h and c apart, and f32 with f64.
 fn variants() {
     let [q, qd, qdd] = [1, 2, 3].map(states::<6>);
     let single = [&q, &qd, &qdd].map(|states| {

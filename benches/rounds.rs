@@ -12,7 +12,7 @@ pub struct Rounds {
 }
 
 impl Rounds {
-    /// Of runs that do so many of the same each.
+    /// Creates rounds whose runs do so many units of work each.
     pub fn of(units: usize) -> Rounds {
         Rounds {
             units,

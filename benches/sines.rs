@@ -34,8 +34,8 @@ pub mod std_math {
     }
 }
 
-/// So many different states that no branch of a sine is learnt by heart: of a
-/// thousand, a processor remembers them all.
+/// The number of states: so many that no branch of a sine is learnt by heart; of a thousand, a
+/// processor remembers them all.
 const STATES: usize = 1 << 15;
 
 type State = [[f64; 6]; 3];

@@ -25,6 +25,7 @@
 //! the macro, `model` the description, for which it needs an allocator.
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 
 #[cfg(feature = "model")]
 pub use dalembert_model::{equations, number, reference, robot, scalar};
@@ -341,7 +342,7 @@ pub use dalembert_macros::dynamics;
 /// For generated code only.
 #[doc(hidden)]
 pub mod __private {
-    /// What bodies call, by one name whichever library it is from.
+    /// The functions that generated bodies call, by one name whichever library they are from.
     pub mod math {
         pub use dalembert_sines as together;
         pub use libm::{cos, cosf, sin, sincos, sincosf, sinf, sqrt, sqrtf};

@@ -10,14 +10,14 @@ use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::workspace::approximate::sines::within;
-use dalembert_codegen::workspace::backend::function::write;
-use dalembert_codegen::workspace::backend::{Entries, MathPath, Printed};
 use dalembert_codegen::workspace::bound::input_box::InputBox;
 use dalembert_codegen::workspace::bound::scale;
 use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::language::function::write;
+use dalembert_codegen::workspace::language::{Entries, MathPath, Printed};
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::{Library, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;

@@ -115,8 +115,8 @@ macro_rules! same_bundles {
 }
 same_bundles!(bundled, bundled_f32);
 
-/// So many seeded numbers; every ninth is one of those that are not usual:
-/// angles beyond what polynomials are for, zeros, infinities, NaN.
+/// Returns seeded numbers; every ninth is unusual: angles beyond what polynomials are for,
+/// zeros, infinities, NaN.
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
     let odd = [
         1e5,
@@ -207,7 +207,7 @@ macro_rules! check {
     }};
 }
 
-/// What every arm here has, from torques to accelerations and back.
+/// Checks the entries that every arm here has, from torques to accelerations and back.
 macro_rules! check_dynamics {
     ($module:ident, $scalar:ty) => {{
         let vector = |x: &[$scalar; $module::N]| *x;
@@ -311,7 +311,7 @@ macro_rules! check_bundles {
     }};
 }
 
-/// What a bundle has of many states is what its function has of each.
+/// A bundle of many states returns what its function returns for each.
 #[test]
 fn bundles_of_many_states() {
     check_bundles!(bundled, f64);

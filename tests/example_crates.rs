@@ -36,9 +36,9 @@ fn bare_metal() {
     cargo(&["run"], "bare_metal");
 }
 
-/// What the macro costs in a crate with cargo's defaults: printed, since what
-/// a machine has time for is no property of the code. Its profile is another than
-/// that of `bare_metal`, so that all is compiled anew for it.
+/// Prints what the macro costs in a crate with cargo's defaults; nothing is asserted, since
+/// time is no property of the code. Its profile is another than that of `bare_metal`, so that
+/// all is compiled anew for it.
 #[test]
 #[ignore = "compiles the generator once more: a step of `.ci/run`"]
 fn debug_cost() {

@@ -24,7 +24,7 @@ const CRATES: [&str; 13] = [
     "report",
     "import",
     "cli",
-    "audit",
+    "checker",
     ".",
     "sines",
     "batch",
@@ -41,7 +41,7 @@ fn crates() -> Vec<Crate> {
     crates.into()
 }
 
-/// What is used from here, by whatever way round.
+/// Returns all that is used from here, directly or not.
 fn reach(uses: &Uses, from: &str) -> BTreeSet<String> {
     let (mut seen, mut open) = (BTreeSet::new(), vec![from.to_owned()]);
     while let Some(at) = open.pop() {

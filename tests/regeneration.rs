@@ -29,7 +29,7 @@ fn robots() -> BTreeMap<String, PathBuf> {
         .collect()
 }
 
-/// Whether a file says this; if not, it does afterwards.
+/// Returns whether a file has this text, and writes it if not.
 fn keep(path: &Path, text: &str) -> bool {
     let same = fs::read_to_string(path).is_ok_and(|old| old == text);
     if !same {
@@ -49,7 +49,7 @@ fn checked_in_code_is_up_to_date() {
         let reading = read::parse(&source, &read::Options::default()).unwrap();
         let request = Request {
             plan: plan::file::beside(&file).unwrap(),
-            ..Request::default()
+            ..Request::default().for_file(&reading.outputs)
         };
         let generated = generate(&reading.robot, &request).unwrap();
         let output = file.with_extension("rs");
@@ -75,12 +75,11 @@ fn checked_in_code_is_up_to_date() {
 /// The functions of each robot.
 type Table = BTreeMap<String, Vec<GeneratedFunction>>;
 
-/// What the plan has besides the functions of the file, and what takes parameters of the
-/// robot as arguments. Without the plan, a search of minutes would take its place.
+/// Generates what the plan has besides the functions of the file, and what takes parameters of
+/// the robot as arguments. Without the plan, a search of minutes would take its place.
 fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let plan = request.plan.as_ref().unwrap();
     let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());
-    let by_default = Function::by_default();
     let generated = |parameters: &[RuntimeParameter]| {
         let taken = |entry: &&Entry| {
             let taken = entry.parameters.as_ref().map_or(&[][..], |p| &p.taken);
@@ -88,7 +87,7 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
         };
         let mut functions: Vec<Function> = Vec::new();
         for function in entries().filter(taken).map(|entry| entry.program.function) {
-            let is_known = parameters.is_empty() && by_default.contains(&function);
+            let is_known = parameters.is_empty() && request.functions.contains(&function);
             if !is_known && !functions.contains(&function) {
                 functions.push(function);
             }

@@ -1,5 +1,5 @@
-//! The same robot by every way in: from a file, written in the macro, checked
-//! in as source, and by the generic runtime.
+//! Compares one robot by every way in: from a file, written in the macro, checked in as source,
+//! and by the generic runtime.
 
 use dalembert::number::Angle;
 use dalembert::reference::Reference;

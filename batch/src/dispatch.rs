@@ -58,7 +58,7 @@ struct Columns<'a, 'c, 'r, F: Function<A, N, M>, const A: usize, const N: usize,
     function: PhantomData<F>,
 }
 
-/// How many numbers of a kind a vector has.
+/// Returns the number of lanes of a vector.
 const fn lanes<S: Simd, T>() -> usize {
     size_of::<S::f64s>() / size_of::<T>()
 }

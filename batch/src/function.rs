@@ -1,4 +1,4 @@
-//! What a generator says of a function.
+//! A generated function as batches see it.
 
 /// A function of A arguments of N numbers each, which returns M numbers; in
 /// lanes, so many states at once as somebody says.
@@ -8,9 +8,9 @@
 pub trait Function<const A: usize, const N: usize, const M: usize> {
     /// f64 or f32.
     type Scalar: Copy + Default;
-    /// What it returns of one state.
+    /// The results of one state.
     type State;
-    /// What it returns of L states.
+    /// The results of L states.
     type Lanes<const L: usize>;
 
     /// Its results at L states: entry `[a][i][l]` is argument a's number i in

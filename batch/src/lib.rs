@@ -51,6 +51,7 @@
 //! - `parallel`: on all cores
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(missing_docs)]
 
 mod function;

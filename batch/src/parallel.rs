@@ -1,4 +1,4 @@
-//! The same on all cores, by rayon: each half of the states by whoever has time.
+//! Batches on all cores by rayon; each half of the states goes to a free thread.
 //!
 //! What comes out does not depend on who computes it.
 
@@ -7,7 +7,7 @@ use core::array::from_fn;
 use crate::slices::{check_columns, check_states};
 use crate::{Function, Unequal};
 
-/// So many states are not worth sharing: some microseconds.
+/// The number of states below which threads do not pay: some microseconds of work.
 const FEW: usize = 1024;
 
 /// [`states`](crate::states) on all cores.

@@ -2,8 +2,8 @@
 
 use crate::{Function, Unequal, columns_in_lanes, states_in_lanes};
 
-/// So many lanes: two vectors of SSE or NEON in f64, one in f32. A plain x86-64
-/// build was fastest with these.
+/// The number of lanes: two vectors of SSE or NEON in f64, one in f32. A plain x86-64 build was
+/// fastest with these.
 const LANES: usize = 4;
 
 /// The function at every state.

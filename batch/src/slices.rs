@@ -4,6 +4,8 @@
 //! compiled for the same vectors as the function is, and only what is inlined for
 //! certain is. (`zip` is not, without link-time optimisation of a crate's parts.)
 
+use core::array::from_fn;
+
 use crate::{Function, Slice, Unequal};
 
 /// [`states`](crate::states) in L lanes, compiled for what the caller is: for
@@ -41,7 +43,7 @@ where
     Ok(())
 }
 
-/// Whether there is an argument of each for every result.
+/// Checks that there is an argument of each for every result.
 pub(crate) fn check_states<T, const N: usize>(
     arguments: &[&[[T; N]]],
     states: usize,
@@ -52,7 +54,7 @@ pub(crate) fn check_states<T, const N: usize>(
     Ok(())
 }
 
-/// Whether all columns are of one length.
+/// Checks that all columns are of one length.
 pub(crate) fn check_columns<T, const N: usize>(
     arguments: &[&[&[T]; N]],
     results: &[&mut [T]],
@@ -127,7 +129,15 @@ fn load<T: Copy, const L: usize, const N: usize>(lanes: &mut [[T; L]; N], states
     }
 }
 
-/// All columns are of one length.
+/// Lanes of which no vector straddles two lines of the cache.
+#[repr(align(64))]
+struct Aligned<T>(T);
+
+/// Runs a function over columns of one length.
+///
+/// Chunks are of L states each. The last one begins where it ends with the columns, and
+/// computes some states once more, to the same bits: what is left over needs no second
+/// text of the function. Fewer than L states are computed in columns of their own.
 #[inline(always)]
 pub(crate) fn run_columns<F, const L: usize, const A: usize, const N: usize, const M: usize>(
     arguments: [&[&[F::Scalar]; N]; A],
@@ -136,47 +146,61 @@ pub(crate) fn run_columns<F, const L: usize, const A: usize, const N: usize, con
     F: Function<A, N, M>,
 {
     let states = results.first().map_or(0, |first| first.len());
-    let mut lanes = [[[F::Scalar::default(); L]; N]; A];
+    let few: [[[F::Scalar; L]; N]; A] =
+        from_fn(|argument| from_fn(|entry| filled(arguments[argument][entry])));
+    let own: [[&[F::Scalar]; N]; A] =
+        from_fn(|argument| from_fn(|entry| &few[argument][entry][..]));
+    let mut found = [[F::Scalar::default(); L]; M];
+    let is_few = states < L;
+    let (arguments, mut columns, count) = match is_few {
+        true => {
+            let places = found.each_mut().map(|place| &mut place[..]);
+            (own.each_ref(), places, L.min(states * L))
+        }
+        false => {
+            let places = results.each_mut().map(|place| &mut **place);
+            (arguments, places, states)
+        }
+    };
     let mut start = 0;
-    while start < states {
+    while start < count {
+        let at = if start + L <= count { start } else { count - L };
+        let mut lanes = Aligned([[[F::Scalar::default(); L]; N]; A]);
         let mut argument = 0;
         while argument < A {
             let mut entry = 0;
             while entry < N {
-                if let Some(rest) = arguments[argument][entry].get(start..) {
-                    fill(&mut lanes[argument][entry], rest);
+                let rest = arguments[argument][entry].get(at..);
+                if let Some(values) = rest.and_then(|rest| rest.first_chunk::<L>()) {
+                    lanes.0[argument][entry] = *values;
                 }
                 entry += 1;
             }
             argument += 1;
         }
-        let found = F::columns(&F::lanes(&lanes));
+        let chunk = F::columns(&F::lanes(&lanes.0));
         let mut result = 0;
         while result < M {
-            if let Some(rest) = results[result].get_mut(start..) {
-                match rest.first_chunk_mut::<L>() {
-                    Some(place) => *place = found[result],
-                    None => rest.copy_from_slice(&found[result][..rest.len()]),
-                }
+            let rest = columns[result].get_mut(at..);
+            if let Some(place) = rest.and_then(|rest| rest.first_chunk_mut::<L>()) {
+                *place = chunk[result];
             }
             result += 1;
         }
         start += L;
     }
-}
-
-/// What a column begins with; if it is too short, its first number in the other
-/// lanes.
-#[inline(always)]
-fn fill<T: Copy, const L: usize>(lane: &mut [T; L], rest: &[T]) {
-    match rest.first_chunk::<L>() {
-        Some(values) => *lane = *values,
-        None => {
-            for (l, place) in lane.iter_mut().enumerate() {
-                if let Some(value) = rest.get(l).or(rest.first()) {
-                    *place = *value;
-                }
-            }
+    if is_few {
+        for (result, found) in results.iter_mut().zip(&found) {
+            result.copy_from_slice(&found[..states]);
         }
     }
+}
+
+/// Returns the beginning of a column; if it is too short, its first number fills the other
+/// lanes.
+fn filled<T: Copy + Default, const L: usize>(column: &[T]) -> [T; L] {
+    from_fn(|lane| {
+        let value = column.get(lane).or(column.first());
+        value.copied().unwrap_or_default()
+    })
 }

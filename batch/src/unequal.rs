@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Which slice of a call.
+/// The slice of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Slice {
     /// An argument, counted from one.
@@ -18,14 +18,14 @@ pub enum Slice {
 pub struct Unequal {
     /// The first that differs.
     pub slice: Slice,
-    /// How many states it has.
+    /// The number of states of the slice.
     pub found: usize,
-    /// How many states the results have; of columns, the first of them.
+    /// The number of states of the results; of columns, the first of them.
     pub expected: usize,
 }
 
 impl Unequal {
-    /// Whether a slice is as long as the results are.
+    /// Checks that a slice is as long as the results are.
     pub(crate) fn check(slice: Slice, found: usize, expected: usize) -> Result<(), Unequal> {
         match found == expected {
             true => Ok(()),

@@ -73,7 +73,7 @@
 //! # }
 //! ```
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 mod cargo;
 mod error;
@@ -82,14 +82,12 @@ mod output;
 use std::env;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::generate::in_scene::find;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::{Request, generate_anew};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::Library;
 use dalembert_model::robot::Severity;
 
-#[doc(inline)]
-pub use dalembert_codegen::workspace::backend::Entries;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::clauses::RobotFileError;
 #[doc(inline)]
@@ -105,6 +103,8 @@ pub use dalembert_codegen::workspace::generate::in_scene::UnknownScene;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::generate::{Fma, GenerateError, Prefer};
 #[doc(inline)]
+pub use dalembert_codegen::workspace::language::{Entries, Language};
+#[doc(inline)]
 pub use dalembert_codegen::workspace::portfolio::Start as Formulation;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
@@ -114,7 +114,7 @@ pub use dalembert_codegen::workspace::simplify::Effort;
 pub use dalembert_codegen::workspace::sincos::SinCos;
 pub use error::BuildError;
 
-/// What to generate, and from which robot file.
+/// A request for generated code: a robot file, and the functions that are wanted.
 ///
 /// Nothing chosen, it is every function in both scalars. Each function costs
 /// compile time, so most crates choose.
@@ -178,7 +178,7 @@ impl Generator {
         self
     }
 
-    /// How long to search. [`Effort::Thorough`] saves a few operations more,
+    /// Sets how long to search. [`Effort::Thorough`] saves a few operations more,
     /// but at every build: better search once with the command
     /// `dalembert generate --effort thorough --save-plan`, whose plan every
     /// build replays in a fraction of a second.
@@ -188,7 +188,7 @@ impl Generator {
         self
     }
 
-    /// What to do about a program that is cheaper and rounds worse:
+    /// Sets what to do about a program that is cheaper and rounds worse:
     /// [`Prefer::Operations`] takes the cheapest whatever its rounding error;
     /// [`Prefer::Accuracy`], the default, the cheapest of those whose error is
     /// at most four times the textbook form's. Programs of a plan stay.
@@ -219,7 +219,7 @@ impl Generator {
         self
     }
 
-    /// Whether the file has modules, for `include!`, or is the contents of one,
+    /// Sets whether the file has modules, for `include!`, or is the contents of one,
     /// for a file that is taken by `mod NAME;`. The latter has one scalar.
     #[must_use]
     pub fn layout(mut self, layout: Layout) -> Self {
@@ -250,7 +250,7 @@ impl Generator {
         self
     }
 
-    /// Whether a product and the sum that alone reads it are one operation,
+    /// Sets whether a product and the sum that alone reads it are one operation,
     /// `mul_add`, which rounds once. The code needs `std`, and a build for a processor
     /// that has it (`-C target-feature=+fma` on x86-64): any other calls a function
     /// of C for each, slower by far than two operations.
@@ -260,7 +260,15 @@ impl Generator {
         self
     }
 
-    /// In how many ways each function can be called: [`Entries::WithSincos`] adds
+    /// Sets the language of the file: [`Language::C`] writes one header of C99, which C++ reads
+    /// too, with the functions of all scalars.
+    #[must_use]
+    pub fn language(mut self, language: Language) -> Self {
+        self.request.language = language;
+        self
+    }
+
+    /// Sets in how many ways each function can be called: [`Entries::WithSincos`] adds
     /// `NAME_with_sincos` for who has the sines already, [`Entries::Lanes`]
     /// `NAME_lanes`, which computes several states at once in vectors of the
     /// processor's, and [`Entries::Batch`] `NAME_batch` and `NAME_columns` for
@@ -272,7 +280,7 @@ impl Generator {
         self
     }
 
-    /// What functions take as arguments that are constants of the robot otherwise:
+    /// Makes arguments of what are constants of the robot otherwise:
     /// [`Parameter::Payload`] by the regrouped parameters of a type `Load`, which a
     /// function `load` computes once for each tool, and [`Parameter::Gravity`] as
     /// `g`, for an arm whose base is tilted or moves. Searched for at every build:
@@ -283,7 +291,7 @@ impl Generator {
         self
     }
 
-    /// How code meets the module: [`Interface::Traits`] adds a type `Robot` with the
+    /// Sets how code meets the module: [`Interface::Traits`] adds a type `Robot` with the
     /// traits of `dalembert::interface`, for code that is generic over robots; that
     /// needs `dalembert` in `Cargo.toml`, without its default features.
     #[must_use]
@@ -341,6 +349,7 @@ impl Generator {
         if let Some(path) = &self.math {
             request.math.path.clone_from(path);
         }
+        let request = request.for_file(&file.outputs);
         let request = request.choose(self.chosen()?, self.scalars.clone(), scene);
         let key = output::key(&file.source, &request);
         if output::is_current(path, &key) {
@@ -352,7 +361,7 @@ impl Generator {
                 cargo::warn(&place, &note.message, note.help.as_deref());
             }
         }
-        let generated = generate(&file.robot, &request)
+        let generated = generate_anew(&file.robot, &request, &robot.display().to_string())
             .map_err(|error| BuildError::Generate(robot.to_owned(), error))?;
         for warning in &generated.warnings {
             cargo::warn(&robot.display().to_string(), warning, None);

@@ -19,7 +19,7 @@ pub(crate) fn key(source: &str, request: &Request) -> String {
     ))
 }
 
-/// Whether the file is there, from the same input and as it was written.
+/// Returns whether the file is there, from the same input and as it was written.
 pub(crate) fn is_current(path: &Path, key: &str) -> bool {
     fs::read_to_string(path).is_ok_and(|whole| match whole.split_once('\n') {
         Some((first, text)) => first == header(key, text),
@@ -53,7 +53,8 @@ pub(crate) fn write(path: &Path, key: &str, text: &str) -> io::Result<()> {
     written
 }
 
-/// Of the text too, so that an edit by hand does not pass for generated.
+/// Returns the first line. It has a hash of the text too, so that an edit by hand does not
+/// pass for generated.
 fn header(key: &str, text: &str) -> String {
     format!("// input {key}, text {}", hash(text))
 }

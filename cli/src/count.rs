@@ -23,7 +23,7 @@ pub fn run(args: &CountArgs) -> Outcome {
         }
     }
     let session = progress::watch(&mut request);
-    let generated = input::generated(&args.robot, &robot, &request)?;
+    let generated = input::generated(&args.robot, &robot, &request, false)?;
     drop(session);
     if args.json {
         // The first that was emitted.
@@ -42,12 +42,13 @@ pub fn run(args: &CountArgs) -> Outcome {
             None => json!({ "robot": robot.name, "input": input, "functions": functions }),
         });
     }
-    output::print(&format!(
-        "robot {}, input {}{}\n\n{}{}",
-        robot.name,
-        robot.short_hash(),
-        report::scene(&request),
-        report::counts(&generated),
-        report::limits(&generated)
-    ))
+    let mut text = report::head(&robot, &request);
+    text += &report::counts(&generated, args.verbose);
+    text += &report::sines(&generated);
+    if args.verbose {
+        text += &report::limits(&generated);
+    }
+    output::note(&report::warnings(&generated));
+    text += "\nproved equal to the equations of motion\n";
+    output::print(&text)
 }

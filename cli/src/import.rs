@@ -1,8 +1,6 @@
 //! `dalembert import`: a robot file of a chain of a URDF.
 
-use std::path::Path;
-
-use dalembert_import::{Change, Imported, MAX_BYTES, Options, import};
+use dalembert_import::{Change, Imported, MAX_BYTES, import};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 
@@ -20,19 +18,14 @@ pub fn run(args: &ImportArgs) -> Outcome {
     };
     distinct::distinct(&[("the URDF", &args.urdf)], &[("the robot file", &target)])?;
     target.check()?;
+    if !args.force {
+        target.ours()?;
+    }
     let name = args.urdf.display().to_string();
     let bytes = input::bytes(&args.urdf, MAX_BYTES as u64)?;
     let source = String::from_utf8(bytes)
         .map_err(|_| Failure::Input(format!("error: `{name}` is not UTF-8 text")))?;
-    let options = Options {
-        base: args.base.clone(),
-        tip: args.tip.clone(),
-        lock: args.lock.clone(),
-        without: args.without.clone(),
-        exact: args.exact,
-        file: file_name(&args.urdf),
-    };
-    let imported = import(&source, &options)
+    let imported = import(&source, &args.chain.options(&args.urdf))
         .map_err(|errors| Failure::Input(errors.render(&name, &source)))?;
     write::write(&[(&target, &imported.text)])?;
     match args.json {
@@ -44,7 +37,7 @@ pub fn run(args: &ImportArgs) -> Outcome {
     }
 }
 
-/// The same for programs.
+/// Returns the same for programs.
 fn json(imported: &Imported, name: &str, source: &str) -> Value {
     let robot = &imported.robot;
     let snaps = imported.snaps.iter().map(|snap| {
@@ -86,8 +79,8 @@ fn json(imported: &Imported, name: &str, source: &str) -> Value {
     })
 }
 
-/// What a person wants to know: what was left out, which numbers were replaced by
-/// others, and what that changes.
+/// Prints what a person wants to know: what was left out, which numbers were
+/// replaced by others, and what that changes.
 fn report(imported: &Imported, name: &str, source: &str) {
     for note in &imported.notes {
         output::note(&note.render(name, source));
@@ -125,9 +118,4 @@ fn report(imported: &Imported, name: &str, source: &str) {
         }
         output::note("  --exact takes every digit as it stands");
     }
-}
-
-fn file_name(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default();
-    name.to_string_lossy().into_owned()
 }

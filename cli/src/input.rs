@@ -6,7 +6,9 @@ use std::path::Path;
 
 use dalembert_codegen::RobotFileError;
 use dalembert_codegen::workspace::generate::in_scene::find;
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{
+    GenerateError, Generated, Request, generate, generate_anew,
+};
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::read::{self, Reading};
@@ -30,13 +32,13 @@ pub fn robot(path: &Path) -> Result<Robot, Failure> {
 /// Reads a robot file and makes the request of a choice, its scene included.
 pub fn robot_and_request(path: &Path, choice: &Choice) -> Result<(Robot, Request), Failure> {
     let reading = reading(path)?;
-    let mut request = request(path, choice)?;
-    if let Some(name) = &choice.scene {
-        let scene = scene(path, &reading, name)?;
-        let outputs = (!choice.outputs.is_empty()).then(|| choice.outputs.clone());
-        let scalars = choice.scalar.map(|scalar| vec![scalar]);
-        request = request.choose(outputs, scalars, Some(scene));
-    }
+    let name = choice.scene.as_ref();
+    let scene = name.map(|name| self::scene(path, &reading, name));
+    let scene = scene.transpose()?;
+    let outputs = (!choice.outputs.is_empty()).then(|| choice.outputs.clone());
+    let scalars = choice.scalar.map(|scalar| vec![scalar]);
+    let request = request(path, choice)?.for_file(&reading.outputs);
+    let request = request.choose(outputs, scalars, scene);
     Ok((reading.robot, request))
 }
 
@@ -69,8 +71,21 @@ pub fn reading(path: &Path) -> Result<Reading, Failure> {
     }
 }
 
-/// Generates for a robot file; where its plan does not fit, the error names it.
-pub fn generated(path: &Path, robot: &Robot, request: &Request) -> Result<Generated, Failure> {
+/// Generates for a robot file; a plan that no longer fits it is a warning, and an error
+/// where what is generated is compared.
+///
+/// # Errors
+/// Those of generating.
+pub fn generated(
+    path: &Path,
+    robot: &Robot,
+    request: &Request,
+    compared: bool,
+) -> Result<Generated, Failure> {
+    if !compared {
+        let shown = path.display().to_string();
+        return Ok(generate_anew(robot, request, &shown)?);
+    }
     generate(robot, request).map_err(|error| {
         let stale = matches!(
             error,

@@ -7,9 +7,7 @@
 //! - [`new`]: a crate to begin with
 //! - [`count`]: operation counts
 //! - [`verify`]: the exact proof and what rounding costs
-//! - [`couplings`]: which coefficients vanish or repeat, and why
-//! - [`explain`]: what each step brought, and why
-//! - [`table3`]: the paper's counts beside the formulas' and the generator's
+//! - [`explain`]: what each step brought, which coefficients vanish or repeat, and why
 //! - [`stress`]: numerical stability at the extremes, and growth
 //! - [`certify`]: a certificate checked again
 //! - [`tradeoff`]: certified error against operations
@@ -24,7 +22,6 @@
 mod args;
 mod certify;
 mod count;
-mod couplings;
 mod explain;
 mod files;
 mod generate;
@@ -38,7 +35,6 @@ mod progress;
 mod show;
 mod sines;
 mod stress;
-mod table3;
 mod tradeoff;
 mod verify;
 
@@ -57,12 +53,10 @@ fn main() -> ExitCode {
         Command::Show(args) => show::run(&args),
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
-        Command::Couplings(args) => couplings::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Stress(args) => stress::run(&args),
         Command::Certify(args) => certify::run(&args),
         Command::Tradeoff(args) => tradeoff::run(&args),
-        Command::Table3(args) => table3::run(&args),
     };
     let (why, code) = match outcome {
         Ok(()) => return ExitCode::SUCCESS,

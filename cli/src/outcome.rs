@@ -12,7 +12,7 @@ pub enum Failure {
     Input(String),
 }
 
-/// What a subcommand returns.
+/// The result of a subcommand.
 pub type Outcome = Result<(), Failure>;
 
 impl From<GenerateError> for Failure {

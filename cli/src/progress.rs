@@ -27,7 +27,7 @@ pub struct Session(Option<Arc<Terminal>>);
 
 struct Terminal {
     bar: ProgressBar,
-    /// What is searched for, in this order.
+    /// The functions that are searched for, in this order.
     functions: Vec<Function>,
     stop: AtomicBool,
     /// Nothing is left to be ended.
@@ -249,7 +249,7 @@ mod tests {
     fn which_function_of_how_many() {
         assert_eq!(
             place(&Function::by_default(), Function::Gravity),
-            "function 2 of 6: "
+            "function 2 of 7: "
         );
         assert_eq!(place(&[Function::Gravity], Function::Gravity), "");
     }

@@ -27,6 +27,9 @@ pub fn run(args: &ShowArgs) -> Outcome {
         &[("the robot file", &args.robot)],
         &[("the drawing", &target)],
     )?;
+    if !args.force {
+        target.ours()?;
+    }
     let at = position(args, &robot)?;
     for (index, (text, q)) in args.at.iter().zip(&at).enumerate() {
         if let Some(warning) = doubtful(&robot, index, text, *q) {
@@ -68,7 +71,7 @@ fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
     }))
 }
 
-/// What is odd about a position of a joint: beyond its limits, or more than a turn. A
+/// Returns what is odd about a position of a joint: beyond its limits, or more than a turn. A
 /// number by itself is of radians, and was perhaps meant otherwise.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;

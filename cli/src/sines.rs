@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::output;
 
-/// How far an angle's polynomials were seen to be from sine and cosine.
+/// The largest distance met of an angle's polynomials from sine and cosine.
 pub struct Check {
     function: Function,
     scalar: ScalarType,
@@ -21,7 +21,7 @@ pub struct Check {
 }
 
 impl Check {
-    /// Whether that is no more than was proved.
+    /// Returns whether that is no more than was proved.
     pub fn passed(&self) -> bool {
         self.error <= self.bound
     }

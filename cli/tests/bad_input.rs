@@ -41,7 +41,7 @@ fn broken_robot_files_name_the_line() {
         ),
     ] {
         fs::write(&file, &source).unwrap();
-        for subcommand in ["generate", "count", "verify", "couplings", "table3"] {
+        for subcommand in ["generate", "count", "verify", "explain"] {
             let ran = run(&[subcommand, name]);
             assert_eq!(ran.code, 2, "{subcommand}: {source:?}: {}", ran.err);
             assert!(ran.err.contains(&expected), "{subcommand}: {}", ran.err);
@@ -151,8 +151,9 @@ fn wrong_words_on_the_command_line() {
     }
 }
 
-/// A plan that is another robot's, or none, is named with what helps; a pipe
-/// in its place is not waited for.
+/// A plan of other numbers gives way to a search, with a warning that says how to renew it,
+/// and is an error where what is generated is compared; a pipe in its place is not waited
+/// for.
 #[test]
 fn plans_that_cannot_be_used() {
     let folder = temporary("stale_plan");
@@ -165,6 +166,20 @@ fn plans_that_cannot_be_used() {
     fs::copy(kept, &plan).unwrap();
     let gravity = ["count", name, "--outputs", "gravity"];
     let ran = run(&gravity);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let renewal = format!("`dalembert generate {name} --effort thorough --save-plan` renews it");
+    assert!(ran.err.contains("warning: "), "{}", ran.err);
+    assert!(ran.err.contains(&renewal), "{}", ran.err);
+    let without = run(&[&gravity[..], &["--no-plan"]].concat());
+    assert_eq!((without.code, &without.out), (0, &ran.out));
+    assert!(!without.err.contains("warning: "), "{}", without.err);
+    let output = folder.join("arm.rs");
+    let output = output.to_str().unwrap();
+    let generate = ["generate", name, "--outputs", "gravity", "-o", output];
+    let ran = run(&generate);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains(&renewal), "{}", ran.err);
+    let ran = run(&[&generate[..], &["--check"]].concat());
     assert_eq!(ran.code, 2, "{}", ran.err);
     for words in [
         "arm.plan",
@@ -174,7 +189,6 @@ fn plans_that_cannot_be_used() {
     ] {
         assert!(ran.err.contains(words), "{words}: {}", ran.err);
     }
-    assert_eq!(run(&[&gravity[..], &["--no-plan"]].concat()).code, 0);
     #[cfg(unix)]
     {
         fs::remove_file(&plan).unwrap();
@@ -228,7 +242,7 @@ fn what_no_scalar_can_hold_is_said() {
 fn help_and_version_are_no_failures() {
     let help = run(&["--help"]);
     assert_eq!(help.code, 0);
-    for subcommand in ["generate", "count", "verify", "couplings", "table3"] {
+    for subcommand in ["generate", "count", "verify", "explain"] {
         assert!(help.out.contains(subcommand));
     }
     assert!(run(&["--version"]).out.contains(env!("CARGO_PKG_VERSION")));

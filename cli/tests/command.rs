@@ -40,6 +40,10 @@ fn entries_are_asked_for() {
     assert!(lanes.out.contains("pub fn gravity_lanes<const L: usize>("));
     assert!(lanes.out.contains("pub fn gravity_with_sincos(") && !lanes.out.contains("_batch"));
     assert!(lanes.err.contains("the text was read back"));
+    assert!(!lanes.err.contains("p(wrong)"), "{}", lanes.err);
+    let whole = run(&[&plain[..], &["--verbose"]].concat());
+    assert!(whole.err.contains("p(wrong) < ") && whole.out == single.out);
+    assert!(whole.err.contains("worst rounding errors"), "{}", whole.err);
     let wrong = run(&[&plain[..], &["--entries", "lane"]].concat());
     assert_eq!(wrong.code, 2);
     assert!(wrong.err.contains("'lanes'"), "{}", wrong.err);
@@ -104,7 +108,7 @@ fn parameters_are_asked_for() {
     assert_eq!(ran.code, 0, "{}", ran.err);
     let plan = fs::read_to_string(folder.join("arm.plan")).unwrap();
     assert!(plan.contains("\nparameters payload,gravity 6 "), "{plan}");
-    let replayed = run(&kept);
+    let replayed = run(&[&kept[..], &["--verbose"]].concat());
     assert!(replayed.err.contains(", plan "), "{}", replayed.err);
     assert_eq!(replayed.out, ran.out);
     let wrong = run(&["count", &planar, "--parameters", "mass"]);
@@ -171,8 +175,20 @@ fn counts_as_json() {
     assert_eq!(json["robot"], "puma560");
     let functions = json["functions"].as_object().unwrap();
     let names: Vec<&str> = functions.keys().map(String::as_str).collect();
+    // The robot file's.
     assert_eq!(names.len(), 6);
     assert!(names.contains(&"manipulator_equation"));
+    let (_, arm) = arm("by_default", "planar2r", "");
+    let text = fs::read_to_string(&arm).unwrap();
+    let without: Vec<&str> = text.lines().filter(|l| !l.starts_with("outputs")).collect();
+    fs::write(&arm, without.join("\n")).unwrap();
+    let ran = run(&["count", &arm, "--json"]);
+    let by_default: Value = serde_json::from_str(&ran.out).unwrap();
+    let by_default = by_default["functions"].as_object().unwrap().keys();
+    assert_eq!(
+        by_default.map(String::as_str).collect::<Vec<_>>().join(" "),
+        "inverse_dynamics gravity inertia coriolis forward_kinematics jacobian forward_dynamics"
+    );
     let count = |function: &str, key: &str| functions[function][key].as_u64().unwrap();
     assert!(count("inverse_dynamics", "mul") + count("inverse_dynamics", "add") <= 467);
     assert_eq!(count("inverse_dynamics", "div"), 0);
@@ -379,56 +395,4 @@ fn verify_says_what_makes_states_agree() {
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(json["passed"], false);
     assert_eq!(json["given"]["disagreements"][0]["quantity"], "τ");
-}
-
-#[test]
-fn couplings_of_the_puma() {
-    let ran = run(&["couplings", &robot("puma560"), "--json"]);
-    assert_eq!(ran.code, 0);
-    let json: Value = serde_json::from_str(&ran.out).unwrap();
-    assert_eq!(json["summary"]["h"]["total"], 126);
-    assert_eq!(json["summary"]["h"]["zero"], 42);
-    assert_eq!(json["summary"]["h"]["distinct"], 35);
-    let entries = json["entries"].as_array().unwrap();
-    let entry = |name: &str| entries.iter().find(|e| e["name"] == name).unwrap();
-    assert_eq!(entry("h_222")["reason"], "own_square");
-    assert_eq!(entry("h_211")["opposite_of"], "h_112");
-    assert_eq!(entry("D_66")["constant"], true);
-    let text = run(&["couplings", &robot("puma560")]);
-    assert!(text.out.contains("h_iii = 0, always") && text.out.contains("this robot's geometry"));
-}
-
-#[test]
-fn table3_has_the_papers_figures() {
-    let ran = run(&["table3", "--json"]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    let json: Value = serde_json::from_str(&ran.out).unwrap();
-    let rows = json["table3"].as_array().unwrap();
-    assert_eq!(rows.len(), 7);
-    let paper = |n: usize, formulation: &str| {
-        let pair = &rows[n - 1][formulation]["paper"];
-        (pair["mul"].as_u64().unwrap(), pair["add"].as_u64().unwrap())
-    };
-    assert_eq!(paper(6, "lagrange_euler"), (101_348, 77_405));
-    assert_eq!(paper(6, "newton_euler"), (792, 662));
-    assert_eq!(paper(6, "dalembert"), (2963, 2209));
-    assert_eq!(paper(7, "lagrange_euler"), (173_425, 132_496));
-    for row in rows {
-        for formulation in ["lagrange_euler", "newton_euler", "dalembert"] {
-            let mul = |key: &str| row[formulation][key]["mul"].as_u64().unwrap();
-            assert!(mul("generated") < mul("as_written") && mul("as_written") < mul("paper"));
-        }
-    }
-    let puma = run(&["table3", &robot("puma560"), "--json"]);
-    let json: Value = serde_json::from_str(&puma.out).unwrap();
-    for formulation in ["lagrange_euler", "newton_euler", "dalembert", "auto"] {
-        let stages = json["formulations"][formulation]["stages"]
-            .as_array()
-            .unwrap();
-        let names: Vec<&str> = stages
-            .iter()
-            .map(|s| s["stage"].as_str().unwrap())
-            .collect();
-        assert_eq!((names[0], names[names.len() - 1]), ("traced", "final"));
-    }
 }

@@ -9,7 +9,7 @@ fn the_table_and_the_reasons() {
     assert_eq!(ran.code, 0, "{}", ran.err);
     for expected in [
         "inverse_dynamics",
-        "Lagrange–Euler, Table 3",
+        "Table 3, torques",
         "3140  2391",
         "unit of length",
         "to link 1, on its axis: m 1",
@@ -45,6 +45,36 @@ fn as_json() {
         assert_eq!(function["links"].as_array().unwrap().len(), 3);
     }
     assert_eq!(json["coefficients"]["D"]["total"], 6);
+}
+
+#[test]
+fn every_coefficient_of_the_puma() {
+    let explain = [
+        "explain",
+        &robot("puma560"),
+        "--states",
+        "2",
+        "--coefficients",
+    ];
+    let ran = run(&[&explain[..], &["--json"]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    let h = &json["coefficients"]["h"];
+    assert_eq!([&h["total"], &h["zero"], &h["distinct"]], [126, 42, 35]);
+    let entries = json["entries"].as_array().unwrap();
+    let entry = |name: &str| entries.iter().find(|e| e["name"] == name).unwrap();
+    assert_eq!(entry("h_222")["reason"], "own_square");
+    assert_eq!(entry("h_211")["opposite_of"], "h_112");
+    assert_eq!(entry("D_66")["constant"], true);
+    let table = json["table3"].as_array().unwrap();
+    let paper = [(101_348, 77_405), (792, 662), (2963, 2209)];
+    for (row, (mul, add)) in table.iter().zip(paper) {
+        assert_eq!([&row["paper"]["mul"], &row["paper"]["add"]], [mul, add]);
+        assert!(row["as_written"]["mul"].as_u64().unwrap() < mul);
+    }
+    let text = run(&explain);
+    assert!(text.out.contains("h_iii = 0, always") && text.out.contains("this robot's geometry"));
+    assert!(text.out.contains("−h_112"), "{}", text.out);
 }
 
 #[test]

@@ -120,4 +120,15 @@ fn refusals_are_bad_input() {
     ]);
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(fs::exists(output).unwrap());
+    let file = |options: &[&str]| {
+        let ran = run(&[&["import", &panda, "--tip", "panda_hand"], options].concat());
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        assert!(
+            ran.err.contains("is held: `panda_finger_joint1` at 0"),
+            "{}",
+            ran.err
+        );
+        ran.out
+    };
+    assert_eq!(file(&["--lock-others", "0"]), file(&["--lock", "*=0"]));
 }

@@ -77,8 +77,22 @@ fn from_robot_files_and_urdfs() {
             "cannot depend on the crate `dalembert`",
         ),
         (
-            vec![text("hand"), "--from".into(), panda],
-            "`dalembert import",
+            vec![text("hand"), "--from".into(), panda.clone()],
+            "choose the end by --tip: panda_hand, panda_hand_tcp; --lock-others 0",
+        ),
+        (
+            vec![
+                text("hand"),
+                "--from".into(),
+                robot("puma560"),
+                "--tip".into(),
+                "hand".into(),
+            ],
+            "has one chain",
+        ),
+        (
+            vec![text("hand"), "--lock-others".into(), "0".into()],
+            "has one chain",
         ),
         (
             vec![text("far"), "--path".into(), text("nowhere")],
@@ -99,4 +113,19 @@ fn from_robot_files_and_urdfs() {
     }
     // Nothing is left of what was refused.
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+    // What the errors say works.
+    let hand = text("hand");
+    let ran = run(&[
+        "new",
+        &hand,
+        "--from",
+        &panda,
+        "--tip",
+        "panda_hand",
+        "--lock-others",
+        "0",
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let source = fs::read_to_string(made("hand").join("src/main.rs")).unwrap();
+    assert!(source.contains("[0.1; 7]"), "{source}");
 }

@@ -121,34 +121,68 @@ fn nothing_is_written_over_an_input_or_another_output() {
     assert_eq!(fs::read_to_string(&arm).unwrap(), source);
 }
 
-/// A link keeps leading where it leads, to a file that is there or not; the
-/// certificate is beside the link.
+/// A file that the command did not write stays, unless it is told to write over it.
+#[test]
+fn files_of_others_stay() {
+    let (folder, arm) = arm("of_others");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    fs::write(folder.join("main.rs"), "fn main() {}\n").unwrap();
+    fs::write(folder.join("empty.rs"), "").unwrap();
+    fs::write(folder.join("code.certificate.json"), "{}").unwrap();
+    let before = names(&folder);
+    let words = "dalembert did not write it";
+    refused(
+        &hold(&arm, &["-o", &path("main.rs")]),
+        words,
+        &folder,
+        &before,
+    );
+    refused(
+        &hold(&arm, &["-o", &path("code.rs")]),
+        words,
+        &folder,
+        &before,
+    );
+    let show = ["show", &arm, "-o", &path("main.rs")];
+    refused(&run(&show), words, &folder, &before);
+    let text = fs::read_to_string(folder.join("main.rs")).unwrap();
+    assert_eq!(text, "fn main() {}\n");
+    for name in ["empty.rs", "empty.rs"] {
+        let ran = hold(&arm, &["-o", &path(name)]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+    }
+    let ran = hold(&arm, &["-o", &path("main.rs"), "--force"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for _ in 0..2 {
+        let ran = run(&["show", &arm, "-o", &path("arm.svg")]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+    }
+}
+
+/// A link keeps leading to the file where it leads; the certificate is beside the link. A
+/// link to nowhere is refused.
 #[cfg(unix)]
 #[test]
 fn links_are_followed() {
     use std::os::unix::fs::symlink;
     let (folder, arm) = arm("links");
     fs::create_dir_all(folder.join("far")).unwrap();
-    fs::write(folder.join("far/old.rs"), "old").unwrap();
-    for (link, target) in [("there.rs", "far/old.rs"), ("not.rs", "far/new.rs")] {
-        symlink(target, folder.join(link)).unwrap();
-        let ran = hold(&arm, &["-o", folder.join(link).to_str().unwrap()]);
-        assert_eq!(ran.code, 0, "{}", ran.err);
-        assert_eq!(fs::read_link(folder.join(link)).unwrap(), Path::new(target));
-        let text = fs::read_to_string(folder.join(target)).unwrap();
-        assert!(text.contains("pub mod planar2r_hold"), "{text}");
-    }
-    assert_eq!(names(&folder.join("far")), ["new.rs", "old.rs"]);
+    fs::write(folder.join("far/old.rs"), "// By dalembert, old.").unwrap();
+    symlink("far/old.rs", folder.join("there.rs")).unwrap();
+    let ran = hold(&arm, &["-o", folder.join("there.rs").to_str().unwrap()]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let there = fs::read_link(folder.join("there.rs")).unwrap();
+    assert_eq!(there, Path::new("far/old.rs"));
+    let text = fs::read_to_string(folder.join("far/old.rs")).unwrap();
+    assert!(text.contains("pub mod planar2r_hold"), "{text}");
+    assert_eq!(names(&folder.join("far")), ["old.rs"]);
     assert!(names(&folder).contains(&"there.certificate.json".to_owned()));
     symlink("circle.rs", folder.join("circle.rs")).unwrap();
-    let socket = std::os::unix::net::UnixListener::bind(folder.join("socket"));
+    symlink("nothing.rs", folder.join("nowhere.rs")).unwrap();
     let before = names(&folder);
-    let ran = hold(&arm, &["-o", folder.join("circle.rs").to_str().unwrap()]);
-    refused(&ran, "circles", &folder, &before);
-    // A path of a socket may be too long for the system.
-    if socket.is_ok() {
-        let ran = hold(&arm, &["-o", folder.join("socket").to_str().unwrap()]);
-        refused(&ran, "it is a socket", &folder, &before);
+    for link in ["circle.rs", "nowhere.rs"] {
+        let ran = hold(&arm, &["-o", folder.join(link).to_str().unwrap()]);
+        refused(&ran, "cannot be written", &folder, &before);
     }
 }
 

@@ -128,7 +128,7 @@ fn a_tradeoff_goes_on_where_it_was() {
     refused("is damaged", &["--samples", "100"]);
     fs::write(
         rung("2e-1"),
-        kept.replacen("\"fruitful\":true", "\"fruitful\":false", 1),
+        kept.replacen("\"observed\":", "\"observed\":1", 1),
     )
     .unwrap();
     refused("its hash is not that", &["--samples", "100"]);

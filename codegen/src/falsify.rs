@@ -1,16 +1,16 @@
 //! An attempt to refute a certificate: the emitted text is run at corners and
 //! random states of the box, and climbs to where it errs most.
 //!
-//! The reference_formulation is the certificate's exact program in double precision; what
+//! The reference is the certificate's exact program in double precision; what
 //! that costs by rounding is bounded as well and granted, so a violation
 //! found here is one.
 
-use crate::backend::read::TextError;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::relative;
 use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::{Rounding, rounding};
 use crate::certificate::Certificate;
+use crate::language::read::TextError;
 use crate::program::columns::Columns;
 use crate::program::{Lowered, ScalarType};
 use crate::random::Random;

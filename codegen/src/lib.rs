@@ -22,7 +22,7 @@
 //! - `schedule`: from a graph to straight-line code
 //! - `edits`: programs with less work in them, and how far they are off
 //! - `sincos`: sine and cosine by polynomials with proved errors
-//! - `backend`: flat Rust, printed and read back
+//! - `language`: flat Rust, printed and read back
 //! - `verify`: proofs and checks
 //! - `plan`: programs kept from a long search
 //! - `bound`: rigorous bounds of what was left out and of what rounding costs
@@ -39,10 +39,11 @@
 //! below, by one door:
 //! - `workspace`: what they use of each stage
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(unreachable_pub)]
 
 mod approximate;
-mod backend;
+
 mod bound;
 mod certificate;
 mod clauses;
@@ -53,6 +54,7 @@ mod function;
 mod generate;
 mod graph;
 mod interval;
+mod language;
 mod parallel;
 mod plan;
 mod portfolio;
@@ -71,8 +73,6 @@ mod watch;
 pub mod workspace;
 
 #[doc(inline)]
-pub use backend::{Entries, MathPath};
-#[doc(inline)]
 pub use clauses::{RobotFile, RobotFileError, expand};
 #[doc(inline)]
 pub use emit::{GeneratedFunction, Layout};
@@ -82,6 +82,8 @@ pub use function::Function;
 pub use generate::in_scene::UnknownScene;
 #[doc(inline)]
 pub use generate::{Fma, GenerateError, Generated, Prefer, Request, generate};
+#[doc(inline)]
+pub use language::{Entries, Language, MathPath};
 #[doc(inline)]
 pub use plan::{Plan, PlanError};
 #[doc(inline)]

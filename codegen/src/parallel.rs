@@ -5,7 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// As much as a program's first thread has: the others run the same code.
+/// The stack of a thread: as much as a program's first thread has, since the others run the
+/// same code.
 const STACK: usize = 8 << 20;
 
 /// What a function makes of each, in their order, by as many threads as the

@@ -54,7 +54,7 @@ impl JointState {
         }
     }
 
-    /// Whether all its entries are finite.
+    /// Returns whether all entries are finite.
     pub fn is_finite(&self) -> bool {
         let mut entries = Argument::ALL.iter().flat_map(|&argument| self.of(argument));
         entries.all(|x| x.is_finite())
@@ -67,7 +67,7 @@ impl JointState {
         entry.copied().unwrap_or(f64::NAN)
     }
 
-    /// The same to be changed.
+    /// Returns the entries of an argument, mutably.
     pub fn of_mut(&mut self, argument: Argument) -> &mut Vec<f64> {
         match argument {
             Argument::Position => &mut self.q,
@@ -83,13 +83,13 @@ impl JointState {
     }
 }
 
-/// How many states the floating check takes unless told otherwise.
+/// The number of states of the floating check unless another is given.
 pub const STATES: usize = 200;
 
 /// The seed of the floating check.
 pub const SEED: u64 = 0xa1e3;
 
-/// What the seed of the arguments that are no part of a state differs by.
+/// Distinguishes the seed of the arguments that are no part of a state.
 const OTHERS: u64 = 0x6172_6773;
 
 /// States drawn evenly from the robot's limits; where it has none: ±π, or

@@ -23,7 +23,7 @@ pub enum Part {
     Search,
     /// The program is proved and measured.
     Proof,
-    /// What a tolerance allows to leave out is searched for.
+    /// Searching for what a tolerance allows to leave out.
     Omissions,
     /// Errors are bounded.
     Bounds,
@@ -42,12 +42,12 @@ impl fmt::Display for Part {
     }
 }
 
-/// Where a search stands.
+/// The progress of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// For which function.
     pub function: Function,
-    /// What begins or goes on.
+    /// The part that begins or goes on.
     pub part: Part,
     /// Rounds of the part that are done.
     pub round: usize,
@@ -63,7 +63,7 @@ pub trait Observer: Send + Sync {
     /// The search has come this far.
     fn step(&self, progress: &Progress);
 
-    /// Whether it should end. Once true it should stay so: functions that
+    /// Returns whether the search should end. Once `true` it should stay so: functions that
     /// were not searched yet then get the quick search.
     fn stop(&self) -> bool;
 }
@@ -81,7 +81,7 @@ impl Watch {
         Watch(Some(observer))
     }
 
-    /// Whether the observer wants an end.
+    /// Returns whether the observer wants the search to end.
     pub fn is_over(&self) -> bool {
         self.0.as_deref().is_some_and(Observer::stop)
     }
@@ -122,7 +122,7 @@ impl FunctionWatch<'_> {
         }
     }
 
-    /// Whether the observer wants an end.
+    /// Returns whether the observer wants the search to end.
     pub fn is_over(&self) -> bool {
         self.observer.is_some_and(Observer::stop)
     }

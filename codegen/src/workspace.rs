@@ -17,24 +17,28 @@ pub mod approximate {
     }
 }
 
-pub mod backend {
-    pub use crate::backend::{Entries, MathPath, Printed};
+pub mod language {
+    pub use crate::language::{Entries, Language, MathPath, Printed};
+    pub mod c99 {
+        pub use crate::language::c99::Names;
+    }
     pub mod entries {
+        pub use crate::language::entries::Around;
         pub mod angles {
-            pub use crate::backend::entries::angles::Angles;
+            pub use crate::language::entries::angles::Angles;
         }
     }
     pub mod function {
-        pub use crate::backend::function::write;
+        pub use crate::language::function::write;
     }
     pub mod parts {
-        pub use crate::backend::parts::{LONG, PART};
+        pub use crate::language::parts::{LONG, PART};
     }
     pub mod read {
-        pub use crate::backend::read::TextError;
+        pub use crate::language::read::TextError;
     }
     pub mod result {
-        pub use crate::backend::result::structure;
+        pub use crate::language::result::structure;
     }
 }
 
@@ -110,7 +114,7 @@ pub mod function {
 pub mod generate {
     pub use crate::generate::{
         Fma, GenerateError, Generated, GeneratedFunction, MAX_OUTPUTS, Prefer, Request, TextDefect,
-        ToleranceError, Unbounded, generate,
+        ToleranceError, Unbounded, generate, generate_anew,
     };
     pub mod early {
         pub use crate::generate::early::price;

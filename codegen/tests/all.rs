@@ -4,6 +4,7 @@ mod accuracy_limit;
 mod arguments;
 mod bars;
 mod bundles;
+mod c99;
 mod certify_bars;
 mod certify_campaign;
 mod certify_certificate;

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Argument, Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};

@@ -195,6 +195,72 @@ fn every_other_lie_is_caught() {
     );
 }
 
+/// A program that no edits lead to, of an arm with a lighter hand: it is bounded against the
+/// exact one, closely, and no lie about it passes.
+#[test]
+fn a_program_that_is_no_edit_is_bounded_against_the_exact_one() {
+    let Case {
+        robot,
+        limits,
+        program,
+        scales,
+        ..
+    } = case(0.1);
+    let mut lighter = robot.clone();
+    let part = dalembert_model::number::Rational::new(19.into(), 20.into());
+    lighter.joints[2].mass *= part;
+    let other = exact(&lighter);
+    let claim = |exact: &Program, emitted: &Program| {
+        let whole = Stage {
+            program: exact.clone(),
+            edits: Vec::new(),
+        };
+        let scalar = ScalarType::F64;
+        Certificate::make(&robot, &[whole], emitted, scalar, &limits, &scales)
+    };
+    let scene_robot = SceneRobot::whole(&robot);
+    let honest = claim(&program, &other);
+    honest.check(&scene_robot).unwrap();
+    let falsification = falsify(&honest, 2000, 3, 1).unwrap();
+    assert_eq!(falsification.violation, None);
+    for (bound, seen) in honest.bounds.iter().zip(&falsification.observed) {
+        assert!(
+            *seen > 1e-3 && bound.model <= 1.5 * seen,
+            "{bound:?} {seen}"
+        );
+    }
+    for output in 0..3 {
+        let mut lie = honest.clone();
+        lie.bounds[output].model /= 2.0;
+        let refused = lie.check(&scene_robot);
+        assert!(matches!(refused, Err(Refuted::Bound { .. })));
+    }
+    // What it is bounded against is the robot's, and nothing else.
+    let refused = claim(&other, &other).check(&scene_robot);
+    assert!(matches!(refused, Err(Refuted::Exact(_))));
+}
+
+/// D of another arm is no edit of this one's, and nothing shows it to be definite.
+#[test]
+fn another_inertia_is_refused() {
+    let robot = robot();
+    let mut lighter = robot.clone();
+    lighter.joints[2].mass *= dalembert_model::number::Rational::new(19.into(), 20.into());
+    let of = |robot: &Robot| {
+        let generated = support::from(robot, Function::Inertia, Start::Auto);
+        generated.functions[0].program.clone()
+    };
+    let whole = Stage {
+        program: of(&robot),
+        edits: Vec::new(),
+    };
+    let limits = InputBox::of(&robot).unwrap();
+    let (emitted, scalar) = (of(&lighter), ScalarType::F64);
+    let lie = Certificate::make(&robot, &[whole], &emitted, scalar, &limits, &[1.0; 9]);
+    let refused = lie.check(&SceneRobot::whole(&robot));
+    assert_eq!(refused, Err(Refuted::Step(0)));
+}
+
 /// Putting any single omission back into the same program raises its cost,
 /// by what the list says, and no omission alone errs more than the list says.
 #[test]

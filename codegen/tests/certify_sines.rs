@@ -2,7 +2,6 @@
 //! from the tolerance, and are caught when they lie.
 
 use dalembert_codegen::workspace::approximate::sines::within;
-use dalembert_codegen::workspace::backend::{Printed, function};
 use dalembert_codegen::workspace::bound::input_box::InputBox;
 use dalembert_codegen::workspace::bound::scale;
 use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
@@ -11,6 +10,7 @@ use dalembert_codegen::workspace::falsify::falsify;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Request, generate};
 use dalembert_codegen::workspace::interval::Interval;
+use dalembert_codegen::workspace::language::{Printed, function};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::kernel::Term;
 use dalembert_codegen::workspace::program::{AngleSum, Library, Literal, Program, ScalarType};

@@ -4,11 +4,11 @@
 
 use crate::support::draw::Draw;
 use dalembert_codegen::Entries;
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::certificate::format;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};

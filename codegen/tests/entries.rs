@@ -2,12 +2,15 @@
 //! other text must bring the right values. What does not is refused.
 
 use dalembert_codegen::Entries;
-use dalembert_codegen::workspace::backend::MathPath;
-use dalembert_codegen::workspace::backend::entries::angles::Angles;
 use dalembert_codegen::workspace::emit::Layout;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, Request, generate};
+use dalembert_codegen::workspace::language::MathPath;
+use dalembert_codegen::workspace::language::Printed;
+use dalembert_codegen::workspace::language::entries::Around;
+use dalembert_codegen::workspace::language::entries::angles::Angles;
+use dalembert_codegen::workspace::language::read::TextError;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
@@ -38,6 +41,31 @@ fn request(entries: Entries, sincos: SinCos, start: Start) -> Request {
 fn angles(robot: &Robot, generated: &Generated) -> Angles {
     let functions = generated.functions.iter();
     Angles::of(robot.joints.len(), functions.map(|f| &f.program))
+}
+
+/// Reads τ back out of a text.
+fn read(
+    text: &str,
+    generated: &Generated,
+    angles: &Angles,
+    sincos: SinCos,
+    entries: Entries,
+) -> Result<Lowered, TextError> {
+    let torques = |f: &&GeneratedFunction| f.function == Function::InverseDynamics;
+    let function = generated.functions.iter().find(torques).unwrap();
+    let library = sincos.library(Library::Libm);
+    let code = function.code(ScalarType::F64, library);
+    let around = Around {
+        path: &MathPath::of(library).path,
+        batch: "dalembert_batch",
+        angles,
+    };
+    Lowered::parse_entries(
+        text,
+        &Printed::of(&function.program, &code),
+        entries,
+        &around,
+    )
 }
 
 /// Arms that turn and slide, sums of angles, every kind of sines: whatever the
@@ -120,18 +148,7 @@ fn what_brings_the_wrong_value_is_refused() {
     for sincos in [SinCos::Together, SinCos::Libm] {
         let generated = generate(&robot, &request(Entries::Batch, sincos, Start::Auto)).unwrap();
         let angles = angles(&robot, &generated);
-        let sizes = generated.functions[0].program.sizes();
-        let read = |text: &str| {
-            let function = Function::InverseDynamics;
-            Lowered::parse_entries(
-                text,
-                function,
-                ScalarType::F64,
-                Entries::Batch,
-                &angles,
-                sizes,
-            )
-        };
+        let read = |text: &str| read(text, &generated, &angles, sincos, Entries::Batch);
         let own = generated.text.find("pub fn inverse_dynamics(").unwrap();
         let (before, own) = generated.text.split_at(own);
         read(&generated.text).unwrap();
@@ -252,16 +269,8 @@ fn every_line_counts() {
             continue;
         }
         let rest: Vec<&str> = [&lines[..index], &lines[index + 1..]].concat();
-        let function = Function::InverseDynamics;
-        let (text, scalar) = (rest.join("\n"), ScalarType::F64);
-        let read = Lowered::parse_entries(
-            &text,
-            function,
-            scalar,
-            Entries::Lanes,
-            &angles,
-            generated.functions[0].program.sizes(),
-        );
+        let text = rest.join("\n");
+        let read = read(&text, &generated, &angles, SinCos::Together, Entries::Lanes);
         let same = read.is_ok_and(|read| {
             let (program, library) = (&generated.functions[0].program, Library::Together);
             read.matches(program, library, &[]).is_ok()

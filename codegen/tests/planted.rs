@@ -1,8 +1,8 @@
 //! Faults planted into finished programs and texts: the exact proof and the
 //! text check catch every one.
 
-use dalembert_codegen::workspace::backend::{Printed, function};
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::language::{Printed, function};
 use dalembert_codegen::workspace::program::{
     Library, Lowered, Operand, Operation, Program, ScalarType,
 };

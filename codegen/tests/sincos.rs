@@ -1,10 +1,10 @@
 //! Generated functions whose sines are polynomials: printed, counted, read
 //! back, and as near to libm's as was proved.
 
-use dalembert_codegen::workspace::backend::{Printed, function};
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
 use dalembert_codegen::workspace::interval::Interval;
+use dalembert_codegen::workspace::language::{Printed, function};
 use dalembert_codegen::workspace::program::{
     AngleSum, Input, Library, Lowered, Operand, Output, Program, ScalarType, Trig,
 };

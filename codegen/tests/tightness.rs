@@ -2,7 +2,7 @@
 //! `cargo run --release -p dalembert-codegen --example tightness -- rounding panda`
 //!
 //! - `rounding ARM …`: what exact programs' rounding is bounded by, in units of
-//!   u·T, against the largest error seen in f32. The reference_formulation of `falsify` is a
+//!   u·T, against the largest error seen in f32. The reference of `falsify` is a
 //!   double, so nothing can be seen in f64: there the bound stands alone.
 //! - `floor ARM …`: what the same sum of magnitudes comes to at single states: no
 //!   bound by first-order terms is less

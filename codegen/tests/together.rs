@@ -1,11 +1,11 @@
 //! Generated functions that call for all their angles at once: the same
 //! program, one line of text apart, and certified with what is proved of their sines.
 
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::workspace::certificate::{Refuted, format};
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::Library;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::sincos::SinCos;

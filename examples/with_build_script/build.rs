@@ -4,7 +4,7 @@ use dalembert_build::{BuildError, Generator, Output, Scalar};
 
 fn main() -> Result<(), BuildError> {
     Generator::new()
-        .robot("../../generated/robots/planar2r.toml")
+        .robot("robots/arm.toml")
         .outputs([Output::InverseDynamics, Output::ManipulatorEquation])
         .scalars([Scalar::F64])
         .module("arm")

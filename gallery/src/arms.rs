@@ -7,11 +7,11 @@
 /// An arm of the gallery.
 #[derive(Debug)]
 pub struct Arm {
-    /// What its files are called.
+    /// The name of its files.
     pub name: &'static str,
-    /// What people call it.
+    /// The name that people use.
     pub title: &'static str,
-    /// What it is made from.
+    /// The source that it is made from.
     pub source: Source,
     /// Where that was published.
     pub from: &'static str,
@@ -23,7 +23,7 @@ pub struct Arm {
     pub peer: [&'static str; 3],
 }
 
-/// What an arm is made from.
+/// The source of an arm.
 #[derive(Debug)]
 pub enum Source {
     /// A chain of a URDF.
@@ -48,7 +48,7 @@ pub struct Chain {
 }
 
 impl Arm {
-    /// What it is made from, relative to the gallery.
+    /// Returns what it is made from, relative to the gallery.
     pub fn path(&self) -> &'static str {
         match &self.source {
             Source::Urdf(chain) => chain.path,

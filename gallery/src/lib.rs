@@ -9,6 +9,7 @@
 //! - [`made`]: what the command makes of one of them
 //! - [`page`]: the table of all of them, `gallery/README.md`
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 pub mod arms;
 pub mod made;

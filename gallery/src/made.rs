@@ -27,11 +27,11 @@ pub struct Made {
     pub arm: &'static Arm,
     /// The robot file that is written; `None` where the arm has one elsewhere.
     pub file: Option<String>,
-    /// What it is read as.
+    /// The robot that the file is read as.
     pub robot: Robot,
     /// The drawing, as SVG.
     pub picture: String,
-    /// What the import says of its URDF.
+    /// The notes of the import about its URDF.
     pub notes: Vec<String>,
 }
 

@@ -5,7 +5,9 @@
 //!
 //! - `urdf`: what a URDF says, each number with its digits and its place
 //! - `problems`: what is wrong or odd, at its place in the file
+//! - `names`: names that the file does not have
 //! - `tree`: the chain, and what hangs on its links
+//! - `tip`: where an arm ends, when nobody says
 //! - `meant`: the angle that digits were meant to be
 //! - `lock`: joints that stay where they are
 //! - `snap`: numbers that were meant to be others: 1.57079632679 is π/2
@@ -22,7 +24,7 @@
 //! lines that bring it, and left out: a URDF has no width to smooth it over. Links that are fixed to each
 //! other become one; what hangs on a link moves with it. A movable joint beside the
 //! chain must be [locked](Options::lock) or [left away](Options::without), unless it
-//! hangs on the base, which depends_on nothing. Joints that mimic others, planar and
+//! hangs on the base, which feels nothing of it. Joints that mimic others, planar and
 //! floating ones are refused where they would move.
 //!
 //! Gravity is 9.81 m/s² against the z axis of the base's link: a URDF does not say.
@@ -46,13 +48,16 @@
 //! [`Options::exact`] takes the digits as they stand; the reader of robot files still
 //! takes the double next to a multiple of π/2 for it.
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 mod change;
 mod lock;
 mod meant;
 mod merge;
+mod names;
 mod problems;
 mod snap;
+mod tip;
 mod tree;
 mod urdf;
 mod write;
@@ -66,22 +71,23 @@ pub use snap::Snap;
 /// The largest URDF that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
 
-/// What to take of a URDF, and how.
+/// The chain to take of a URDF, and how.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The link that stands still; without one, the root.
     pub base: Option<String>,
-    /// The link whose frame is the hand; without one, the only link there is at
-    /// the end of the longest chain.
+    /// The link whose frame is the hand; without one, the palm that the fingers hang on
+    /// or the end of the longest chain, if there is one.
     pub tip: Option<String>,
     /// Joints that stay where they are, each with its position, within the joint's
-    /// limits: a number of the URDF's units, `pi/2` or `90deg`.
+    /// limits: a number of the URDF's units, `pi/2` or `90deg`. The name `*` stands for
+    /// every joint that hangs on the chain: each is held there, or at the nearest limit.
     pub lock: Vec<(String, String)>,
     /// Links to leave away, with everything that hangs on them.
     pub without: Vec<String>,
     /// Take every digit as it stands.
     pub exact: bool,
-    /// What the file is called, for the robot file's first line.
+    /// The name of the file, for the robot file's first line.
     pub file: String,
 }
 
@@ -92,11 +98,11 @@ pub struct Imported {
     pub text: String,
     /// The robot that it is read as.
     pub robot: Robot,
-    /// What a user should know, at its place in the URDF.
+    /// Warnings and notes, each at its place in the URDF.
     pub notes: Vec<Diagnostic>,
     /// Every number that was taken for another, in the order of the file.
     pub snaps: Vec<Snap>,
-    /// What that changes; `None` where there is none.
+    /// The change that they make; `None` where there is none.
     pub change: Option<Change>,
 }
 
@@ -122,6 +128,11 @@ fn imported(
     problems: &mut problems::Problems,
 ) -> Option<Imported> {
     let urdf = urdf::read(source, problems)?;
+    names::check(&urdf, options, problems);
+    // What the rest lacks would be what could not be read.
+    if problems.has_errors() {
+        return None;
+    }
     let chain = tree::chain(&urdf, options, problems)?;
     let as_written = merge::arm(&urdf, &chain, problems)?;
     let (snapped, snaps) = match options.exact {

@@ -10,11 +10,22 @@ use crate::meant::meant;
 use crate::problems::Problems;
 use crate::urdf::{Joint, Kind, Value};
 
-/// Where a joint is locked, from the text of an option; `None` after saying what is wrong.
-///
-/// A position outside the limits is an error, as in a scene of a robot file: the arm cannot
-/// be there, and most often degrees were given for radians.
-pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
+/// The name that stands for every joint that hangs on the chain.
+pub(crate) const OTHERS: &str = "*";
+
+/// Returns the position in a text, or the joint's limit that is nearest to it; `None` after
+/// saying what is wrong.
+pub(crate) fn nearest(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
+    let at = read(joint, text, problems)?;
+    Some(match &joint.position {
+        Some([lower, _]) if compare(&at, &lower.value) == Ordering::Less => lower.value.clone(),
+        Some([_, upper]) if compare(&at, &upper.value) == Ordering::Greater => upper.value.clone(),
+        _ => at,
+    })
+}
+
+/// Returns the position in the text of an option; `None` after saying what is wrong.
+fn read(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
     let Joint { name, kind, .. } = joint;
     let number = parse_decimal(text.trim());
     let read = match kind {
@@ -29,15 +40,22 @@ pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Op
             .or_else(|_| Angle::parse(text))
             .map(|angle| Position::Angle(right(angle))),
     };
-    let at = match read {
-        Ok(at) => at,
-        Err(error) => {
-            let message = format!("--lock {name}: `{text}` is {error}");
-            let help = "write a number in rad or m, or an angle as pi/2 or 90deg";
-            problems.error(&joint.span, message, help);
-            return None;
-        }
-    };
+    read.map_err(|error| {
+        let message = format!("--lock {name}: `{text}` is {error}");
+        let help = "write a number in rad or m, or an angle as pi/2 or 90deg";
+        problems.error(&joint.span, message, help);
+    })
+    .ok()
+}
+
+/// Returns where a joint is locked, from the text of an option; `None` after saying what is
+/// wrong.
+///
+/// A position outside the limits is an error, as in a scene of a robot file: the arm cannot
+/// be there, and most often degrees were given for radians.
+pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
+    let Joint { name, kind, .. } = joint;
+    let at = read(joint, text, problems)?;
     if let Some([lower, upper]) = &joint.position
         && is_outside(&at, text, [lower, upper])
     {
@@ -70,8 +88,8 @@ pub(crate) fn advised(joint: &Joint) -> &str {
     }
 }
 
-/// Whether a position is outside its limits, all three as they were meant: 1.5708 is
-/// within a limit of pi/2.
+/// Returns whether a position is outside its limits, all three as they were meant:
+/// 1.5708 is within a limit of pi/2.
 fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) -> bool {
     let as_meant = |value: &Position, text: &str| match value {
         Position::Angle(angle) => Position::Angle(meant(angle, text).unwrap_or(angle.clone())),
@@ -82,7 +100,7 @@ fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) 
     compare(&at, &lower) == Ordering::Less || compare(&at, &upper) == Ordering::Greater
 }
 
-/// Of positions of one joint; of an angle and a length there is no order.
+/// Compares positions of one joint; an angle and a length have no order.
 fn compare(left: &Position, right: &Position) -> Ordering {
     match (left, right) {
         (Position::Angle(left), Position::Angle(right)) => left.cmp_value(right),
@@ -92,7 +110,7 @@ fn compare(left: &Position, right: &Position) -> Ordering {
 }
 
 /// 1.5707963267948966 is what other tools print for π/2.
-fn right(angle: Angle) -> Angle {
+pub(crate) fn right(angle: Angle) -> Angle {
     let Angle::Radians(value) = angle else {
         return angle;
     };

@@ -6,13 +6,13 @@ use dalembert_model::number::recover::rounded;
 use dalembert_model::number::{Rational, Wide};
 use dalembert_model::placed::Body;
 use dalembert_model::placed::frame::{direction, moved, placement, pose, turned};
-use dalembert_model::robot::{Inertia, Placement, Position};
+use dalembert_model::robot::{Defect, Inertia, Placement, Position};
 use dalembert_model::scalar::Scalar;
 use num_traits::{One, Zero};
 
 use crate::problems::Problems;
 use crate::tree::{Chain, Moving, Step};
-use crate::urdf::{Joint, Urdf};
+use crate::urdf::{Inertial, Joint, Urdf};
 
 /// The chain's joints with what they move, and the tool.
 #[derive(Clone, Debug)]
@@ -34,6 +34,9 @@ pub(crate) struct Link {
 
 /// The bodies of a chain; `None` after saying what is wrong with one.
 pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option<Arm> {
+    if !are_possible(urdf, chain, problems) {
+        return None;
+    }
     let size = size(urdf, chain);
     let links = chain.moving.iter().map(|moving| {
         let joint = &urdf.joints[moving.joint];
@@ -69,6 +72,34 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
     })
 }
 
+/// Says which links have an inertia that no body has; returns whether none has one that is
+/// an error.
+fn are_possible(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> bool {
+    let mut good = true;
+    for link in chain.links() {
+        let link = &urdf.links[link];
+        let Some(Inertial { mass, inertia, .. }) = &link.inertial else {
+            continue;
+        };
+        let exact = inertia.map(|entry| entry.value.clone());
+        let Some(defect) = exact.defect(&mass.value) else {
+            continue;
+        };
+        let message = format!("link `{}`: {}", link.name, defect.message());
+        let span = &inertia.xx.span;
+        if defect == Defect::NegativeMoment {
+            let help = "the inertia is about the centre of mass, in kg·m²";
+            problems.error(span, message, help);
+            good = false;
+        } else {
+            let help =
+                "the inertia is about the centre of mass, in kg·m²; it is taken as it stands";
+            problems.warning(span, message, help);
+        }
+    }
+    good
+}
+
 /// Says of links that they have no mass, once, where the first is.
 fn without_mass(urdf: &Urdf, links: &[&str], problems: &mut Problems) {
     let Some(first) = links.first() else {
@@ -92,7 +123,7 @@ fn without_mass(urdf: &Urdf, links: &[&str], problems: &mut Problems) {
     problems.warning(&span, message, help);
 }
 
-/// What lengths are small against.
+/// Returns what lengths are small against.
 fn size(urdf: &Urdf, chain: &Chain) -> Rational {
     let joints = chain.joints().into_iter();
     let sizes = joints.map(|joint| urdf.joints[joint].origin.placement().size());
@@ -116,7 +147,7 @@ fn way(urdf: &Urdf, steps: &[Step]) -> Option<Columns<Wide>> {
     })
 }
 
-/// What a locked joint has moved its child by.
+/// Returns what a locked joint has moved its child by.
 fn displaced(joint: &Joint, position: &Position) -> Option<Columns<Wide>> {
     let axis = direction_of(joint)?;
     Some(match position {

@@ -7,13 +7,13 @@ use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 /// More than these are counted, not listed.
 const MAX: usize = 200;
 /// More names than these are not listed.
-const MAX_NAMES: usize = 30;
+pub(crate) const MAX_NAMES: usize = 30;
 
 /// Collects them, in any order.
 pub(crate) struct Problems<'s> {
     source: &'s str,
     found: Vec<Diagnostic>,
-    /// How many there were beyond those that are listed.
+    /// The number of problems beyond those that are listed.
     more: usize,
 }
 
@@ -60,6 +60,12 @@ impl<'s> Problems<'s> {
         });
     }
 
+    /// Returns whether there is an error among them.
+    pub(crate) fn has_errors(&self) -> bool {
+        let mut found = self.found.iter();
+        self.more > 0 || found.any(|found| found.severity == Severity::Error)
+    }
+
     /// The robot file that was written is refused: what its reader says.
     pub(crate) fn refused(&mut self, errors: &Diagnostics, text: &str) {
         for error in &errors.0 {
@@ -103,8 +109,13 @@ pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
 /// The help for a name that there is not.
 pub(crate) fn instead<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> String {
     let names: Vec<&str> = names.collect();
+    let has_it = |known: &&&str| !name.is_empty() && known.contains(name);
+    let longer: Vec<&str> = names.iter().filter(has_it).copied().collect();
     match closest(name, &names) {
         Some(meant) => format!("did you mean `{meant}`?"),
+        None if (1..=3).contains(&longer.len()) => {
+            format!("did you mean `{}`?", longer.join("` or `"))
+        }
         None if names.len() > MAX_NAMES => {
             format!("known: {}, …", names[..MAX_NAMES].join(", "))
         }

@@ -16,11 +16,11 @@ use crate::urdf::{Number, Origin, Urdf, Value};
 pub struct Snap {
     /// Where it is in the URDF, in bytes.
     pub span: Range<usize>,
-    /// What it is of: `joint elbow, rpy`.
+    /// The element and the attribute: `joint elbow, rpy`.
     pub of: String,
     /// As it stands there.
     pub from: String,
-    /// What it was taken for, as a robot file has it.
+    /// The number that it was taken for, as a robot file has it.
     pub to: String,
 }
 

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_model::robot::Position;
+use dalembert_model::robot::values::position;
 
 use crate::Options;
-use crate::lock;
-use crate::problems::{Problems, instead};
+use crate::lock::{self, OTHERS};
+use crate::problems::Problems;
 use crate::urdf::{Joint, Kind, Urdf};
 
 /// A chain of joints that move. Links and joints are by their place in the URDF.
@@ -18,6 +19,8 @@ pub(crate) struct Chain {
     pub(crate) moving: Vec<Moving>,
     /// From the last link that moves to the tip.
     pub(crate) tool: Vec<Step>,
+    /// The joints beside it that were held, with their positions.
+    pub(crate) held: Vec<(usize, Position)>,
 }
 
 /// A joint that moves, and what moves with it.
@@ -63,17 +66,20 @@ impl Chain {
 const MAX_STEPS: usize = 100;
 
 /// The links and joints as a tree.
-struct Tree<'u, 'p, 's> {
-    urdf: &'u Urdf,
-    problems: &'p mut Problems<'s>,
+pub(crate) struct Tree<'u, 'p, 's> {
+    pub(crate) urdf: &'u Urdf,
+    pub(crate) problems: &'p mut Problems<'s>,
     /// The joint that a link hangs on.
-    above: BTreeMap<usize, usize>,
+    pub(crate) above: BTreeMap<usize, usize>,
     /// The joints that hang on a link.
-    below: BTreeMap<usize, Vec<usize>>,
+    pub(crate) below: BTreeMap<usize, Vec<usize>>,
     /// Both ends of every joint.
-    ends: Vec<[usize; 2]>,
+    pub(crate) ends: Vec<[usize; 2]>,
     locks: BTreeMap<usize, Position>,
-    without: BTreeSet<usize>,
+    /// Where joints beside the chain are held.
+    pub(crate) others: Option<String>,
+    held: Vec<(usize, Position)>,
+    pub(crate) without: BTreeSet<usize>,
 }
 
 /// Finds the chain; `None` after saying why there is none.
@@ -81,13 +87,13 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
     let mut tree = Tree::new(urdf, problems)?;
     let read = tree.options(options);
     let base = match &options.base {
-        Some(name) => tree.link(name, "--base"),
-        None => tree.root(),
+        Some(name) => tree.link(name),
+        None => tree.root().map(|root| tree.standing(root)),
     };
     let (base, ()) = base.zip(read)?;
     let tip = match &options.tip {
-        Some(name) => tree.link(name, "--tip")?,
-        None => tree.longest(base)?,
+        Some(name) => tree.link(name)?,
+        None => tree.tip(base)?,
     };
     let path = tree.path(base, tip)?;
     let mut moving: Vec<Moving> = Vec::new();
@@ -120,6 +126,8 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         good &= tree.gather(child, &on_path, &mut moving.links);
     }
     tree.beside_the_base(base, &on_path);
+    tree.say_held();
+    let held = std::mem::take(&mut tree.held);
     if tree.above.contains_key(&base) {
         let link = &urdf.links[base];
         let message = format!("link `{}` is the base, and not the root", link.name);
@@ -131,6 +139,7 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         tip,
         moving,
         tool: before,
+        held,
     })
 }
 
@@ -149,23 +158,15 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             below: BTreeMap::new(),
             ends: Vec::new(),
             locks: BTreeMap::new(),
+            others: None,
+            held: Vec::new(),
             without: BTreeSet::new(),
         };
         let mut good = true;
         for (index, joint) in urdf.joints.iter().enumerate() {
-            let ends = [&joint.parent, &joint.child].map(|(name, span)| {
-                let found = links.get(name.as_str()).copied();
-                if found.is_none() && !urdf.unread.contains(name) {
-                    let message = format!("there is no link `{name}`");
-                    let help = instead(name, urdf.links.iter().map(|link| link.name.as_str()));
-                    tree.problems.error(span, message, &help);
-                }
-                found
-            });
-            let [Some(parent), Some(child)] = ends else {
-                good = false;
-                continue;
-            };
+            let [parent, child] =
+                [&joint.parent, &joint.child].map(|(name, _)| links.get(name.as_str()).copied());
+            let (parent, child) = parent.zip(child)?;
             tree.ends.push([parent, child]);
             tree.below.entry(parent).or_default().push(index);
             if let Some(other) = tree.above.insert(child, index) {
@@ -181,49 +182,27 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         good.then_some(tree)
     }
 
-    /// Locks and links to leave away; `None` after an error.
+    /// Takes locks and links to leave away from the options; `None` after an error.
     fn options(&mut self, options: &Options) -> Option<()> {
         let mut good = true;
         for (name, text) in &options.lock {
-            let lock = self.joint(name).and_then(|joint| {
-                let at = lock::position(&self.urdf.joints[joint], text, self.problems)?;
-                Some((joint, at))
-            });
-            good &= lock.is_some();
-            self.locks.extend(lock);
+            if name == OTHERS {
+                self.others = Some(text.clone());
+                continue;
+            }
+            let joint = self.urdf.joints.iter().position(|own| own.name == *name)?;
+            let at = lock::position(&self.urdf.joints[joint], text, self.problems);
+            good &= at.is_some();
+            self.locks.extend(at.map(|at| (joint, at)));
         }
-        for name in &options.without {
-            let link = self.link(name, "--without");
-            good &= link.is_some();
-            self.without.extend(link);
-        }
+        let without = options.without.iter().filter_map(|name| self.link(name));
+        self.without = without.collect();
         good.then_some(())
     }
 
-    fn joint(&mut self, name: &str) -> Option<usize> {
-        let joints = &self.urdf.joints;
-        let found = joints.iter().position(|joint| joint.name == name);
-        if found.is_none() {
-            let message = format!("--lock: there is no joint `{name}`");
-            let help = instead(name, joints.iter().map(|joint| joint.name.as_str()));
-            self.problems.error(&self.urdf.span, message, &help);
-        }
-        found
-    }
-
-    fn link(&mut self, name: &str, option: &str) -> Option<usize> {
-        let links = &self.urdf.links;
-        let found = links.iter().position(|link| link.name == name);
-        if found.is_none() {
-            let message = format!("{option}: there is no link `{name}`");
-            let mut joints = self.urdf.joints.iter();
-            let help = match joints.find(|joint| joint.name == name) {
-                Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
-                None => instead(name, links.iter().map(|link| link.name.as_str())),
-            };
-            self.problems.error(&self.urdf.span, message, &help);
-        }
-        found
+    /// Returns the link of a name that was checked.
+    fn link(&self, name: &str) -> Option<usize> {
+        self.urdf.links.iter().position(|link| link.name == name)
     }
 
     /// The only link that hangs on nothing.
@@ -253,14 +232,39 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         None
     }
 
+    /// Returns the link behind the joints that let the whole robot float or drive.
+    fn standing(&mut self, root: usize) -> usize {
+        let (mut base, mut link) = (root, root);
+        while let Some([joint]) = self.below.get(&link).map(Vec::as_slice) {
+            let Joint {
+                name, span, kind, ..
+            } = &self.urdf.joints[*joint];
+            link = self.ends[*joint][1];
+            match kind {
+                Kind::Fixed if link != root => {}
+                Kind::Planar | Kind::Floating if link != root => {
+                    let word = kind.word();
+                    let message =
+                        format!("the chain begins behind joint `{name}`, which is {word}");
+                    let help = "--base LINK chooses another beginning";
+                    self.problems.note(span, message, help);
+                    base = link;
+                }
+                _ => break,
+            }
+        }
+        base
+    }
+
     /// The joint as a step that stays, or none if it moves.
-    fn step(&self, joint: usize) -> Option<Step> {
+    pub(crate) fn step(&self, joint: usize) -> Option<Step> {
         let at = self.locks.get(&joint).cloned();
         let stays = at.is_some() || self.urdf.joints[joint].kind == Kind::Fixed;
         stays.then_some(Step { joint, at })
     }
 
-    /// Whether a joint of the chain moves by itself about or along one axis.
+    /// Returns whether a joint of the chain moves by itself about or along one
+    /// axis.
     fn can_move(&mut self, joint: usize) -> bool {
         let Joint {
             name,
@@ -320,54 +324,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         Some(path)
     }
 
-    /// The end of the chain with the most joints that move, if there is one.
-    fn longest(&mut self, base: usize) -> Option<usize> {
-        let mut ends: Vec<(usize, usize)> = Vec::new();
-        let mut open = vec![(base, 0)];
-        let mut seen = BTreeSet::new();
-        while let Some((link, moving)) = open.pop() {
-            if !seen.insert(link) {
-                continue;
-            }
-            let below = self.below.get(&link).into_iter().flatten();
-            let below = below.filter(|joint| !self.without.contains(&self.ends[**joint][1]));
-            let before = open.len();
-            open.extend(below.map(|joint| {
-                let moves = usize::from(self.step(*joint).is_none());
-                (self.ends[*joint][1], moving + moves)
-            }));
-            if open.len() == before {
-                ends.push((moving, link));
-            }
-        }
-        let Some(most) = ends.iter().map(|(moving, _)| *moving).max() else {
-            let message = "links hang on each other in a circle".to_owned();
-            let help = "every chain ends somewhere: closed loops are not read";
-            self.problems
-                .error(&self.urdf.links[base].span, message, help);
-            return None;
-        };
-        ends.retain(|(moving, _)| *moving == most);
-        ends.sort_by_key(|(_, link)| *link);
-        let names = |ends: &[(usize, usize)]| {
-            let names = ends
-                .iter()
-                .map(|(_, link)| self.urdf.links[*link].name.as_str());
-            names.collect::<Vec<_>>().join(", ")
-        };
-        if let [(_, link)] = ends[..] {
-            let message = format!("the chain ends at link `{}`", self.urdf.links[link].name);
-            let help = "--tip LINK chooses another end";
-            self.problems
-                .note(&self.urdf.links[link].span, message, help);
-            return Some(link);
-        }
-        let message = format!("{} chains have {most} joints", ends.len());
-        let help = format!("choose the end by --tip: {}", names(&ends));
-        self.problems.error(&self.urdf.span, message, &help);
-        None
-    }
-
     /// Gathers the links that are fixed to a link; what moves by itself and is no
     /// part of the chain is an error.
     fn gather(
@@ -397,16 +353,55 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
                         open.push((child, way.collect()));
                     }
                     None if path.contains(&joint) => {}
-                    None => {
-                        self.moves_beside(joint);
-                        good = false;
-                    }
+                    None => match self.hold(joint) {
+                        Some(at) => {
+                            let step = Step {
+                                joint,
+                                at: Some(at),
+                            };
+                            open.push((child, way.iter().cloned().chain([step]).collect()));
+                        }
+                        None => good = false,
+                    },
                 }
             }
             links.push((link, way));
         }
         links.sort_by_key(|(link, _)| *link);
         good
+    }
+
+    /// Returns where a joint beside the chain is held; `None` after saying that it moves.
+    fn hold(&mut self, joint: usize) -> Option<Position> {
+        let own = &self.urdf.joints[joint];
+        let text = self.others.as_deref();
+        let Some(text) = text.filter(|_| !matches!(own.kind, Kind::Planar | Kind::Floating)) else {
+            self.moves_beside(joint);
+            return None;
+        };
+        let at = lock::nearest(own, text, self.problems)?;
+        self.held.push((joint, at.clone()));
+        Some(at)
+    }
+
+    /// Lists the joints beside the chain that are held, once.
+    fn say_held(&mut self) {
+        self.held.sort_by_key(|(joint, _)| *joint);
+        let Some((first, _)) = self.held.first() else {
+            return;
+        };
+        let held = self.held.iter().map(|(joint, at)| {
+            format!(
+                "`{}` at {}",
+                self.urdf.joints[*joint].name,
+                position(at).replace('"', "")
+            )
+        });
+        let held = held.collect::<Vec<_>>().join(", ");
+        let message = format!("what hangs on the chain is held: {held}");
+        let help = "--lock JOINT=VALUE holds one elsewhere, --without LINK leaves it away";
+        self.problems
+            .note(&self.urdf.joints[*first].span, message, help);
     }
 
     fn moves_beside(&mut self, joint: usize) {
@@ -430,14 +425,16 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             Kind::Planar | Kind::Floating => format!("leave its link away: --without {child}"),
             _ => {
                 let at = lock::advised(&self.urdf.joints[joint]);
-                format!("add --lock {name}={at}, or leave its link away: --without {child}")
+                format!(
+                    "add --lock {name}={at}, or leave its link away: --without {child}; \
+                     --lock-others 0 holds all that hangs on the chain"
+                )
             }
         };
         self.problems.error(span, message, &help);
     }
 
-    /// What hangs on the base moves no joint of the chain: it is said, and left
-    /// out.
+    /// Says what hangs on the base: it moves no joint of the chain, and is left out.
     fn beside_the_base(&mut self, base: usize, path: &BTreeSet<usize>) {
         let mut open = vec![base];
         let mut others = Vec::new();
@@ -458,7 +455,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             .map(|joint| self.urdf.joints[*joint].name.as_str());
         let names = names.collect::<Vec<_>>().join(", ");
         let message = format!("what hangs on the base is left out: {names}");
-        let help = "a base that stands still depends_on nothing of it";
+        let help = "a base that stands still feels nothing of it";
         self.problems
             .note(&self.urdf.joints[first].span, message, help);
     }

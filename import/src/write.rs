@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use dalembert_model::robot::suggested_name;
 use dalembert_model::robot::values::{list, number, placement, position};
+use dalembert_model::robot::{Placement, Position, suggested_name};
 use num_traits::{Signed, Zero};
 
 use crate::Options;
+use crate::lock::{OTHERS, right};
 use crate::merge::{Arm, Link};
 use crate::problems::{Problems, place};
 use crate::snap::Snap;
@@ -36,7 +37,7 @@ pub(crate) fn file(
         &mut text,
         &format!("Base axes are those of {base}; gravity is taken to pull against its z."),
     );
-    let locked = options.lock.iter();
+    let locked = options.lock.iter().filter(|(joint, _)| joint != OTHERS);
     let locked = locked.map(|(joint, value)| format!("--lock {joint}={value}"));
     let without = options.without.iter();
     let without = without.map(|link| format!("--without {link}"));
@@ -46,6 +47,10 @@ pub(crate) fn file(
             &mut text,
             &format!("What hangs on it: {}.", chosen.join(" ")),
         );
+    }
+    for (held, at) in &chain.held {
+        let name = &urdf.joints[*held].name;
+        comment(&mut text, &format!("Held: {name} = {}", position(at)));
     }
     if !snaps.is_empty() {
         comment(
@@ -62,25 +67,45 @@ pub(crate) fn file(
     line(&mut text, "name", &quoted(&name));
     line(&mut text, "gravity", "[0, 0, -9.81]");
     if !arm.tool.is_identity() {
-        line(&mut text, "tool", &placement(&arm.tool));
+        line(&mut text, "tool", &placement(&as_read(&arm.tool)));
+    }
+    if options.exact {
+        line(&mut text, "allow", "[\"near_right_angle\"]");
     }
     let mut left_out = LeftOut::default();
-    for (moving, link) in chain.moving.iter().zip(&arm.links) {
+    for (index, (moving, link)) in chain.moving.iter().zip(&arm.links).enumerate() {
         text.push_str("\n[[joint]]\n");
-        joint(&mut text, &urdf.joints[moving.joint], link, &mut left_out);
+        let own = &urdf.joints[moving.joint];
+        let name = name_of(own, index, problems);
+        line(&mut text, "name", &quoted(&name));
+        joint(&mut text, own, link, &mut left_out);
     }
     left_out.say(problems);
     text
 }
 
+/// Returns what a joint is called in the robot file: not by another one's number.
+fn name_of(joint: &Joint, index: usize, problems: &mut Problems) -> String {
+    let name = &joint.name;
+    match name.trim().parse::<i64>() {
+        Ok(number) if usize::try_from(number) != Ok(index + 1) => {
+            let other = format!("joint_{number}");
+            let message = format!("joint `{name}` is joint {} of the chain", index + 1);
+            let help = format!("it is called `{other}` in the robot file, where numbers count");
+            problems.note(&joint.span, message, &help);
+            other
+        }
+        _ => name.clone(),
+    }
+}
+
 fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut LeftOut<'u>) {
-    line(text, "name", &quoted(&joint.name));
     let kind = match joint.kind {
         Kind::Prismatic => "prismatic",
         _ => "revolute",
     };
     line(text, "kind", &quoted(kind));
-    line(text, "placement", &placement(&link.placement));
+    line(text, "placement", &placement(&as_read(&link.placement)));
     line(
         text,
         "axis",
@@ -105,7 +130,10 @@ fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut Le
     }
     let mut limits = Vec::new();
     if let Some(range) = &joint.position {
-        let [low, high] = range.each_ref().map(|end| position(&end.value));
+        let [low, high] = range.each_ref().map(|end| match &end.value {
+            Position::Angle(angle) => position(&Position::Angle(right(angle.clone()))),
+            length => position(length),
+        });
         limits.push(format!("position = [{low}, {high}]"));
     }
     for (key, limit) in [("velocity", &joint.velocity), ("torque", &joint.effort)] {
@@ -113,6 +141,15 @@ fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut Le
     }
     if !limits.is_empty() {
         line(text, "limits", &format!("{{ {} }}", limits.join(", ")));
+    }
+}
+
+/// Returns the placement as the reader of robot files takes it, so that it has nothing to
+/// say of the digits.
+fn as_read(own: &Placement) -> Placement {
+    Placement {
+        xyz: own.xyz.clone(),
+        rpy: own.rpy.clone().map(right),
     }
 }
 
@@ -131,7 +168,7 @@ fn limit_of<'u>(
     None
 }
 
-/// What of the URDF is not in the robot file: one note says it of all joints.
+/// Parts of the URDF that are not in the robot file: one note says it of all joints.
 #[derive(Default)]
 struct LeftOut<'u> {
     friction: Vec<(&'u Joint, &'u Number)>,

@@ -130,10 +130,18 @@ fn hostile_files_are_refused_at_once() {
         })
         .collect();
     let deep = format!("<link name=\"a\"/>{turns}{deep}<link name=\"l900\"/>");
+    let many = |name: &str, count: usize| -> String {
+        let all = (0..count).map(|i| format!(" {name}{i}=\"1\""));
+        all.collect()
+    };
+    let attributes = format!("<link name=\"a\"><inertial{}/></link>", many("a", 80_000));
+    let namespaces = format!("<link{}/>", many("xmlns:n", 60)).repeat(1000);
     let robot = |inside: &str| format!("<robot name=\"r\">{inside}</robot>");
     for (text, base) in [
         (entities.to_owned(), None),
         (robot(&links), None),
+        (robot(&attributes), None),
+        (robot(&namespaces), None),
         (robot(&deep), None),
         (robot(circle), None),
         (robot(circle), Some("a")),

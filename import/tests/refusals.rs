@@ -3,7 +3,7 @@
 
 use crate::support::{refused, source};
 use dalembert_import::{Imported, Options, import};
-use dalembert_model::read::Severity;
+use dalembert_model::read::{self, Diagnostic, Severity};
 
 /// Two links that turn, a gripper beside the tip, and all that a URDF may have.
 const ARM: &str = r#"<?xml version="1.0"?>
@@ -51,6 +51,14 @@ fn at_the_hand() -> Options {
     Options {
         tip: Some("hand".into()),
         without: vec!["thumb".into()],
+        ..Options::default()
+    }
+}
+
+/// All that hangs on the chain is held there.
+fn others(at: &str) -> Options {
+    Options {
+        lock: vec![("*".into(), at.into())],
         ..Options::default()
     }
 }
@@ -166,6 +174,83 @@ fn what_is_locked_moves_with_the_link() {
     assert_eq!(taken(ARM, &short).robot.joints.len(), 1);
 }
 
+/// Held where its limits let it be, listed, and as if it had been locked there.
+#[test]
+fn what_hangs_on_the_chain_is_held() {
+    let source = ARM.replacen(
+        "<limit effort=\"1\"",
+        "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"",
+        1,
+    );
+    let tip = Some("hand".to_owned());
+    let lock = vec![("finger".into(), "0.01".into())];
+    let locked = taken(
+        &source,
+        &Options {
+            lock,
+            tip: tip.clone(),
+            ..Options::default()
+        },
+    );
+    let held = taken(&source, &Options { tip, ..others("0") });
+    assert_eq!(held.robot, locked.robot);
+    assert!(
+        held.text.contains("\n# Held: finger = 0.01\n"),
+        "{}",
+        held.text
+    );
+    let said =
+        |note: &Diagnostic| note.message == "what hangs on the chain is held: `finger` at 0.01";
+    assert!(held.notes.iter().any(said), "{:?}", held.notes);
+}
+
+/// What is called as another joint's number is called otherwise in the robot file.
+#[test]
+fn numbers_are_no_names() {
+    let source = ARM
+        .replace("name=\"turn\"", "name=\"2\"")
+        .replace("name=\"reach\"", "name=\"1\"");
+    let names = |source: &str| {
+        let joints = taken(source, &at_the_hand()).robot.joints;
+        joints
+            .into_iter()
+            .flat_map(|joint| joint.name)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(names(&source), ["joint_2", "joint_1"]);
+    let own = ARM
+        .replace("name=\"turn\"", "name=\"1\"")
+        .replace("name=\"reach\"", "name=\"2\"");
+    assert_eq!(names(&own), ["1", "2"]);
+}
+
+/// The robot file of every digit has nothing to say of its digits.
+#[test]
+fn exact_digits_are_no_warning() {
+    for digits in ["1.5708", "1.5707963267948966", "-3.14159265358979"] {
+        let source = ARM.replace("1.5708", digits);
+        let options = Options {
+            exact: true,
+            ..at_the_hand()
+        };
+        let text = taken(&source, &options).text;
+        let reading = read::parse(&text, &read::Options::default()).unwrap();
+        assert_eq!(reading.notes, [], "{text}");
+    }
+}
+
+/// A robot that floats or drives is taken from behind that.
+#[test]
+fn chains_begin_behind_floating_joints() {
+    let floats = ARM.replacen("type=\"fixed\"", "type=\"floating\"", 1);
+    let imported = taken(&floats, &at_the_hand());
+    assert!(
+        imported.text.starts_with("# From link foot to link hand"),
+        "{}",
+        imported.text
+    );
+}
+
 /// At a limit, and next to one by digits that were meant to be it.
 #[test]
 fn limits_are_where_a_joint_can_be() {
@@ -241,6 +326,14 @@ fn refusals_name_the_joint_and_the_way_out() {
             hand.clone(),
             &["arm.urdf:3:3", "run `xacro arm.urdf.xacro > arm.urdf` first"],
         ),
+        (ARM.replace("value=\"2\"", "value=\"${m}\""), hand.clone(), &["arm.urdf:15:", "`${m}` is not expanded", "run `xacro"]),
+        (ARM.replace("<link name=\"world\"/>", "<gazebo> $(find arm)/x </gazebo><link name=\"world\"/>"), hand.clone(), &["arm.urdf:3:12", "`$(find` is not expanded", "run `xacro"]),
+        // Without the namespace, which the parser would complain of.
+        (ARM.replace("<link name=\"world\"/>", "<xacro:include filename=\"x\"/>"), hand.clone(), &["arm.urdf:3:3", "`<xacro:include` is not expanded", "run `xacro"]),
+        (ARM.replace("izz=\"0.04\"", "izz=\"-0.04\""), hand.clone(), &["arm.urdf:16:21", "link `upper`: no body has this inertia: a principal moment is negative"]),
+        (ARM.into(), with(|o| o.tip = Some("HAND".into())), &["did you mean `hand`?"]),
+        (ARM.replace("name=\"hand\"", "name=\"arm_hand\"").replace("link=\"hand\"", "link=\"arm_hand\""), hand.clone(), &["--tip: there is no link `hand`", "did you mean `arm_hand`?"]),
+        (ARM.into(), with(|o| { o.lock = vec![("*".into(), "much".into())]; o.without.clear(); }), &["--lock finger: `much` is not"]),
     ];
     for (source, options, parts) in cases {
         let text = refused(&source, &options);
@@ -258,10 +351,15 @@ fn all_at_once() {
         .replace("xyz=\"0.1 0 0.2\"", "xyz=\"0.1 0\"")
         .replace("type=\"prismatic\"", "type=\"slider\"");
     let text = refused(&source, &at_the_hand());
-    assert_eq!(text.matches("error: ").count(), 5, "{text}");
-    // Nothing is said of the joints at a link that could not be read.
-    let text = refused(&ARM.replace("<mass value=\"2\"/>", ""), &at_the_hand());
-    assert_eq!(text.matches("error: ").count(), 1, "{text}");
+    assert_eq!(text.matches("error: ").count(), 4, "{text}");
+    // Nothing is said of what lacks because of a link or a joint that could not be read.
+    for (what, by) in [
+        ("<mass value=\"2\"/>", ""),
+        ("xyz=\"0.1 0 0.2\"", "xyz=\"0.1 0 up\""),
+    ] {
+        let text = refused(&ARM.replace(what, by), &at_the_hand());
+        assert_eq!(text.matches("error: ").count(), 1, "{text}");
+    }
 }
 
 /// Impossible and missing inertials are taken, and named with their lines.
@@ -309,7 +407,7 @@ fn a_base_that_is_not_the_root_is_said() {
         ..at_the_hand()
     };
     let imported = taken(ARM, &options);
-    let said = |note: &dalembert_model::read::Diagnostic| {
+    let said = |note: &Diagnostic| {
         note.line == 7 && note.message == "link `foot` is the base, and not the root"
     };
     assert!(imported.notes.iter().any(said));
@@ -324,11 +422,23 @@ fn a_base_that_is_not_the_root_is_said() {
 #[test]
 fn the_end_is_asked_for_where_there_are_several() {
     let text = refused(&source("panda"), &Options::default());
-    assert!(text.contains("2 chains have 8 joints"), "{text}");
+    assert!(text.contains("2 links may be where the arm ends"), "{text}");
     assert!(
-        text.contains("choose the end by --tip: panda_leftfinger, panda_rightfinger"),
+        text.contains(
+            "choose the end by --tip: panda_hand, panda_hand_tcp; --lock-others 0 holds the fingers"
+        ),
         "{text}"
     );
+    // One finger is no chain's end either, and where nothing hangs there is one end.
+    for (name, end) in [("z1", "gripperStator"), ("so101", "gripper_link")] {
+        let imported = taken(&source(name), &others("0"));
+        let said = format!("the chain ends at link `{end}`");
+        assert!(
+            imported.notes.iter().any(|note| note.message == said),
+            "{name}: {:?}",
+            imported.notes
+        );
+    }
     // Mimic joints beside the chain say whom they follow.
     let tcp = Options {
         tip: Some("panda_hand_tcp".into()),

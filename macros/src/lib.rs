@@ -1,5 +1,6 @@
 //! `dynamics!`: tokens to `dalembert-codegen`, tokens back.
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 use proc_macro::TokenStream;
 
@@ -17,5 +18,10 @@ pub fn dynamics(input: TokenStream) -> TokenStream {
     let file = file.and_then(|file| std::path::absolute(file).ok());
     let beside = file.as_deref().and_then(std::path::Path::parent);
     let folders: Vec<&std::path::Path> = std::iter::once(base.as_ref()).chain(beside).collect();
-    dalembert_codegen::workspace::clauses::expand_from(input.into(), &folders).into()
+    dalembert_codegen::workspace::clauses::expand_from(
+        input.into(),
+        &folders,
+        cfg!(feature = "batch"),
+    )
+    .into()
 }

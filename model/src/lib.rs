@@ -11,6 +11,8 @@
 //! - [`outputs`]: what can be asked about an arm, a file each
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 extern crate alloc;
 #[cfg(feature = "std")]

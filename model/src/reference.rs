@@ -1,14 +1,9 @@
 //! The generic runtime: the dynamics of any arm, without generated code.
 //!
-//! It evaluates the recursion of Table 2 in its most accurate form
-//! ([`Moment::Differences`]) in f64 or f32, with nalgebra vectors at its surface.
-//! Generated code is checked against it. `derivatives` has its slopes,
-//! `forward` what motions torques bring about, `regressor` what each parameter
-//! takes of them.
-
-mod derivatives;
-mod forward;
-mod regressor;
+//! It evaluates the formulas of [`outputs`](crate::outputs) as textbooks have them, by the
+//! recursion of Table 2 in its most accurate form
+//! ([`Formulation::NewtonEulerLinkDifferences`]), in f64 or f32, with nalgebra vectors at
+//! its surface. Generated code is checked against it.
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -16,18 +11,15 @@ use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::equations::dalembert::Part;
-use crate::equations::energy::contracted;
 use crate::equations::kinematics::poses;
 use crate::equations::load::Loading;
-use crate::equations::matrix::{Columns, total};
-use crate::equations::newton_euler::Wrench;
-use crate::equations::newton_euler::table2::{self, Moment};
-use crate::equations::regressor::Column;
-use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, from_torques};
+use crate::equations::matrix::{Columns, zeros};
+use crate::equations::regressor::{Column, of_links};
+use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
 use crate::number::{Exact, Rounded};
+use crate::outputs::{Argument, Axis, Motion, Quantity, Written};
 use crate::robot::{JointKind, Robot};
-use crate::scalar::{Divide, Scalar};
+use crate::scalar::Divide;
 
 /// The floats that a [`Reference`] computes in: f64 and f32.
 pub trait Float: Divide + Rounded + fmt::Debug + sealed::Sealed + 'static {
@@ -103,9 +95,9 @@ pub struct JointVectors<T> {
     pub v: DVector<T>,
     /// Accelerations wished for.
     pub a: DVector<T>,
-    /// What the columns of a regressor are; none where it is not asked for.
+    /// The columns of a regressor; none where it is not asked for.
     pub columns: Vec<Column<T>>,
-    /// What the hand carries, where a load is asked for.
+    /// The payload at the hand, where a load is asked for.
     pub loading: Option<Loading<T>>,
 }
 
@@ -123,6 +115,20 @@ impl<T> JointVectors<T> {
             columns: Vec::new(),
             loading: None,
         }
+    }
+
+    /// The vectors in the order of signatures.
+    fn vectors(&self) -> [&DVector<T>; 6] {
+        [&self.q, &self.qd, &self.qdd, &self.tau, &self.v, &self.a]
+    }
+}
+
+impl<T: Float> JointVectors<T> {
+    /// At these positions, without a motion.
+    fn at(q: &DVector<T>) -> Self {
+        let mut all = [(); 6].map(|()| DVector::from_vec(Vec::new()));
+        all[Argument::Position.index()] = q.clone();
+        JointVectors::new(all)
     }
 }
 
@@ -205,164 +211,156 @@ impl<T: Float> Reference<T> {
         self.arm.links.len()
     }
 
-    /// τ = D q̈ + h + c + (b + F∘r)∘q̇, r_i = 1/√(q̇_i² + w_i²).
+    /// Computes the entries of a quantity, row by row, by its own formula.
+    ///
+    /// A full regressor is over all parameters of all links; any other takes its columns
+    /// from `at`.
+    ///
+    /// # Errors
+    /// A vector that the quantity depends on has another length than the arm has joints.
+    pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, WrongLength> {
+        let q = self.positions(self.values(Argument::Position, &at.q)?);
+        let mut given = Vec::with_capacity(Argument::JOINTS.len());
+        for (argument, vector) in Argument::JOINTS.into_iter().zip(at.vectors()) {
+            given.push(match quantity.arguments().contains(&argument) {
+                true => self.values(argument, vector)?.to_vec(),
+                false => zeros(self.joints()),
+            });
+        }
+        let mut motion = Motion::new(q, |argument| core::mem::take(&mut given[argument.index()]));
+        motion.loading.clone_from(&at.loading);
+        let arm = match quantity.depends_on_base() {
+            true => &self.whole,
+            false => &self.arm,
+        };
+        let arm = at_speeds(arm, &motion.qd);
+        let columns = match quantity.shape().0.contains(&Axis::LinkParameters) {
+            true => &of_links(self.joints()),
+            false => &at.columns,
+        };
+        Ok(quantity.written(&Written {
+            formulation: Formulation::NewtonEulerLinkDifferences,
+            at: &arm.at(&motion.q),
+            arm: &arm,
+            motion: &motion,
+            columns,
+        }))
+    }
+
+    /// Computes τ = D q̈ + h + c + (b + F∘r)∘q̇, r_i = 1/√(q̇_i² + w_i²).
+    ///
+    /// # Errors
+    /// A vector has another length than the arm has joints.
     pub fn inverse_dynamics(
         &self,
         q: &DVector<T>,
         qd: &DVector<T>,
         qdd: &DVector<T>,
     ) -> Result<DVector<T>, WrongLength> {
-        let at = self.at(q)?;
-        let [qd, qdd] = [self.values("qd", qd)?, self.values("qdd", qdd)?];
-        let tau = torques(&self.arm_at(qd), &at, qd, qdd);
-        Ok(DVector::from_vec(tau))
+        let at = JointVectors {
+            qd: qd.clone(),
+            qdd: qdd.clone(),
+            ..JointVectors::at(q)
+        };
+        self.entries(Quantity::Torque, &at).map(DVector::from_vec)
     }
 
-    /// D, n×n, symmetric, armature on its diagonal.
+    /// Computes q̈ = D⁻¹ (τ − h − c − (b + F∘r)∘q̇): infinities and NaN where D is singular.
+    ///
+    /// # Errors
+    /// A vector has another length than the arm has joints.
+    pub fn forward_dynamics(
+        &self,
+        q: &DVector<T>,
+        qd: &DVector<T>,
+        tau: &DVector<T>,
+    ) -> Result<DVector<T>, WrongLength> {
+        let at = JointVectors {
+            qd: qd.clone(),
+            tau: tau.clone(),
+            ..JointVectors::at(q)
+        };
+        let qdd = self.entries(Quantity::Acceleration, &at)?;
+        Ok(DVector::from_vec(qdd))
+    }
+
+    /// Computes D, n×n, symmetric, armature on its diagonal.
+    ///
+    /// # Errors
+    /// `q` has another length than the arm has joints.
     pub fn inertia(&self, q: &DVector<T>) -> Result<DMatrix<T>, WrongLength> {
-        let at = self.at(q)?;
-        Ok(matrix(&from_torques::inertia(torques, &self.arm, &at)))
+        let d = self.entries(Quantity::Inertia, &JointVectors::at(q))?;
+        Ok(self.matrix(&d))
     }
 
-    /// h: Coriolis and centrifugal torques, without damping.
+    /// Computes h, the Coriolis and centrifugal torques, without damping.
+    ///
+    /// # Errors
+    /// A vector has another length than the arm has joints.
     pub fn coriolis(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, WrongLength> {
-        let at = self.at(q)?;
-        let qd = self.values("qd", qd)?;
-        let h = from_torques::velocity_terms(torques, &self.arm, &at, qd);
-        Ok(DVector::from_vec(h))
+        let at = JointVectors {
+            qd: qd.clone(),
+            ..JointVectors::at(q)
+        };
+        self.entries(Quantity::Coriolis, &at).map(DVector::from_vec)
     }
 
-    /// c: what holds the arm against gravity.
+    /// Computes c, what holds the arm against gravity.
+    ///
+    /// # Errors
+    /// `q` has another length than the arm has joints.
     pub fn gravity(&self, q: &DVector<T>) -> Result<DVector<T>, WrongLength> {
-        let at = self.at(q)?;
-        let c = from_torques::gravity(torques, &self.arm, &at);
+        let c = self.entries(Quantity::Gravity, &JointVectors::at(q))?;
         Ok(DVector::from_vec(c))
     }
 
-    /// h_ikm: for each joint i the symmetric n×n matrix with
+    /// Computes h_ikm: for each joint i the symmetric n×n matrix with
     /// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
+    ///
+    /// # Errors
+    /// `q` has another length than the arm has joints.
     pub fn christoffel(&self, q: &DVector<T>) -> Result<Vec<DMatrix<T>>, WrongLength> {
-        let at = self.at(q)?;
-        let h = from_torques::christoffel(torques, &self.arm, &at);
-        Ok(h.iter().map(|h| matrix(h)).collect())
+        let h = self.entries(Quantity::Christoffel, &JointVectors::at(q))?;
+        let n = self.joints();
+        Ok(h.chunks(n * n).map(|h| self.matrix(h)).collect())
     }
 
-    /// p = D q̇.
-    pub fn momentum(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, WrongLength> {
-        let at = self.at(q)?;
-        let qd = self.values("qd", qd)?;
-        let d = from_torques::inertia(torques, &self.arm, &at);
-        let row = |row: &Vec<T>| total(row.iter().zip(qd).map(|(d, qd)| d.mul(qd)));
-        Ok(DVector::from_vec(d.iter().map(row).collect()))
-    }
-
-    /// T = ½ q̇ᵀ D q̇.
-    pub fn kinetic_energy(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<T, WrongLength> {
-        let p = self.momentum(q, qd)?;
-        Ok(total(p.iter().zip(qd.iter()).map(|(p, qd)| p.mul(qd))).half())
-    }
-
-    /// ∂T/∂q = Cᵀ q̇.
-    pub fn momentum_slope(
-        &self,
-        q: &DVector<T>,
-        qd: &DVector<T>,
-    ) -> Result<DVector<T>, WrongLength> {
-        let c = self.coriolis_matrix(q, qd)?;
-        let column = |k| total((0..qd.len()).map(|i| c[(i, k)].mul(&qd[i])));
-        Ok(DVector::from_vec((0..qd.len()).map(column).collect()))
-    }
-
-    /// C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
-    pub fn coriolis_matrix(
-        &self,
-        q: &DVector<T>,
-        qd: &DVector<T>,
-    ) -> Result<DMatrix<T>, WrongLength> {
-        let at = self.at(q)?;
-        let qd = self.values("qd", qd)?;
-        let h = from_torques::christoffel(torques, &self.arm, &at);
-        Ok(matrix(&contracted(&h, qd)))
-    }
-
-    /// U = −Σ_j m_j g·r_j, from the base's origin.
+    /// Computes U = −Σ_j m_j g·r_j, from the base's origin.
+    ///
+    /// # Errors
+    /// `q` has another length than the arm has joints.
     pub fn potential_energy(&self, q: &DVector<T>) -> Result<T, WrongLength> {
         let at = self.whole_at(q)?;
         Ok(Formulation::NewtonEulerLink.potential_energy(&self.whole, &at))
     }
 
-    /// ⁰A_n: where the hand is.
+    /// Computes ⁰A_n: where the hand is.
+    ///
+    /// # Errors
+    /// `q` has another length than the arm has joints.
     pub fn hand(&self, q: &DVector<T>) -> Result<Columns<T>, WrongLength> {
         let at = self.whole_at(q)?;
         Ok(Formulation::NewtonEulerLink.hand(&self.whole, &at))
     }
 
-    /// ⁰A_i: where every link is.
+    /// Computes ⁰A_i: where every link is.
+    ///
+    /// # Errors
+    /// `q` has another length than the arm has joints.
     pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, WrongLength> {
         Ok(poses(&self.whole, &self.whole_at(q)?))
     }
 
-    /// J, 6×n: linear over angular velocity of frame n, in base axes.
-    pub fn jacobian(&self, q: &DVector<T>) -> Result<Vec<Vec<T>>, WrongLength> {
-        let at = self.whole_at(q)?;
-        Ok(Formulation::NewtonEulerLink.jacobian(&self.whole, &at))
-    }
-
-    /// J̇ q̇, linear over angular.
-    pub fn jacobian_rate(
-        &self,
-        q: &DVector<T>,
-        qd: &DVector<T>,
-    ) -> Result<[[T; 3]; 2], WrongLength> {
-        let at = self.whole_at(q)?;
-        let qd = self.values("qd", qd)?;
-        Ok(Formulation::NewtonEulerLink.jacobian_rate(&self.whole, &at, qd))
-    }
-
-    /// What each link exerts on the next, gravity included, in base axes, about
-    /// the origin of the frame whose z is the joint's axis.
-    pub fn wrenches(
-        &self,
-        q: &DVector<T>,
-        qd: &DVector<T>,
-        qdd: &DVector<T>,
-    ) -> Result<Vec<Wrench<T>>, WrongLength> {
-        let at = self.whole_at(q)?;
-        let [qd, qdd] = [self.values("qd", qd)?, self.values("qdd", qdd)?];
-        Ok(Formulation::NewtonEulerLink.wrenches(&self.whole, &at, qd, qdd))
-    }
-
-    /// The dynamics by which parts of the links: of their rotation alone, or
-    /// their translation alone.
-    pub fn part(&self, part: Part) -> Reference<T> {
-        Reference {
-            arm: part.of(&self.arm),
-            whole: part.of(&self.whole),
-        }
-    }
-
-    /// The arm with its Coulomb friction at these velocities.
-    fn arm_at(&self, qd: &[T]) -> Cow<'_, Arm<T>> {
-        let links = &self.arm.links;
-        if links.iter().all(|link| link.friction.coulomb.is_none()) {
-            return Cow::Borrowed(&self.arm);
-        }
-        let speeds = links.iter().zip(qd);
-        let speeds = speeds.map(|(link, qd)| link.friction.per_speed(qd, |x| x.root()));
-        let speeds: Vec<Option<T>> = speeds.collect();
-        Cow::Owned(self.arm.clone().at_speeds(&speeds))
-    }
-
-    fn at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
-        Ok(self.arm.at(&self.positions(q)?))
-    }
-
     fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
-        Ok(self.whole.at(&self.positions(q)?))
+        let q = self.values(Argument::Position, q)?;
+        Ok(self.whole.at(&self.positions(q)))
     }
 
-    fn positions(&self, q: &DVector<T>) -> Result<Vec<JointPosition<T>>, WrongLength> {
-        let q = self.values("q", q)?;
+    fn matrix(&self, rows: &[T]) -> DMatrix<T> {
+        DMatrix::from_row_slice(self.joints(), self.joints(), rows)
+    }
+
+    fn positions(&self, q: &[T]) -> Vec<JointPosition<T>> {
         let position = |(link, q): (&crate::equations::Link<T>, &T)| match link.kind {
             JointKind::Revolute => {
                 let (sin, cos) = q.sin_cos();
@@ -370,18 +368,18 @@ impl<T: Float> Reference<T> {
             }
             JointKind::Prismatic => JointPosition::Prismatic(*q),
         };
-        Ok(self.arm.links.iter().zip(q).map(position).collect())
+        self.arm.links.iter().zip(q).map(position).collect()
     }
 
     fn values<'a>(
         &self,
-        argument: &'static str,
+        argument: Argument,
         vector: &'a DVector<T>,
     ) -> Result<&'a [T], WrongLength> {
         let [expected, found] = [self.joints(), vector.len()];
         if found != expected {
             return Err(WrongLength {
-                argument,
+                argument: argument.name(),
                 expected,
                 found,
             });
@@ -390,10 +388,13 @@ impl<T: Float> Reference<T> {
     }
 }
 
-fn torques<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<S> {
-    table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences, None)
-}
-
-fn matrix<T: Float>(rows: &[Vec<T>]) -> DMatrix<T> {
-    DMatrix::from_fn(rows.len(), rows.len(), |i, k| rows[i][k])
+/// Returns the arm with its Coulomb friction at these velocities.
+fn at_speeds<'a, T: Float>(arm: &'a Arm<T>, qd: &[T]) -> Cow<'a, Arm<T>> {
+    let links = &arm.links;
+    if links.iter().all(|link| link.friction.coulomb.is_none()) {
+        return Cow::Borrowed(arm);
+    }
+    let speeds = links.iter().zip(qd);
+    let speeds = speeds.map(|(link, qd)| link.friction.per_speed(qd, |x| x.root()));
+    Cow::Owned(arm.clone().at_speeds(&speeds.collect::<Vec<_>>()))
 }

@@ -69,6 +69,9 @@ const ROWS: &[Row] = &[
     ("theta = 0", "theta = 0.5", "`theta` of a revolute joint is its variable", "called `offset`"),
     ("name = \"waist\"", "name = \"\"", "a joint's name has 1 to 64 characters", "leave the name out"),
     ("name = \"waist\"", "name = \"a\\nb\"", "control character", ""),
+    ("name = \"waist\"", "name = \"2\"", "joint 1 is called \"2\", which is a joint's number and not its own", "write \"joint_2\""),
+    ("name = \"waist\"", "name = \"+02\"", "a joint's number and not its own", "write \"joint_2\""),
+    ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1, -1, 0, 0, 0]", "a principal moment is negative", "about the centre of mass"),
     // Numbers and angles.
     ("mass = 2", "mass = nan", "`nan` is not a finite number", ""),
     ("mass = 2", "mass = -inf", "`-inf` is not a finite number", ""),

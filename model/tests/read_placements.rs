@@ -147,7 +147,7 @@ fn poses_are_in_base_axes_and_of_the_tool() {
     ));
 }
 
-/// Gravity is in base axes: an arm that hangs from the ceiling depends_on it from
+/// Gravity is in base axes: an arm that hangs from the ceiling feels it from
 /// above, and a base that only stands elsewhere changes nothing.
 #[test]
 fn gravity_is_in_base_axes() {

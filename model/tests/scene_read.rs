@@ -154,6 +154,11 @@ fn mistakes() {
         (2, "lock = { 9 = 0 }", "there is no joint `9`"),
         (
             2,
+            "lock = { tree = 0 }",
+            "joints are counted from 1 to 3: waist, boom, wrist",
+        ),
+        (
+            2,
             "lock = { 3 = 0, wrist = 0 }",
             "joint 3 (wrist) is locked already",
         ),

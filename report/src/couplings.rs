@@ -4,11 +4,12 @@
 //! fingerprint: an output that vanishes is the constant zero there, and two
 //! that are equal or opposite are edges to one node.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
+use serde::Serialize;
 
 use dalembert_codegen::workspace::function::{Function, Quantity, Sizes};
 use dalembert_codegen::workspace::generate::MAX_OUTPUTS;
@@ -17,7 +18,8 @@ use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::trace::trace;
 
 /// Why a coefficient vanishes or repeats another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// h_iii = 0 for every arm.
     OwnSquare,
@@ -29,19 +31,6 @@ pub enum Reason {
     Prismatic,
     /// The numbers of this robot.
     Geometry,
-}
-
-impl Reason {
-    /// A name for programs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Reason::OwnSquare => "own_square",
-            Reason::OwnProduct => "own_product",
-            Reason::Antisymmetry => "antisymmetry",
-            Reason::Prismatic => "prismatic",
-            Reason::Geometry => "geometry",
-        }
-    }
 }
 
 impl fmt::Display for Reason {
@@ -56,7 +45,7 @@ impl fmt::Display for Reason {
     }
 }
 
-/// What was found about a coefficient.
+/// A finding about a coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finding {
     /// It vanishes in every state.
@@ -65,7 +54,7 @@ pub enum Finding {
     Repeats {
         /// The index of the other in [`Couplings::entries`].
         entry: usize,
-        /// Whether it is the opposite.
+        /// True if it is the opposite.
         opposite: bool,
         /// Why.
         reason: Reason,
@@ -81,9 +70,9 @@ pub struct Coupling {
     pub quantity: Quantity,
     /// Zero-based: i; i, k; or i, k, m.
     pub joints: Vec<usize>,
-    /// What was found.
+    /// The finding.
     pub finding: Finding,
-    /// Whether it is the same in every state.
+    /// True if it is the same in every state.
     pub constant: bool,
 }
 
@@ -96,8 +85,8 @@ pub struct Couplings {
     pub entries: Vec<Coupling>,
 }
 
-/// How many coefficients of a quantity there are, vanish, and differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+/// Numbers of coefficients of a quantity: all, those that vanish, those that differ.
+#[derive(Clone, Debug, PartialEq, Eq, Default, Serialize)]
 pub struct Summary {
     /// All, symmetric ones once.
     pub total: usize,
@@ -105,10 +94,38 @@ pub struct Summary {
     pub zero: usize,
     /// Those that do not, equal and opposite ones once.
     pub distinct: usize,
+    /// Numbers of those that vanish, and repeat another, for each reason.
+    pub reasons: BTreeMap<Reason, Tally>,
+}
+
+/// Numbers of coefficients that vanish and repeat for a reason.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize)]
+pub struct Tally {
+    /// Those that vanish.
+    pub zero: usize,
+    /// Those that repeat another.
+    pub repeats: usize,
+}
+
+/// One coefficient, as a report lists it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Listed {
+    /// Its name, one-based: `h_346`.
+    pub name: String,
+    /// True if it vanishes.
+    pub zero: bool,
+    /// True if it is the same in every state.
+    pub constant: bool,
+    /// The one before that it equals.
+    pub equals: Option<String>,
+    /// The one before that it is the opposite of.
+    pub opposite_of: Option<String>,
+    /// Why it vanishes or repeats another.
+    pub reason: Option<Reason>,
 }
 
 impl Couplings {
-    /// Of a robot; `None` if it has too many joints to list all h_ikm.
+    /// Finds them for a robot; `None` if it has too many joints to list all h_ikm.
     pub fn of(robot: &Robot) -> Option<Couplings> {
         let function = Function::DynamicCoefficients;
         let n = robot.joints.len();
@@ -155,18 +172,55 @@ impl Couplings {
         Some(couplings)
     }
 
-    /// The count of one quantity.
+    /// Counts the coefficients of one quantity.
     pub fn summary(&self, quantity: Quantity) -> Summary {
         let mut summary = Summary::default();
         for entry in self.entries.iter().filter(|e| e.quantity == quantity) {
             summary.total += 1;
             match entry.finding {
-                Finding::Zero(_) => summary.zero += 1,
+                Finding::Zero(reason) => {
+                    summary.zero += 1;
+                    summary.reasons.entry(reason).or_default().zero += 1;
+                }
                 Finding::Distinct => summary.distinct += 1,
-                Finding::Repeats { .. } => {}
+                Finding::Repeats { reason, .. } => {
+                    summary.reasons.entry(reason).or_default().repeats += 1;
+                }
             }
         }
         summary
+    }
+
+    /// Lists the coefficients by name.
+    pub fn listed(&self) -> Vec<Listed> {
+        let listed = self.entries.iter().map(|entry| {
+            let mut listed = Listed {
+                name: self.name(entry),
+                zero: matches!(entry.finding, Finding::Zero(_)),
+                constant: entry.constant,
+                equals: None,
+                opposite_of: None,
+                reason: None,
+            };
+            match entry.finding {
+                Finding::Distinct => {}
+                Finding::Zero(reason) => listed.reason = Some(reason),
+                Finding::Repeats {
+                    entry,
+                    opposite,
+                    reason,
+                } => {
+                    let other = Some(self.name(&self.entries[entry]));
+                    match opposite {
+                        true => listed.opposite_of = other,
+                        false => listed.equals = other,
+                    }
+                    listed.reason = Some(reason);
+                }
+            }
+            listed
+        });
+        listed.collect()
     }
 
     /// The name of an entry, one-based: `D_12`, `h_346`.
@@ -239,7 +293,7 @@ fn why_zero(robot: &Robot, quantity: Quantity, joints: &[usize]) -> Reason {
     }
 }
 
-/// Whether h_ikm = −h_kim, m ≤ min(i, k), ties the two, with the last two
+/// Returns whether h_ikm = −h_kim, m ≤ min(i, k), ties the two, with the last two
 /// indices of each in either order.
 fn antisymmetric(a: &[usize], b: &[usize]) -> bool {
     let (&[i, x, y], &[j, u, v]) = (a, b) else {

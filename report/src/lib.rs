@@ -6,10 +6,11 @@
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code, and why they disagree
-//! - [`table3`]: the paper's counts beside the formulas' and the generator's
-//! - [`processor`]: what functions take of a processor, by a stated model
+//! - [`table3`]: the paper's counts beside the formulas'
+//! - [`processor`]: what compilers do not say of functions
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 pub mod couplings;
 pub mod drawing;

@@ -193,7 +193,7 @@ fn runtime_gives_what_is_known() {
             let at = JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))));
             assert_eq!(known.len(), 13);
             for (quantity, expected) in known {
-                let found = quantity.runtime(&runtime, &at).unwrap();
+                let found = runtime.entries(quantity, &at).unwrap();
                 assert_eq!(found.len(), expected.len());
                 let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
                 let most = match quantity.inverts_inertia() {

@@ -8,7 +8,7 @@ use crate::number::{Floats, Number};
 pub trait Angle:
     Floats<Self> + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// Which bit is the sign.
+    /// The bit of the sign.
     const SIGN: usize;
     /// Up to here, in magnitude, the polynomials are for.
     const LARGEST: Self;
@@ -27,7 +27,7 @@ pub trait Angle:
     /// (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
     fn polynomials<V: Number<Self>>(z: V, w: V) -> (V, V);
 
-    /// What is right for every angle.
+    /// Computes sine and cosine of any angle, by libm.
     fn library(self) -> (Self, Self);
 }
 
@@ -111,12 +111,21 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
         }
         angle += 1;
     }
-    if !usual {
-        for ((angles, sines), cosines) in angles.iter().zip(&mut sines).zip(&mut cosines) {
-            unusual(angles, sines, cosines);
-        }
+    match usual {
+        true => (sines, cosines),
+        false => one_by_one(*angles),
     }
-    (sines, cosines)
+}
+
+/// Computes all lanes one after the other, where an angle needs libm. By value: an array
+/// whose address is taken on the rare path would stay in memory on the usual one.
+#[cold]
+#[inline(never)]
+fn one_by_one<T: Angle, const N: usize, const L: usize>(
+    angles: [[T; L]; N],
+) -> ([[T; L]; N], [[T; L]; N]) {
+    let pairs = angles.map(|lanes| singly(&lanes));
+    (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
 }
 
 /// The angles that the polynomials are not for.

@@ -1,4 +1,4 @@
-//! What the computation needs to know of f64.
+//! Constants of the computation in f64.
 //!
 //! The parts of π/2: 40 bits, 38 bits and the rest to 2⁻¹³⁵. The polynomials
 //! are minimax (Remez) on |r| ≤ 0.7854, rounded coefficient by coefficient

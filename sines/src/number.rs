@@ -1,4 +1,4 @@
-//! What the computation asks of a number, and of several at once.
+//! The operations that the computation needs of a number, and of several at once.
 
 use core::num::Wrapping;
 use core::ops::{Add, BitAnd, BitXor, Mul, Sub};
@@ -13,7 +13,7 @@ pub trait Number<T>:
     + Sub<T, Output = Self>
     + Mul<T, Output = Self>
 {
-    /// The same in every lane.
+    /// Returns the same number in every lane.
     fn all(value: T) -> Self;
 }
 
@@ -32,7 +32,7 @@ pub trait Floats<T>: Number<T> {
     /// the sign's.
     fn power(exponent: usize) -> Self::Bits;
     fn shifted(bits: Self::Bits, by: usize) -> Self::Bits;
-    /// Whether each of them is no larger, and a number.
+    /// Returns whether every lane is at most `largest` in magnitude, and a number.
     fn are_within(self, largest: T) -> bool;
 }
 

@@ -1,4 +1,4 @@
-//! What the computation needs to know of f32; nothing of it is in f64.
+//! Constants of the computation in f32.
 //!
 //! The parts of π/2: 17 bits, 18 bits and the rest to 2⁻⁶³. The polynomials are
 //! minimax (Remez) on |r| ≤ 0.78545, rounded coefficient by coefficient with

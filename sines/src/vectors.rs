@@ -46,7 +46,8 @@ pub(crate) fn all<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; 
     }
 }
 
-/// As many at a time as a vector holds, the last few in a narrow one if that has room.
+/// Computes as many angles at a time as a vector holds, the last few in a narrow one if that
+/// has room.
 #[inline(always)]
 pub(crate) fn together<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);

@@ -14,7 +14,7 @@ use reference::{Reference, ulp, ulps};
 /// The bounds of the documentation, of sines and cosines.
 const PROVED: [f64; 2] = [0.90, 0.85];
 
-/// So many angles are asked for at once.
+/// The number of angles in one call.
 const TOGETHER: usize = 8;
 
 /// Numbers in [0, 1), by Vigna's splitmix64.
@@ -78,8 +78,8 @@ fn doubles(what: &str, points: impl Iterator<Item = f64>) {
     worst.is_as_proved(what);
 }
 
-/// So many neighbours of every multiple of π/4 on both sides: where the rest is
-/// small, and where it changes its quarter turn.
+/// Returns the neighbours of every multiple of π/4 on both sides, where the remainder is small
+/// and where the quarter turn changes.
 fn near_quarters(neighbours: u64) -> impl Iterator<Item = f64> {
     (1..=10430u64).flat_map(move |k| {
         let middle = (k as f64 * core::f64::consts::FRAC_PI_4).to_bits();
@@ -92,7 +92,7 @@ fn within(reach: f64, points: u64, seed: u64) -> impl Iterator<Item = f64> {
     (0..points).map(move |_| (2.0 * random.unit() - 1.0) * reach)
 }
 
-/// Of every size from 2⁻⁴⁰ on.
+/// Returns points of every size from 2⁻⁴⁰ on.
 fn of_every_size(points: u64) -> impl Iterator<Item = f64> {
     let mut random = Random(7);
     let (least, most) = ((-40f64).exp2().to_bits(), LARGEST.to_bits());

@@ -11,7 +11,7 @@ fn bitsf<const N: usize>((sin, cos): ([f32; N], [f32; N])) -> [(u32, u32); N] {
     std::array::from_fn(|i| (sin[i].to_bits(), cos[i].to_bits()))
 }
 
-/// Whether two values are equal to the last bit, or neither is a number.
+/// Returns whether two values are equal to the last bit, or neither is a number.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
@@ -65,7 +65,7 @@ fn the_ends_of_the_range_are_computed() {
     }
 }
 
-/// As many as there are, and one of them unusual: the bits of one alone.
+/// Compares lists with one unusual angle with the bits of each angle alone.
 fn are_computed_for_themselves<const N: usize>() {
     for odd in 0..N {
         let mut angles: [f64; N] = std::array::from_fn(|i| 0.7 * i as f64 - 2.3 * odd as f64);
@@ -94,8 +94,7 @@ fn every_number_of_angles() {
     are_computed_for_themselves::<21>();
 }
 
-/// The same bits on every machine: a fingerprint of many results, found on
-/// x86-64 in a debug and in a release build.
+/// Fingerprints many results; found on x86-64 in a debug and in a release build.
 #[test]
 fn the_same_bits_everywhere() {
     let mut print = 0u64;

@@ -38,7 +38,7 @@ answers! {
         /// Its slope Cᵀq̇ = ∂T/∂q.
         ct_qd: [T; N],
     }
-    /// What rotation and translation of the links contribute to D and h, and c.
+    /// Contributions of rotation and translation of the links to D and h, and c.
     DalembertTerms {
         /// Rotational part of D.
         d_rot: [[T; N]; N],

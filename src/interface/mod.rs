@@ -67,7 +67,7 @@ questions! {
     DynamicCoefficients::dynamic_coefficients(q) -> answers::DynamicCoefficients<T, N>;
     /// D q̇ and Cᵀq̇.
     Momentum::momentum(q, qd) -> answers::Momentum<T, N>;
-    /// What rotation and translation of the links contribute to D and h, and c.
+    /// Computes the contributions of rotation and translation of the links to D and h, and c.
     DalembertTerms::dalembert_terms(q, qd) -> answers::DalembertTerms<T, N>;
     /// ∂τ/∂q, ∂τ/∂q̇ and D.
     InverseDynamicsDerivatives::inverse_dynamics_derivatives(q, qd, qdd) -> answers::InverseDynamicsDerivatives<T, N>;

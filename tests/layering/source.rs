@@ -1,4 +1,4 @@
-//! Which file of a crate uses which, from its text.
+//! Reads from a crate's text which file uses which.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -142,7 +142,7 @@ fn code(text: &str) -> String {
     }
 }
 
-/// What `use` brings in: the name here, and the path from the crate's root.
+/// Returns what `use` brings in: the name here, and the path from the crate's root.
 fn imports(code: &str, file: &str) -> Vec<(String, Vec<String>)> {
     let mut found = Vec::new();
     for line in code.split(';') {

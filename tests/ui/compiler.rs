@@ -12,7 +12,7 @@ use std::time::SystemTime;
 
 pub struct Compiler {
     rustc: OsString,
-    /// Where cargo keeps libraries.
+    /// The folder of cargo's libraries.
     libraries: PathBuf,
     /// The facade.
     dalembert: PathBuf,
@@ -34,7 +34,7 @@ impl Compiler {
         })
     }
 
-    /// What the compiler says to a file that it should refuse.
+    /// Compiles a file that should be refused.
     pub fn check(&self, case: &Path) -> io::Result<Output> {
         self.command(case)
             .args(["--emit", "metadata", "--out-dir"])
@@ -42,7 +42,7 @@ impl Compiler {
             .output()
     }
 
-    /// What it says to a file that is good, and if nothing, what that says itself.
+    /// Compiles a file that should be accepted, and runs it.
     pub fn run(&self, case: &Path) -> io::Result<Output> {
         let name = case.file_stem().unwrap_or_default();
         let program = self
@@ -79,8 +79,8 @@ fn prefixed(prefix: &str, path: &Path) -> OsString {
     whole
 }
 
-/// Of several libraries of one name, each with other features, the one that was
-/// compiled last: none that is older than a source is left where cargo ran a test.
+/// Returns the library of this name that was compiled last, of several with other features:
+/// none that is older than a source is left where cargo ran a test.
 fn newest(folder: &Path, prefix: &str) -> io::Result<PathBuf> {
     let mut found: Option<(SystemTime, PathBuf)> = None;
     for entry in fs::read_dir(folder)? {

@@ -23,8 +23,7 @@ fn cases(folder: &str) -> Vec<PathBuf> {
     cases
 }
 
-/// What is wrong with any of the cases, each tried by one of as many threads as the
-/// machine runs at once.
+/// Tries each case on as many threads as the machine runs at once and joins the complaints.
 fn complaints(cases: Vec<PathBuf>, complaint: impl Fn(&Path) -> Option<String> + Sync) -> String {
     let (left, found) = (Mutex::new(cases), Mutex::new(Vec::new()));
     thread::scope(|scope| {

@@ -13,10 +13,10 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-/// What computes a function of three joint vectors.
+/// A function of three joint vectors.
 type Compute = Box<dyn FnMut(&[f64], &[f64], &[f64], &mut Vec<f64>)>;
 
-/// What times a function over states: nanoseconds a state, batch by batch.
+/// A timer of a function over states: nanoseconds a state, batch by batch.
 type Timed = Box<dyn FnMut(&[Vec<f64>]) -> f64>;
 
 /// A function ready to run, by whichever library.

@@ -3,16 +3,17 @@
 use std::path::PathBuf;
 
 use clap::ArgGroup;
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::processor::target::Target;
 
-use super::Choice;
 use super::values::{
-    effort_parser, entries_parser, function_parser, interface_parser, states_parser, target_parser,
+    effort_parser, entries_parser, function_parser, interface_parser, language_parser,
+    states_parser, target_parser,
 };
+use super::{CODE, Choice, MORE};
 
 /// Arguments of `generate`.
 #[derive(Debug, clap::Args)]
@@ -27,10 +28,16 @@ pub struct GenerateArgs {
     /// Write nothing: compare with FILE and exit with 1 if it differs
     #[arg(long, requires = "output")]
     pub check: bool,
+    /// Write over files that this command did not write
+    #[arg(long, requires = "output", conflicts_with = "check")]
+    pub force: bool,
+    /// Print rounding errors, the counts after each stage and the proofs as well
+    #[arg(short, long)]
+    pub verbose: bool,
     /// With a scene that has a tolerance: write its certificates (JSON) to this
     /// file [default: beside the output, as NAME.certificate.json, unless that
     /// is a device or pipe]
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = MORE)]
     pub certificate: Option<PathBuf>,
     /// Search anew and keep the programs in a plan beside the robot file:
     /// every later run, macro and build script replays them. After a search
@@ -40,32 +47,35 @@ pub struct GenerateArgs {
     pub save_plan: bool,
     /// Write what is inside the module and not the module itself: for a FILE
     /// that is a module of your crate (`mod puma560;`). It has one scalar
-    #[arg(long)]
+    #[arg(long, help_heading = CODE)]
     pub contents: bool,
+    /// The language of the code: `rust`, a module for each scalar; `c`, one header of C99 that
+    /// C++ reads too
+    #[arg(long, value_name = "NAME", default_value = "rust", value_parser = language_parser())]
+    pub language: Language,
     /// Which variants of each function to print, each choice with those before it:
     /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`,
     /// for several states at once; `batch`, for slices of states (needs the crate
     /// dalembert-batch)
-    #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser())]
+    #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser(), help_heading = CODE)]
     pub entries: Entries,
     /// What the module has besides functions: `traits` adds a type `Robot` that implements
     /// the traits of `dalembert::interface`, for code that is generic over robots
-    #[arg(long, value_name = "HOW", default_value = "functions", value_parser = interface_parser())]
+    #[arg(long, value_name = "HOW", default_value = "functions", value_parser = interface_parser(), help_heading = CODE)]
     pub interface: Interface,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser())]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser(), help_heading = MORE)]
     pub states: Option<usize>,
-    /// Print what each function takes of a processor, by the model of the guide's
-    /// page on real time: instructions, stack, calls, values alive; the code goes
-    /// to -o, without it nowhere
-    #[arg(long, group = "standard output free")]
+    /// Print what compilers do not say of each function: values alive, the longest chain,
+    /// calls, f64 in software; the code goes to -o, without it nowhere
+    #[arg(long, group = "standard output free", help_heading = MORE)]
     pub report: bool,
-    /// The processors of the report, separated by commas [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "report", value_parser = target_parser())]
+    /// The processors that the report warns of, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "report", value_parser = target_parser(), help_heading = MORE)]
     pub target: Vec<&'static Target>,
     /// Print the reports as JSON; the code goes to -o
-    #[arg(long, requires = "standard output free")]
+    #[arg(long, requires = "standard output free", help_heading = MORE)]
     pub json: bool,
     #[command(flatten)]
     pub choice: Choice,
@@ -76,6 +86,9 @@ pub struct GenerateArgs {
 pub struct CountArgs {
     /// The robot file
     pub robot: PathBuf,
+    /// Print also what each program was found from, and how sure its proof is
+    #[arg(short, long)]
+    pub verbose: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -101,16 +114,9 @@ pub struct ExplainArgs {
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `table3`.
-#[derive(Debug, clap::Args)]
-pub struct Table3Args {
-    /// A robot file: show the counts after every stage for it
-    pub robot: Option<PathBuf>,
+    /// List every coefficient: D_ik, h_ikm, c_i, and which vanish or repeat another
+    #[arg(long, conflicts_with = "scene")]
+    pub coefficients: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

@@ -1,6 +1,8 @@
 //! Arguments of the commands that make robot files and look at arms.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use dalembert_import::Options;
 
 use super::values::lock_parser;
 
@@ -9,9 +11,11 @@ use super::values::lock_parser;
 pub struct NewArgs {
     /// The folder of the crate, which is called after it
     pub folder: PathBuf,
-    /// A robot file, or a URDF with one chain [default: two links in a plane]
+    /// A robot file, or a URDF with what `import` takes for it [default: two links in a plane]
     #[arg(long, value_name = "FILE")]
     pub from: Option<PathBuf>,
+    #[command(flatten)]
+    pub chain: ChainArgs,
     /// Take dalembert from this checkout [default: the registry's, of this
     /// version]
     #[arg(long, value_name = "FOLDER")]
@@ -19,6 +23,57 @@ pub struct NewArgs {
     /// Print what was made as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Which chain of a URDF is taken, and how.
+#[derive(Debug, clap::Args)]
+pub struct ChainArgs {
+    /// The link that stands still [default: the root]
+    #[arg(long, value_name = "LINK")]
+    pub base: Option<String>,
+    /// The link whose frame is the hand [default: the palm, or the end of the
+    /// longest chain]
+    #[arg(long, value_name = "LINK")]
+    pub tip: Option<String>,
+    /// A joint that stays where it is, with its position: a number of rad or m,
+    /// pi/2 or 90deg; may be given again, and for all that hangs on the chain as '*=0'
+    #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
+    pub lock: Vec<(String, String)>,
+    /// Hold every other joint that hangs on the chain here, or at its nearest limit
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub lock_others: Option<String>,
+    /// A link to leave away, with everything that hangs on it; may be given again
+    #[arg(long, value_name = "LINK")]
+    pub without: Vec<String>,
+    /// Take every digit as it stands
+    #[arg(long)]
+    pub exact: bool,
+}
+
+impl ChainArgs {
+    /// Returns whether one of them is given.
+    pub fn is_given(&self) -> bool {
+        let names = self.base.is_some() || self.tip.is_some() || self.exact;
+        names || self.lock_others.is_some() || !self.lock.is_empty() || !self.without.is_empty()
+    }
+
+    /// Returns the options for a URDF with this path.
+    pub fn options(&self, urdf: &Path) -> Options {
+        let all = ("*".to_owned(), self.lock_others.clone().unwrap_or_default());
+        let others = self.lock_others.iter().map(|_| all.clone());
+        Options {
+            base: self.base.clone(),
+            tip: self.tip.clone(),
+            lock: self.lock.iter().cloned().chain(others).collect(),
+            without: self.without.clone(),
+            exact: self.exact,
+            file: urdf
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+        }
+    }
 }
 
 /// Arguments of `import`.
@@ -30,26 +85,14 @@ pub struct NewArgs {
 pub struct ImportArgs {
     /// The URDF; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
     pub urdf: PathBuf,
-    /// The link that stands still [default: the root]
-    #[arg(long, value_name = "LINK")]
-    pub base: Option<String>,
-    /// The link whose frame is the hand [default: the only end of the longest
-    /// chain]
-    #[arg(long, value_name = "LINK")]
-    pub tip: Option<String>,
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// A joint that stays where it is, with its position: a number of rad or m,
-    /// pi/2 or 90deg; may be given again
-    #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
-    pub lock: Vec<(String, String)>,
-    /// A link to leave away, with everything that hangs on it; may be given again
-    #[arg(long, value_name = "LINK")]
-    pub without: Vec<String>,
-    /// Take every digit as it stands
-    #[arg(long)]
-    pub exact: bool,
+    /// Write over a file that this command did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
+    #[command(flatten)]
+    pub chain: ChainArgs,
     /// Print what there is to say of the URDF as JSON; the robot file goes to -o
     #[arg(long, requires = "output")]
     pub json: bool,
@@ -72,17 +115,10 @@ pub struct ShowArgs {
     /// Write the drawing here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write over a file that this command did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// Print the poses of links and hand as JSON; without -o nothing is drawn
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `couplings`.
-#[derive(Debug, clap::Args)]
-pub struct CouplingsArgs {
-    /// The robot file
-    pub robot: PathBuf,
-    /// Print JSON
     #[arg(long)]
     pub json: bool,
 }

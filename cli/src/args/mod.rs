@@ -16,9 +16,18 @@ mod values;
 use clap::{Parser, Subcommand};
 
 pub use choice::Choice;
-pub use code::{CountArgs, ExplainArgs, GenerateArgs, Table3Args};
+pub use code::{CountArgs, ExplainArgs, GenerateArgs};
 pub use errors::{CertifyArgs, StressArgs, TradeoffArgs, VerifyArgs};
-pub use files::{CouplingsArgs, ImportArgs, NewArgs, ShowArgs};
+pub use files::{ChainArgs, ImportArgs, NewArgs, ShowArgs};
+
+/// Options that say how code is written.
+const CODE: &str = "How the code is written";
+
+/// Options that say how programs are found.
+const SEARCH: &str = "How programs are found";
+
+/// Options that few need.
+const MORE: &str = "More";
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -34,28 +43,24 @@ pub struct Args {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Generate Rust source for a robot, proved before it is printed
-    Generate(GenerateArgs),
     /// Make a crate with an arm: robot file, macro, a test against the runtime
     New(NewArgs),
     /// Make a robot file of a chain of a URDF
     Import(ImportArgs),
-    /// Draw the arm in two views, with frames, axes, masses and its table (SVG)
-    Show(ShowArgs),
+    /// Generate Rust source for a robot, proved before it is printed
+    Generate(GenerateArgs),
     /// Count the operations of the generated functions
     Count(CountArgs),
+    /// Draw the arm in two views, with frames, axes, masses and its table (SVG)
+    Show(ShowArgs),
     /// Prove the functions and measure what rounding costs
     Verify(VerifyArgs),
-    /// Say which coefficients of the dynamics vanish or repeat, and why
-    Couplings(CouplingsArgs),
-    /// Show how many operations each step of the generator saves, and for what reason
-    Explain(ExplainArgs),
-    /// Measure rounding errors in extreme cases: huge angles and speeds, odd masses
-    Stress(StressArgs),
     /// Check a certificate again: proof, edits, text and every bound
     Certify(CertifyArgs),
+    /// Show how many operations each step of the generator saves, and for what reason
+    Explain(ExplainArgs),
     /// Measure what accuracy costs: certified error against operations
     Tradeoff(TradeoffArgs),
-    /// Compare with Table 3: the paper's counts, the formulas', the generator's
-    Table3(Table3Args),
+    /// Measure rounding errors in extreme cases: huge angles and speeds, odd masses
+    Stress(StressArgs),
 }

@@ -7,11 +7,11 @@
 use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::clauses::words::bundle;
 use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::Prefer;
+use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::simplify::Effort;
@@ -19,8 +19,7 @@ use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_report::processor::target::Target;
-use dalembert_report::processor::targets::TARGETS;
+use dalembert_report::processor::target::{TARGETS, Target};
 
 pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     StringValueParser::new().try_map(|text| match text.rsplit_once('=') {
@@ -142,6 +141,15 @@ pub(super) fn entries_parser() -> impl TypedValueParser<Value = Entries> {
         let mut all = Entries::ALL.into_iter();
         all.find(|entries| entries.name() == name)
             .ok_or("no such entries")
+    })
+}
+
+pub(super) fn language_parser() -> impl TypedValueParser<Value = Language> {
+    let names = PossibleValuesParser::new(Language::ALL.map(Language::name));
+    names.try_map(|name| {
+        let mut all = Language::ALL.into_iter();
+        all.find(|language| language.name() == name)
+            .ok_or("no such language")
     })
 }
 

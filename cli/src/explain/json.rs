@@ -1,50 +1,41 @@
 //! The table of steps and the reasons, for programs.
 
-use dalembert_codegen::workspace::function::{Function, Quantity};
+use dalembert_codegen::workspace::function::Quantity;
 use dalembert_codegen::workspace::portfolio::Source;
-use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 use dalembert_report::couplings::Couplings;
 use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
 use dalembert_report::explain::parameters::{LinkParameters, Parameter, ParameterStatus, Together};
 use dalembert_report::explain::steps::Code;
-use dalembert_report::table3::{self, Pair};
+use dalembert_report::table3;
 use serde_json::{Map, Value, json};
 
-use super::{Measured, QUANTITIES, REASONS, tally};
+use super::{Measured, QUANTITIES};
+use crate::args::ExplainArgs;
 use crate::output;
 
 /// Everything.
-pub fn write(
-    robot: &Robot,
-    scene: Option<&str>,
-    states: usize,
-    explanations: &[Measured],
-) -> Value {
+pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> Value {
     let functions: Map<String, Value> = explanations
         .iter()
-        .map(|(e, errors)| (e.function.to_string(), explanation_json(robot, e, errors)))
+        .map(|(e, errors)| (e.function.to_string(), explanation_json(e, errors)))
         .collect();
     let couplings = explanations.iter().find_map(|(e, _)| e.couplings.as_ref());
     json!({
         "robot": robot.name,
         "input": robot.short_hash(),
-        "scene": scene,
-        "states": states,
+        "scene": args.scene,
+        "states": args.states,
         "functions": functions,
+        "table3": args.scene.is_none().then(|| table3::comparisons(robot)),
         "coefficients": couplings.map(coefficients_json),
+        "entries": couplings.filter(|_| args.coefficients).map(Couplings::listed),
     })
 }
 
-fn explanation_json(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Value {
+fn explanation_json(explanation: &Explanation, errors: &[Errors]) -> Value {
     let mut rows = Vec::new();
-    if explanation.function == Function::InverseDynamics
-        && explanation.scene_robot.scene().is_none()
-    {
-        let Pair { mul, add } = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
-        rows.push(json!({ "step": "lagrange_euler_table3", "mul": mul, "add": add }));
-    }
     for (row, errors) in explanation.rows.iter().zip(errors) {
         let mut value = json!({ "step": row.step.key() });
         if let Code::Emitted(_, scalar) = &row.code {
@@ -104,23 +95,7 @@ fn link_json(link: &LinkParameters) -> Value {
 }
 
 fn coefficients_json(couplings: &Couplings) -> Value {
-    let of = |(quantity, key): (Quantity, &str)| {
-        let summary = couplings.summary(quantity);
-        let reasons: Map<String, Value> = REASONS
-            .into_iter()
-            .filter_map(|reason| {
-                let [zero, repeats] = tally(couplings, quantity, reason);
-                let counts = json!({ "zero": zero, "repeats": repeats });
-                (zero + repeats > 0).then(|| (reason.name().to_owned(), counts))
-            })
-            .collect();
-        let value = json!({
-            "total": summary.total,
-            "zero": summary.zero,
-            "distinct": summary.distinct,
-            "reasons": reasons,
-        });
-        (key.to_owned(), value)
-    };
+    let of =
+        |(quantity, key): (Quantity, &str)| (key.to_owned(), json!(couplings.summary(quantity)));
     QUANTITIES.into_iter().map(of).collect::<Map<_, _>>().into()
 }

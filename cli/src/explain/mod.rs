@@ -8,9 +8,8 @@ mod json;
 mod text;
 
 use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::Request;
+use dalembert_codegen::workspace::generate::{GenerateError, Request};
 use dalembert_codegen::workspace::plan;
-use dalembert_report::couplings::{Couplings, Finding, Reason};
 use dalembert_report::explain::errors::{self, Errors};
 use dalembert_report::explain::{Explanation, explain_all};
 
@@ -42,7 +41,17 @@ pub fn run(args: &ExplainArgs) -> Outcome {
     }
     let session = progress::watch(&mut request);
     let robot = &reading.robot;
-    let explanations = explain_all(robot, &request)?.into_iter();
+    let explained = match explain_all(robot, &request) {
+        Err(GenerateError::StalePlan { .. }) => {
+            output::note(
+                "warning: the plan beside the robot file no longer fits it: a search takes its place",
+            );
+            request.plan = None;
+            explain_all(robot, &request)
+        }
+        explained => explained,
+    };
+    let explanations = explained?.into_iter();
     let explanations: Vec<Measured> = explanations
         .map(|explanation| {
             let errors = errors::measure(&explanation, args.states);
@@ -50,11 +59,10 @@ pub fn run(args: &ExplainArgs) -> Outcome {
         })
         .collect();
     drop(session);
-    let scene = args.scene.as_deref();
     if args.json {
-        output::print_json(&json::write(robot, scene, args.states, &explanations))
+        output::print_json(&json::write(robot, args, &explanations))
     } else {
-        output::print(&text::write(robot, scene, args.states, &explanations))
+        output::print(&text::write(robot, args, &explanations))
     }
 }
 
@@ -63,24 +71,3 @@ const QUANTITIES: [(Quantity, &str); 3] = [
     (Quantity::Christoffel, "h"),
     (Quantity::Gravity, "c"),
 ];
-
-const REASONS: [Reason; 5] = [
-    Reason::OwnSquare,
-    Reason::OwnProduct,
-    Reason::Prismatic,
-    Reason::Antisymmetry,
-    Reason::Geometry,
-];
-
-/// How many coefficients of a quantity vanish, and repeat, for a reason.
-fn tally(couplings: &Couplings, quantity: Quantity, wanted: Reason) -> [usize; 2] {
-    let mut tally = [0, 0];
-    for entry in couplings.entries.iter().filter(|e| e.quantity == quantity) {
-        match entry.finding {
-            Finding::Zero(reason) if reason == wanted => tally[0] += 1,
-            Finding::Repeats { reason, .. } if reason == wanted => tally[1] += 1,
-            _ => {}
-        }
-    }
-    tally
-}

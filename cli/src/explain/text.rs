@@ -1,10 +1,9 @@
 //! The table of steps and the reasons, for readers.
 
-use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
-use dalembert_report::couplings::Couplings;
+use dalembert_report::couplings::{Couplings, Tally};
 use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
 use dalembert_report::explain::merged::Merged;
@@ -14,16 +13,13 @@ use dalembert_report::explain::parameters::{
 use dalembert_report::explain::steps::Code;
 use dalembert_report::table3::{self, Pair};
 
-use super::{Measured, QUANTITIES, REASONS, tally};
+use super::{Measured, QUANTITIES};
+use crate::args::ExplainArgs;
 use crate::output;
 
 /// Everything.
-pub fn write(
-    robot: &Robot,
-    scene: Option<&str>,
-    states: usize,
-    explanations: &[Measured],
-) -> String {
+pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> String {
+    let (scene, states) = (args.scene.as_deref(), args.states);
     let scene = scene.map_or_else(String::new, |scene| format!(", scene {scene}"));
     let mut text = format!(
         "robot {}, {} joints, input {}{scene}\n\
@@ -39,23 +35,60 @@ pub fn write(
     );
     for (explanation, errors) in explanations {
         text += &format!("\n{}\n", explanation.function);
-        text += &output::table(&rows(robot, explanation, errors), 0);
+        text += &output::table(&rows(explanation, errors), 0);
         text += &why(robot, explanation);
+    }
+    if args.scene.is_none() {
+        text += &table3(robot);
     }
     if let Some(couplings) = explanations.iter().find_map(|(e, _)| e.couplings.as_ref()) {
         text += "\ncoefficients\n";
         text += &coefficients(couplings);
+        if args.coefficients {
+            text += "\nD_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i\n";
+            text += &entries(couplings);
+        }
     }
     text
 }
 
-/// Whether a tolerance took f32 for a row.
+/// Table 3 is about whole arms.
+fn table3(robot: &Robot) -> String {
+    let head = ["Table 3, torques", "mul", "add", "as written: mul", "add"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for compared in table3::comparisons(robot) {
+        let numbers = [compared.paper, compared.as_written];
+        let numbers = numbers.map(|Pair { mul, add }| [mul, add]);
+        let mut row = vec![compared.formulation.to_owned()];
+        row.extend(numbers.as_flattened().iter().map(u64::to_string));
+        rows.push(row);
+    }
+    format!("\n{}", output::table(&rows, 0))
+}
+
+/// Every coefficient, what it is, and why.
+fn entries(couplings: &Couplings) -> String {
+    let rows = couplings.listed().into_iter().map(|listed| {
+        let value = match (listed.zero, listed.equals, listed.opposite_of) {
+            (true, ..) => "0".to_owned(),
+            (_, Some(other), _) => other,
+            (_, _, Some(other)) => format!("−{other}"),
+            _ if listed.constant => "constant".to_owned(),
+            _ => "·".to_owned(),
+        };
+        let reason = listed.reason.map(|reason| reason.to_string());
+        vec![listed.name, value, reason.unwrap_or_default()]
+    });
+    output::table(&rows.collect::<Vec<_>>(), 2)
+}
+
+/// Returns whether a tolerance took f32 for a row.
 fn emits_single(explanations: &[Measured]) -> bool {
     let mut rows = explanations.iter().flat_map(|(e, _)| &e.rows);
     rows.any(|row| matches!(row.code, Code::Emitted(_, ScalarType::F32)))
 }
 
-fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<String>> {
+fn rows(explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<String>> {
     let steps = &explanation.rows;
     // Polynomials have counts of their own, where there are such.
     let polynomials = steps.iter().any(|row| row.counts.trig_mul > 0);
@@ -70,17 +103,6 @@ fn rows(robot: &Robot, explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<
     ];
     let head = head.concat().into_iter();
     let mut rows = vec![head.map(String::from).collect::<Vec<_>>()];
-    // Table 3 is about whole arms.
-    if explanation.function == Function::InverseDynamics
-        && explanation.scene_robot.scene().is_none()
-    {
-        let Pair { mul, add } = table3::paper(Formulation::LagrangeEuler, robot.joints.len());
-        rows.push(vec![
-            "Lagrange–Euler, Table 3".to_owned(),
-            mul.to_string(),
-            add.to_string(),
-        ]);
-    }
     for (index, (row, errors)) in steps.iter().zip(errors).enumerate() {
         let counts = row.counts;
         let mut title = row.step.title().to_owned();
@@ -237,8 +259,7 @@ fn coefficients(couplings: &Couplings) -> String {
             summary.total,
             summary.distinct
         );
-        for reason in REASONS {
-            let [zero, repeats] = tally(couplings, quantity, reason);
+        for (reason, Tally { zero, repeats }) in summary.reasons {
             if zero > 0 {
                 text += &format!("    {zero} vanish: {reason}\n");
             }

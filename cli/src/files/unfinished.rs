@@ -16,7 +16,7 @@ pub(super) struct Unfinished {
 const MAX_LEFT: usize = 16;
 
 impl Unfinished {
-    /// In the same folder, so that it can be renamed.
+    /// Creates it in the same folder, so that it can be renamed.
     pub(super) fn beside(path: &Path) -> io::Result<Unfinished> {
         let name = path.file_name().ok_or(ErrorKind::IsADirectory)?;
         let mut left = 0;

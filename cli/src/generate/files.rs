@@ -25,7 +25,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// What the arguments say, looked at before the work.
+    /// Returns what the arguments say, looked at before the work.
     ///
     /// # Errors
     /// Something cannot be written, or would be written over something else.
@@ -59,7 +59,13 @@ impl Files {
         };
         match args.check {
             true => files.comparable()?,
-            false => files.check(args, &path)?,
+            false => {
+                files.check(args, &path)?;
+                if !args.force {
+                    let written = [&files.code, &files.certificates];
+                    written.into_iter().flatten().try_for_each(Target::ours)?;
+                }
+            }
         }
         Ok(files)
     }

@@ -56,7 +56,7 @@ fn by_scalar(request: &Request, errors: &[Errors]) -> Value {
     Value::Object(pairs.collect())
 }
 
-/// What was proved, and how surely.
+/// Returns what was proved, and how surely.
 pub fn proof(proof: &Proof) -> Value {
     json!({
         "primes": proof.primes,

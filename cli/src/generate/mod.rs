@@ -27,6 +27,7 @@ use files::Files;
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    request.language = args.language;
     request.entries = args.entries;
     request.interface = args.interface;
     if args.contents {
@@ -37,30 +38,35 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     let kept = request.plan.take_if(|_| args.save_plan);
     // A comparison with what a whole search gives needs a whole search.
     let session = (!args.check).then(|| progress::watch(&mut request));
-    let generated = input::generated(&args.robot, &robot, &request)?;
+    let generated = input::generated(&args.robot, &robot, &request, args.check)?;
     let certificates = certificates(&robot, &request, &generated)?;
     drop(session);
+    let measured = args.verbose || args.json;
     let states = args.states.unwrap_or(match args.choice.effort {
         // Who ended the search waits no longer for its errors.
         Effort::Thorough if !generated.ended => MAX_STATES,
         _ => affordable_states(robot.joints.len()),
     });
-    if states > affordable_states(robot.joints.len()) {
+    if measured && states > affordable_states(robot.joints.len()) {
         output::note(&format!("measuring rounding errors at {states} states"));
     }
-    let footprints = args.report.then(|| processor::of(&generated, &args.target));
-    let footprints = footprints.as_deref();
+    let footprints = args
+        .report
+        .then(|| processor::Report::of(&generated, &args.target));
     if args.json {
         let mut said = json::json(&robot, &request, &generated, states);
-        if let Some(footprints) = footprints {
+        if let Some(footprints) = &footprints {
             said["processors"] = processor::json(footprints);
         }
         output::print_json(&said)?;
     } else {
-        output::note(&report::text(&robot, &request, &generated, states));
+        output::note(&match args.verbose {
+            true => report::text(&robot, &request, &generated, states),
+            false => report::brief(&robot, &request, &generated),
+        });
     }
     if let Some(footprints) = footprints.filter(|_| !args.json) {
-        output::print(&processor::text(&robot, &request, &generated, footprints))?;
+        output::print(&processor::text(&robot, &request, &generated, &footprints))?;
     }
     let plan = args.save_plan.then(|| {
         let kept = keep(&robot, &request, &generated, kept);

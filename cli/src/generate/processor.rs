@@ -1,83 +1,75 @@
 //! What functions take of processors, as text and for programs.
 
-use dalembert_codegen::workspace::backend::Entries;
 use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::robot::Robot;
-use dalembert_report::processor::estimate::Estimate;
-use dalembert_report::processor::target::Target;
-use dalembert_report::processor::targets::TARGETS;
+use dalembert_report::processor::target::{TARGETS, Target};
 use dalembert_report::processor::{Footprint, Sines, footprints, warnings};
 use serde_json::{Map, Value, json};
 
-use super::report;
 use crate::output;
 
-/// What every function takes of the processors that were named, or of all.
-pub fn of(generated: &Generated, named: &[&'static Target]) -> Vec<Footprint> {
-    let targets = match named.is_empty() {
-        true => TARGETS.iter().collect(),
-        false => named.to_vec(),
-    };
-    footprints(generated, &targets)
+/// Functions, and the processors that are warned of: those that were named, or all.
+pub struct Report {
+    footprints: Vec<Footprint>,
+    targets: Vec<&'static Target>,
 }
 
-/// The model in a few lines; the guide's page on real time has the rest.
+impl Report {
+    /// Describes every function.
+    pub fn of(generated: &Generated, named: &[&'static Target]) -> Report {
+        Report {
+            footprints: footprints(generated),
+            targets: match named.is_empty() {
+                true => TARGETS.iter().collect(),
+                false => named.to_vec(),
+            },
+        }
+    }
+}
+
+/// The meaning of the columns; the guide's page on real time has the rest.
 const MODEL: &str = "
 mul, add, div: with those of polynomials; square roots are calls
 alive: the greatest number of values alive at once, of those that are computed
 depth: the longest chain of operations; parallel: operations for each of it
 pairs: products that one sum alone reads; so many instructions fewer where a compiler
   contracts both to one (rustc does not, unless that keeps both roundings)
-estimates, from the program as printed: registers given out in its order, arguments loaded
-  once, results stored; without the instructions and the stack of functions that are called;
-  stack, code and constants are bytes; chain: cycles of the longest chain, behind the calls
 ";
 
 /// The tables.
-pub fn text(
-    robot: &Robot,
-    request: &Request,
-    generated: &Generated,
-    footprints: &[Footprint],
-) -> String {
+pub fn text(robot: &Robot, request: &Request, generated: &Generated, report: &Report) -> String {
+    let footprints = &report.footprints;
     let mut text = format!(
         "robot {}, input {}{}\n",
         robot.name,
         robot.short_hash(),
-        report::scene(request)
+        super::report::scene(request)
     );
     for scalar in scalars(footprints) {
         let of: Vec<&Footprint> = footprints.iter().filter(|f| f.scalar == scalar).collect();
         text += &format!("\n{scalar}\n{}", programs(&of));
-        let targets = of.first().map_or(0, |first| first.on.len());
-        for target in 0..targets {
-            text += &estimates(&of, target);
-        }
     }
     text += MODEL;
-    let mut targets = footprints.iter().flat_map(|f| &f.on);
-    if targets.any(|(target, estimate)| target.vectors && estimate.is_some()) {
-        text += "  on aarch64 and x86-64 compilers also make vectors, which take more stack\n";
-    }
     if generated
         .functions
         .iter()
         .any(|f| cuts(f.program.steps.len()))
     {
-        text += "part: pieces of a very long function, whose calls the estimates leave out\n";
+        text += "part: pieces of a very long function\n";
     }
     if request.entries > Entries::Single {
         text += "of functions of one state, with their `_with_sincos` within\n";
     }
-    for warning in warnings(footprints) {
+    for warning in warnings(footprints, &report.targets) {
         text += &format!("warning: {warning}\n");
     }
     text
 }
 
 fn cuts(steps: usize) -> bool {
-    steps > dalembert_codegen::workspace::backend::parts::LONG
+    steps > dalembert_codegen::workspace::language::parts::LONG
 }
 
 /// The scalars, in the order of the text.
@@ -87,7 +79,7 @@ fn scalars(footprints: &[Footprint]) -> Vec<ScalarType> {
     scalars
 }
 
-/// What does not depend on the processor.
+/// Returns what does not depend on the processor.
 fn programs(footprints: &[&Footprint]) -> String {
     let fuses = footprints.iter().any(|f| f.counts.fma > 0);
     let mut head = vec!["function", "mul", "add"];
@@ -146,62 +138,9 @@ fn listed(words: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// What is estimated of a processor.
-fn estimates(footprints: &[&Footprint], target: usize) -> String {
-    let on = footprints.iter().filter_map(|footprint| {
-        let (target, estimate) = footprint.on.get(target)?;
-        Some((*footprint, *target, *estimate))
-    });
-    let on: Vec<_> = on.collect();
-    let Some(&(first, target, _)) = on.first() else {
-        return String::new();
-    };
-    let scalar = first.scalar;
-    let Some(unit) = target.unit(scalar) else {
-        return format!(
-            "\n{scalar} on {}: it has no {scalar}, every operation calls software\n",
-            target.name
-        );
-    };
-    let head = [
-        "function",
-        "instructions",
-        "spills",
-        "stack",
-        "code",
-        "constants",
-        "chain",
-    ];
-    let mut rows = vec![head.map(String::from).to_vec()];
-    for (footprint, _, estimate) in on {
-        let Some(estimate) = estimate else {
-            continue;
-        };
-        let mut row = vec![footprint.function.to_string()];
-        let Estimate {
-            traffic,
-            instructions,
-            stack,
-            code,
-            constants,
-            cycles,
-        } = estimate;
-        let numbers = [instructions, traffic.spills, stack, code, constants, cycles];
-        row.extend(numbers.map(|number| number.to_string()));
-        rows.push(row);
-    }
-    format!(
-        "\n{scalar} on {} ({}): {} registers, {} kept over calls\n{}",
-        target.name,
-        target.about,
-        unit.registers,
-        unit.kept,
-        output::table(&rows, 0)
-    )
-}
-
-/// The same for programs: by scalar, then by function.
-pub fn json(footprints: &[Footprint]) -> Value {
+/// Writes it as JSON: by scalar, then by function.
+pub fn json(report: &Report) -> Value {
+    let footprints = &report.footprints;
     let scalars = scalars(footprints).into_iter().map(|scalar| {
         let of = footprints.iter().filter(|f| f.scalar == scalar);
         let functions: Map<String, Value> = of.map(|f| (f.function.to_string(), one(f))).collect();
@@ -209,7 +148,7 @@ pub fn json(footprints: &[Footprint]) -> Value {
     });
     json!({
         "scalars": scalars.collect::<Map<_, _>>(),
-        "warnings": warnings(footprints),
+        "warnings": warnings(footprints, &report.targets),
     })
 }
 
@@ -221,23 +160,6 @@ fn one(footprint: &Footprint) -> Value {
     } = footprint.sines;
     let calls = footprint.path.calls.iter();
     let calls: Map<String, Value> = calls.map(|c| (c.name.clone(), json!(c.times))).collect();
-    let on = footprint.on.iter().map(|(target, estimate)| {
-        let estimate = estimate.map(|estimate| {
-            json!({
-                "instructions": estimate.instructions,
-                "loads": estimate.traffic.loads,
-                "spills": estimate.traffic.spills,
-                "copies": estimate.traffic.copies,
-                "slots": estimate.traffic.slots,
-                "registers": estimate.traffic.registers,
-                "stack_bytes": estimate.stack,
-                "code_bytes": estimate.code,
-                "constant_bytes": estimate.constants,
-                "chain_cycles": estimate.cycles,
-            })
-        });
-        (target.name.to_owned(), json!(estimate))
-    });
     json!({
         "counts": output::counts(&footprint.counts),
         "sines": { "libm": libm, "together": together, "polynomial": polynomial },
@@ -248,6 +170,5 @@ fn one(footprint: &Footprint) -> Value {
         "calls": calls,
         "f64": footprint.path.f64(),
         "branches": footprint.path.branches(),
-        "on": on.collect::<Map<_, _>>(),
     })
 }

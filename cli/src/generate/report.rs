@@ -13,16 +13,52 @@ use dalembert_report::explain::errors::{Errors, of_program};
 
 use crate::output;
 
-/// What a person wants to know about the code.
-pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
-    let mut text = format!(
+/// The counts of the code and that it was proved, with what a tolerance bounds.
+pub fn brief(robot: &Robot, request: &Request, generated: &Generated) -> String {
+    let mut text = head(robot, request);
+    text += &counts(generated, false);
+    text += &sines(generated);
+    for function in &generated.functions {
+        if let Some(admitted) = &function.admitted {
+            text += &tolerance(admitted, generated.ended);
+        }
+    }
+    let left_out = generated.functions.iter().any(|f| f.admitted.is_some());
+    text += match left_out {
+        true => {
+            "\nproved before anything was left out; the text was read back and is the certified program\n"
+        }
+        false => {
+            "\nproved equal to the equations of motion; the text was read back and is the proved program\n"
+        }
+    };
+    text + &warnings(generated)
+}
+
+/// Robot and scene.
+pub fn head(robot: &Robot, request: &Request) -> String {
+    format!(
         "robot {}, {} joints, input {}{}\n\n",
         robot.name,
         robot.joints.len(),
         robot.short_hash(),
         scene(request)
-    );
-    text += &counts(generated);
+    )
+}
+
+/// Returns what a user should know.
+pub fn warnings(generated: &Generated) -> String {
+    let warnings = generated.warnings.iter();
+    warnings
+        .map(|warning| format!("warning: {warning}\n"))
+        .collect()
+}
+
+/// All that there is to say about the code.
+pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
+    let mut text = head(robot, request);
+    text += &counts(generated, true);
+    text += &sines(generated);
     text += &limits(generated);
     text += &errors(robot, request, generated, states);
     text += "\nmul add sincos after each stage\n";
@@ -40,13 +76,10 @@ pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usi
         true => "the text was read back: it is the certified program, each constant rounded once\n",
         false => "the text was read back: it is the proved program, each constant rounded once\n",
     };
-    for warning in &generated.warnings {
-        text += &format!("warning: {warning}\n");
-    }
-    text
+    text + &warnings(generated)
 }
 
-/// What the limit on rounding errors cost each function.
+/// Returns what the limit on rounding errors cost each function.
 pub fn limits(generated: &Generated) -> String {
     let mut text = String::new();
     for function in &generated.functions {
@@ -71,7 +104,7 @@ pub fn limits(generated: &Generated) -> String {
     text
 }
 
-/// What rounding costs each program in each scalar; what a tolerance admits has
+/// Returns what rounding costs each program in each scalar; what a tolerance admits has
 /// its certificates.
 pub fn measured(
     robot: &Robot,
@@ -118,7 +151,7 @@ fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize
     )
 }
 
-/// What a tolerance admitted: E by cause, and what was left out.
+/// Returns what a tolerance admitted: E by cause, and what was left out.
 fn tolerance(admitted: &Admitted, ended: bool) -> String {
     let mut text = String::new();
     for certificate in &admitted.certificates {
@@ -172,8 +205,9 @@ pub fn scene(request: &Request) -> String {
     scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name))
 }
 
-/// The table of operation counts.
-pub fn counts(generated: &Generated) -> String {
+/// The table of operation counts; `whole` adds what each was found from, and how sure its
+/// proof is.
+pub fn counts(generated: &Generated, whole: bool) -> String {
     let any = |of: fn(&Counts) -> usize| generated.functions.iter().any(|f| of(&f.counts) > 0);
     let (fuses, roots) = (any(|counts| counts.fma), any(|counts| counts.sqrt));
     let fma = |cell: String| fuses.then_some(cell);
@@ -181,7 +215,11 @@ pub fn counts(generated: &Generated) -> String {
     let mut head = ["function", "mul", "add"].map(String::from).to_vec();
     head.extend(fma("fma".to_owned()));
     head.push("div".to_owned());
-    let tail = ["sincos", "from", "proof"].map(String::from);
+    let tail: &[&str] = match whole {
+        true => &["sincos", "from", "proof"],
+        false => &["sincos"],
+    };
+    let tail = tail.iter().map(|name| (*name).to_owned());
     let sqrt = root("sqrt".to_owned());
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().chain(sqrt).chain(tail).collect()];
     for function in &generated.functions {
@@ -194,8 +232,12 @@ pub fn counts(generated: &Generated) -> String {
         row.extend(fma(counts.fma.to_string()));
         row.push(counts.div.to_string());
         row.extend(root(counts.sqrt.to_string()));
+        row.push(counts.sincos.to_string());
+        if !whole {
+            rows.push(row);
+            continue;
+        }
         row.extend([
-            counts.sincos.to_string(),
             match function.planned {
                 true => format!("{}, plan", function.source.name()),
                 false => function.source.name().to_owned(),
@@ -207,11 +249,11 @@ pub fn counts(generated: &Generated) -> String {
         ]);
         rows.push(row);
     }
-    output::table(&rows, 2) + &sines(generated)
+    output::table(&rows, if whole { 2 } else { 0 })
 }
 
 /// The table of the polynomials that give sines, if any do.
-fn sines(generated: &Generated) -> String {
+pub fn sines(generated: &Generated) -> String {
     let head = [
         "function", "scalar", "trig_mul", "trig_add", "angles", "error",
     ];

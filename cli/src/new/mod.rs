@@ -9,12 +9,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dalembert_import::{MAX_BYTES, Options, import};
+use dalembert_import::{MAX_BYTES, import};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::suggested_name;
 use serde_json::json;
 
-use crate::args::NewArgs;
+use crate::args::{ChainArgs, NewArgs};
 use crate::outcome::{Failure, Outcome};
 use crate::{input, output};
 
@@ -29,8 +29,9 @@ pub fn run(args: &NewArgs) -> Outcome {
         )));
     }
     let robot_file = match &args.from {
+        None if args.chain.is_given() => return Err(no_urdf("the two links")),
         None => texts::ROBOT.to_owned(),
-        Some(from) => robot_file(from)?,
+        Some(from) => robot_file(from, &args.chain)?,
     };
     let reading = reading(&robot_file)?;
     let robot = &reading.robot.name;
@@ -87,8 +88,8 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
     }
 }
 
-/// The text of a robot file, or the robot file of a URDF.
-fn robot_file(from: &Path) -> Result<String, Failure> {
+/// Returns the text of a robot file, or the robot file of a URDF's chain.
+fn robot_file(from: &Path, chain: &ChainArgs) -> Result<String, Failure> {
     let name = from.display().to_string();
     let source = String::from_utf8(input::bytes(from, MAX_BYTES as u64)?)
         .map_err(|_| Failure::Input(format!("error: `{name}` is not UTF-8 text")))?;
@@ -97,23 +98,31 @@ fn robot_file(from: &Path) -> Result<String, Failure> {
         .trim_start()
         .starts_with('<')
     {
+        if chain.is_given() {
+            return Err(no_urdf(&format!("the robot file `{name}`")));
+        }
         return match read::parse(&source, &read::Options::default()) {
             Ok(_) => Ok(source),
             Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
         };
     }
-    let file = from.file_name().unwrap_or_default().to_string_lossy();
-    let options = Options {
-        file: file.into_owned(),
-        ..Options::default()
-    };
-    match import(&source, &options) {
-        Ok(imported) => Ok(imported.text),
-        Err(errors) => Err(Failure::Input(format!(
-            "{}\n`dalembert import {name}` has options for these; then --from its robot file",
-            errors.render(&name, &source)
-        ))),
+    match import(&source, &chain.options(from)) {
+        Ok(imported) => {
+            for note in &imported.notes {
+                output::note(&note.render(&name, &source));
+            }
+            Ok(imported.text)
+        }
+        Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
     }
+}
+
+/// Refuses options for a URDF where there is none.
+fn no_urdf(robot: &str) -> Failure {
+    Failure::Input(format!(
+        "error: {robot} has one chain, and every option for a URDF says which\n  = help: leave \
+         --base, --tip, --lock, --without and --exact out, or give a URDF by --from"
+    ))
 }
 
 /// The robot of a text that was read before, or is this command's own.

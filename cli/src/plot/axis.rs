@@ -14,11 +14,11 @@ pub struct Axis {
 pub struct Tick {
     /// Where it is in the picture.
     pub place: f64,
-    /// What is written beside it, if there is room.
+    /// The text beside it, if there is room.
     pub name: Option<String>,
 }
 
-/// What is left free at each end, so that no mark lies on the frame.
+/// The share left free at each end, so that no mark lies on the frame.
 const MARGIN: f64 = 0.03;
 /// At least so much of a decade is shown: equal values have no scale.
 const SPAN: f64 = 0.1;
@@ -109,7 +109,7 @@ impl Axis {
         (first..=last).map(|k| k as f64 * step).collect()
     }
 
-    /// Whether the names of these values are apart.
+    /// Returns whether the names of these values are apart.
     fn is_roomy(&self, values: &[f64]) -> bool {
         let gaps = values.windows(2);
         let mut gaps = gaps.map(|pair| (self.place(pair[1]) - self.place(pair[0])).abs());

@@ -37,7 +37,7 @@ svg{font:12px sans-serif;color:#222}\
 /// Dashes tell curves apart where colours do not print.
 const DASHES: [&str; 4] = ["", "7 4", "2 3", "9 3 2 3"];
 
-/// What a mark looks like. An open one shows a full one that lies on it.
+/// The look of a mark. An open one shows a full one that lies on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     Ring,

@@ -60,7 +60,7 @@ pub fn text(divided: &Divided) -> String {
     text
 }
 
-/// The same for programs.
+/// Writes it as JSON.
 pub fn json(divided: &Divided) -> Value {
     let nearest = &divided.nearest;
     let rows = divided.rows.iter().map(|row| {

@@ -18,7 +18,7 @@ const KINDS: [(&str, Shape); 4] = [
     ("f32, polynomials", Shape::Diamond),
 ];
 
-/// What the chart shows of a variant.
+/// One variant, as the chart shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Dot {
     kind: usize,

@@ -12,8 +12,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use dalembert_codegen::workspace::backend::result::structure;
 use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::language::result::structure;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_report::sweep::{Point, Time};
 

@@ -33,11 +33,11 @@ use crate::{input, output};
 /// Tolerances unless others are asked for; zero is always there.
 const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
 
-/// What is written.
+/// The files that are written.
 const CSV: &str = "tradeoff.csv";
 const SVG: &str = "tradeoff.svg";
 const CERTIFICATES: &str = "certificates";
-/// What a run that is ended leaves for the next one.
+/// The folder of what a run that is ended leaves for the next one.
 const RUNGS: &str = "rungs";
 
 /// Runs the subcommand.
@@ -126,7 +126,7 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     }
 }
 
-/// What tells this run apart from others, but for the list of tolerances.
+/// Returns what tells this run apart from others, but for the list of tolerances.
 fn identity(
     reading: &Reading,
     scene: Option<&Scene>,
@@ -170,7 +170,7 @@ fn tolerances(args: &TradeoffArgs) -> Result<Vec<f64>, Failure> {
     Ok(tolerances)
 }
 
-/// What was asked for, else the scene's scale, else the actuators.
+/// Returns what was asked for, else the scene's scale, else the actuators.
 fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
     let own = scene.and_then(|scene| scene.tolerance.as_ref());
     let own = own.map(|tolerance| tolerance.relative_to);
@@ -183,7 +183,7 @@ fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
         .unwrap_or(Scale::Actuator)
 }
 
-/// What a scale is called on the command line.
+/// Returns what a scale is called on the command line.
 fn word(scale: Scale) -> &'static str {
     let mut words = Scale::WORDS.into_iter();
     let found = words.find(|(_, other)| *other == scale);

@@ -77,7 +77,7 @@ impl<'a> Given<'a> {
         }
     }
 
-    /// What the states give, and how many of them give it.
+    /// Returns what the states give, and how many of them give it.
     fn keys(&self) -> BTreeMap<Quantity, usize> {
         let mut keys = BTreeMap::new();
         for quantity in self.states.iter().flat_map(|state| state.known.keys()) {
@@ -86,7 +86,7 @@ impl<'a> Given<'a> {
         keys
     }
 
-    /// What was compared, in one line or two.
+    /// Returns what was compared, in one line or two.
     pub fn summary(&self) -> String {
         let named = |compared: bool| {
             let keys = self.keys().into_iter().filter(|(quantity, _)| {
@@ -183,7 +183,7 @@ impl<'a> Given<'a> {
         self.diagnosis.is_none()
     }
 
-    /// What disagrees, and why.
+    /// Returns what disagrees, and why.
     pub fn disagreement(&self, robot: &Robot) -> Option<String> {
         let diagnosis = self.diagnosis.as_ref()?;
         let mut text = format!(

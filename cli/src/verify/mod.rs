@@ -61,7 +61,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     let mut given = given.transpose()?;
     let session = progress::watch(&mut request);
     // What cannot be proved is not generated: this ends with the reason.
-    let generated = input::generated(&args.robot, &robot, &request)?;
+    let generated = input::generated(&args.robot, &robot, &request, false)?;
     drop(session);
     let scene_robot = request.scene_robot(&robot).map_err(GenerateError::Scene)?;
     let states = scene_robot.states(STATES, SEED);

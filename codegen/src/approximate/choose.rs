@@ -12,7 +12,8 @@ use dalembert_model::scene::{Scale, Tolerance};
 
 use crate::approximate::admitted::{Admitted, Claim, within};
 use crate::approximate::error::{NoPolynomials, ToleranceError, Unbounded};
-use crate::approximate::prune::{self, PruneSettings};
+use crate::approximate::prune::{self, PruneSettings, Pruned};
+use crate::approximate::reduce;
 use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::bound::definite::{Indefinite, least_eigenvalue};
@@ -25,6 +26,7 @@ use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
 use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::Stage;
+use crate::parallel;
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::watch::{FunctionWatch, Part};
@@ -245,6 +247,22 @@ impl<'a> ErrorBudget<'a> {
         settings: &PruneSettings,
         bound_effort: BoundEffort,
     ) -> Result<Admitted, ToleranceError> {
+        self.choose_from(&[], tolerances, scalars, settings, bound_effort)
+    }
+
+    /// The same, of what comes of these programs as well, which others found for smaller
+    /// tolerances: never dearer than the first of them.
+    ///
+    /// # Errors
+    /// As [`ErrorBudget::choose`].
+    pub fn choose_from(
+        &self,
+        from: &[Program],
+        tolerances: &[f64],
+        scalars: &[ScalarType],
+        settings: &PruneSettings,
+        bound_effort: BoundEffort,
+    ) -> Result<Admitted, ToleranceError> {
         let meter = Meter::new(settings.work);
         let spent = || match settings.work {
             Some(limit) if meter.is_over() => Err(ToleranceError::Work {
@@ -258,6 +276,7 @@ impl<'a> ErrorBudget<'a> {
         self.definite(scalars)?;
         spent()?;
         let mut start: Option<Option<Program>> = None;
+        let mut models: Option<Vec<Program>> = None;
         for aside in [2.0, 8.0] {
             let Some(allowances) = self.allowances(tolerances, scalars, aside, bound_effort) else {
                 break;
@@ -274,14 +293,37 @@ impl<'a> ErrorBudget<'a> {
                 )
             });
             let start = start.as_ref();
-            let pruned = prune::watched(exact, start, limits, &allowances, settings, watch);
+            let edited = prune::watched(exact, start, limits, &allowances, settings, watch);
             spent()?;
-            if pruned.stages.is_empty() {
+            // Where nothing may go, no smaller model is near enough.
+            if edited.stages.is_empty() && from.is_empty() {
                 break;
             }
-            let variant = self.certified(&pruned.stages, &pruned.program, scalars, bound_effort);
-            if variant.within(tolerances).is_ok() && variant.is_definite() {
-                return Ok(variant);
+            let reduces = settings.models > 0 && !edited.stages.is_empty();
+            let mut found = vec![edited];
+            if reduces || !from.is_empty() {
+                let models = models.get_or_insert_with(|| match reduces {
+                    true => reduce::programs(self.scene_robot, exact, limits, &allowances, watch),
+                    false => Vec::new(),
+                });
+                let mut starts = prune::promising(exact, models, limits, &allowances, settings);
+                starts.extend(from);
+                let pruned = |start: &&Program| {
+                    prune::watched(exact, Some(start), limits, &allowances, settings, watch)
+                };
+                found.extend(parallel::each(&starts, pruned));
+                found.retain(|pruned| !pruned.stages.is_empty());
+                // Of equals the edited exact program.
+                found.sort_by_key(|pruned| prune::cost(&pruned.program));
+            }
+            for Pruned {
+                stages, program, ..
+            } in found
+            {
+                let variant = self.certified(&stages, &program, scalars, bound_effort);
+                if variant.within(tolerances).is_ok() && variant.is_definite() {
+                    return Ok(variant);
+                }
             }
             if watch.is_some_and(|watch| watch.is_over()) {
                 break;

@@ -1,7 +1,7 @@
 //! The lossy search: the cheapest program that a tolerance admits.
 //!
 //! - [`prune`]: the cheapest edits that a bound admits; `regrouping`: the exact
-//!   program that they leave least of
+//!   program that they leave least of; `reduce`: smaller models to start from
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
 //! - [`choose`]: the cheapest variant; [`admitted`]: with its certificates; [`error`]: why
 //!   there is none
@@ -12,6 +12,8 @@
 pub(crate) mod admitted;
 pub(crate) mod choose;
 pub(crate) mod error;
+pub(crate) mod motions;
 pub(crate) mod prune;
+mod reduce;
 mod regrouping;
 pub(crate) mod sines;

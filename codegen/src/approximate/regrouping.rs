@@ -110,6 +110,6 @@ impl Descent<'_> {
             alike: 0,
             ..*self.settings
         };
-        appraise(program, self.limits, &allowances, &settings)
+        appraise(program, program, self.limits, &allowances, &settings)
     }
 }

@@ -5,10 +5,10 @@ use std::fmt;
 use dalembert_model::scene::Scale;
 
 use super::work::TooMuch;
-use crate::backend::read::error::TextError;
 use crate::bound::definite::Indefinite;
 use crate::bound::ranges::Finding;
 use crate::edits::BadEdit;
+use crate::language::read::TextError;
 use crate::sincos::proof::Errors;
 use crate::split::ErrorByCause;
 use crate::states::JointState;

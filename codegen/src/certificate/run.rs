@@ -4,7 +4,7 @@
 //! not to be aimed at: they are drawn from a hash of all that it says. Entries
 //! of locked joints, and arguments that the function does not have, are filled
 //! with other numbers at every state, which the text may not notice. The
-//! reference_formulation is the robot's own recursion in 256 bits
+//! reference is the robot's own recursion in 256 bits
 //! ([`reference`](crate::verify::reference)), so nothing is granted: the bound
 //! holds at each state, or it is refuted.
 

@@ -3,19 +3,20 @@
 use dalembert_model::scene::Scale;
 
 use super::Certificate;
-use crate::backend::{MathPath, Printed, function};
 use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::bound::turns::turns_freely;
-use crate::edits::{Stage, difference, has_edits};
+use crate::edits::{Stage, deviation, difference, has_edits};
+use crate::language::{MathPath, Printed, function};
 use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
 use crate::sincos::library_error::Called;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::ErrorByCause;
+use crate::verify::exact::prove_same;
 
 /// What a claim is about, whatever the scalar.
 #[derive(Clone, Copy, Debug)]
@@ -42,10 +43,11 @@ impl Subject<'_> {
     /// The largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
     pub(crate) fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
-        if !has_edits(self.stages) {
-            return vec![0.0; self.scales.len()];
-        }
-        let error = difference(self.stages);
+        let error = match direct(self.stages, self.emitted) {
+            Some(exact) => deviation(exact, self.emitted),
+            None if has_edits(self.stages) => difference(self.stages),
+            None => return vec![0.0; self.scales.len()],
+        };
         magnitudes(&error, self.limits, self.scales, 0.0, bound_effort.budget)
     }
 
@@ -154,6 +156,19 @@ impl Subject<'_> {
     /// The polynomials for sines in a scalar.
     pub(crate) fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
         sincos::of(self.sines, scalar)
+    }
+}
+
+/// Returns the exact program of a claim that has no edits and emits another function: it is
+/// bounded against that, however it was found. None for D, which must be shown to stay
+/// definite.
+pub(super) fn direct<'s>(stages: &'s [Stage], emitted: &Program) -> Option<&'s Program> {
+    match stages {
+        [stage] if stage.edits.is_empty() && !has_inertia(emitted) => {
+            let exact = &stage.program;
+            prove_same(exact, emitted).is_err().then_some(exact)
+        }
+        _ => None,
     }
 }
 

@@ -32,7 +32,7 @@ impl Errors {
         self.say(name, &text, "");
     }
 
-    /// What the parser of the grammar's head says.
+    /// Adds the message of the parser of the grammar's head.
     pub(super) fn syntax(&mut self, error: syn::Error) {
         self.0.push(error);
     }

@@ -12,11 +12,14 @@ use dalembert_model::scene::Scene;
 
 use super::errors::Errors;
 use super::invocation::{self, Invocation, RobotSource};
+use super::messages as m;
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
+use crate::function::Function;
 use crate::generate::in_scene::find;
 use crate::generate::parameters::ParameterError;
-use crate::generate::{GenerateError, Generated, Request, generate};
+use crate::generate::{GenerateError, Generated, Request, generate_anew};
+use crate::language::Entries;
 use crate::plan::{self, Plan};
 use crate::program::ScalarType;
 
@@ -25,17 +28,23 @@ use crate::program::ScalarType;
 ///
 /// Paths of robot files are relative to `base`.
 pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
-    expand_from(input, &[base])
+    expand_from(input, &[base], true)
 }
 
 /// [`expand`], where paths of robot files are relative to the first of these folders that
-/// has the file.
-pub fn expand_from(input: TokenStream, folders: &[&Path]) -> TokenStream {
+/// has the file, and `has_batch` says whether the crate `dalembert` has its feature `batch`.
+pub fn expand_from(input: TokenStream, folders: &[&Path], has_batch: bool) -> TokenStream {
     let mut errors = Errors::default();
     let Some(invocation) = invocation::read(input, &mut errors) else {
         return errors.into_tokens();
     };
+    if invocation.entries == Entries::Batch && !has_batch {
+        errors.push(&invocation.entries_at, &m::NO_BATCH);
+    }
     let source = source(&invocation, folders, &mut errors);
+    if invocation.outputs.is_none() && invocation.scene.is_none() && source.outputs.is_empty() {
+        errors.push(&invocation.name, &m::NO_OUTPUTS);
+    }
     let generated = match &source.robot {
         Some(robot) if errors.is_empty() => functions(robot, &source, &invocation, &mut errors),
         _ => None,
@@ -65,6 +74,7 @@ pub fn expand_from(input: TokenStream, folders: &[&Path]) -> TokenStream {
 #[derive(Default)]
 struct Source {
     robot: Option<Robot>,
+    outputs: Vec<Function>,
     scenes: Vec<Scene>,
     joints: Option<usize>,
     warnings: Vec<Warning>,
@@ -81,6 +91,7 @@ fn source(invocation: &Invocation, folders: &[&Path], errors: &mut Errors) -> So
             let in_range = (1..=Robot::MAX_JOINTS).contains(&read.joints);
             Source {
                 robot: read.robot,
+                outputs: read.outputs,
                 scenes: read.scenes,
                 joints: in_range.then_some(read.joints),
                 warnings: read.warnings,
@@ -129,6 +140,7 @@ fn file(
                 None => file.scenes,
             },
             robot: Some(file.robot),
+            outputs: file.outputs,
             plan: file.plan,
             watch,
         },
@@ -156,7 +168,7 @@ fn path_exists(path: &str) -> bool {
     Path::new(path).is_file()
 }
 
-/// What is odd about the robot in the file, at the file's name: a macro knows
+/// Returns what is odd about the robot in the file, at the file's name: a macro knows
 /// no place in another file.
 fn warnings(file: &RobotFile, literal: &LitStr) -> Vec<Warning> {
     let shown = literal.value();
@@ -206,8 +218,13 @@ fn functions(
         work: Request::work_while_compiling(invocation.effort),
         ..Request::default()
     };
+    let request = request.for_file(&source.outputs);
     let request = request.choose(outputs, invocation.scalars.clone(), scene);
-    generate(robot, &request)
+    let shown = match &invocation.robot {
+        RobotSource::File(path) => path.value(),
+        RobotSource::Table(_) => String::new(),
+    };
+    generate_anew(robot, &request, &shown)
         .map_err(|error| {
             let function = match &error {
                 GenerateError::Empty
@@ -215,6 +232,7 @@ fn functions(
                 | GenerateError::Unexplained(_)
                 | GenerateError::StalePlan { .. }
                 | GenerateError::StaleScene { .. }
+                | GenerateError::Language(..)
                 | GenerateError::Scene(_) => None,
                 GenerateError::Parameter(
                     ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _),

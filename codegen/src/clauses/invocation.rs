@@ -13,16 +13,16 @@ use super::errors::Errors;
 use super::list;
 use super::messages as m;
 use super::statement::{self, Pair, pairs_of, trees};
-use crate::backend::Entries;
 use crate::emit::Interface;
 use crate::function::Function;
 use crate::generate::{Fma, Prefer};
+use crate::language::Entries;
 use crate::portfolio::Start;
 use crate::program::ScalarType;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
-/// What an invocation says.
+/// The content of an invocation.
 pub(super) struct Invocation {
     /// Its documentation and other attributes, for each module.
     pub(super) attributes: Vec<Attribute>,
@@ -30,7 +30,7 @@ pub(super) struct Invocation {
     pub(super) name: Ident,
     pub(super) robot: RobotSource,
     /// With the tokens that asked for them; after an error those that were
-    /// probably meant. The scene's if none were chosen.
+    /// probably meant. The scene's or the robot file's if none were chosen.
     pub(super) outputs: Option<Vec<(Function, TokenStream)>>,
     pub(super) scalars: Option<Vec<ScalarType>>,
     pub(super) start: Start,
@@ -40,6 +40,8 @@ pub(super) struct Invocation {
     /// The error of polynomials stands in it once all clauses are read.
     pub(super) sincos: SinCos,
     pub(super) entries: Entries,
+    /// The word that asked for them.
+    pub(super) entries_at: TokenStream,
     pub(super) interface: Interface,
     /// With the tokens that asked for them.
     pub(super) parameters: Vec<(RuntimeParameter, TokenStream)>,
@@ -100,6 +102,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         fma: Fma::Off,
         sincos: SinCos::Auto,
         entries: Entries::Single,
+        entries_at: TokenStream::new(),
         interface: Interface::Functions,
         parameters: Vec::new(),
         scene: None,
@@ -117,9 +120,6 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         (SinCos::Polynomial { error }, Some((_, value))) => *error = Some(value),
         (_, Some((key, _))) => errors.push(key, &m::NO_POLYNOMIALS),
         (_, None) => {}
-    }
-    if invocation.outputs.is_none() && invocation.scene.is_none() {
-        errors.push(&invocation.name, &m::NO_OUTPUTS);
     }
     Some(invocation)
 }
@@ -176,7 +176,7 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
     pairs_of(&trees[..end], ';', may_stand, errors)
 }
 
-/// What may stand behind a clause's name, for who wrote nothing there.
+/// Returns what may stand behind a clause's name, for who wrote nothing there.
 fn may_stand(clause: &str) -> String {
     match clause {
         "outputs" => list::known::<Function>(),
@@ -237,7 +237,10 @@ impl Invocation {
             Some("interface") => {
                 self.interface = list::word(value, errors).unwrap_or(self.interface);
             }
-            Some("entries") => self.entries = list::word(value, errors).unwrap_or(self.entries),
+            Some("entries") => {
+                self.entries = list::word(value, errors).unwrap_or(self.entries);
+                self.entries_at = value.iter().cloned().collect();
+            }
             Some("parameters") => {
                 for (parameter, at) in list::words::<RuntimeParameter>(value, errors) {
                     if self.parameters.iter().any(|(known, _)| *known == parameter) {

@@ -163,7 +163,7 @@ fn nested(word: &Ident, before: &[Function]) -> Option<BundleError> {
     matches!(error, BundleError::Nested(_)).then_some(error)
 }
 
-/// Whether words are added in it, and nothing else.
+/// Returns whether words are added in it, and nothing else.
 fn is_sum(item: &[TokenTree]) -> bool {
     let word = |tree: &TokenTree| matches!(tree, TokenTree::Ident(_)) || is_punct(tree, '+');
     item.iter().all(word)

@@ -2,7 +2,7 @@
 //! What can be wrong with a robot is the reader's to say, which words there
 //! are is [`words`](super::words)'.
 
-/// What is wrong, and what would be right.
+/// A message: the fault, and what would be right.
 pub(super) struct Message {
     pub(super) text: &'static str,
     pub(super) help: &'static str,
@@ -39,6 +39,10 @@ pub(super) const NO_VALUE: Message = message("expected a value", "");
 pub(super) const NO_OUTPUTS: Message = message(
     "there is no clause `outputs`",
     "outputs: inverse_dynamics, gravity;",
+);
+pub(super) const NO_BATCH: Message = message(
+    "`entries: batch` needs the feature `batch` of the crate dalembert",
+    "in Cargo.toml: dalembert = { version = \"0.1\", features = [\"batch\"] }",
 );
 pub(super) const NO_WORD: Message = message("expected a word", "");
 pub(super) const NO_COMMA: Message = message("expected `,` or `;`", "");

@@ -10,8 +10,8 @@ use syn::Attribute;
 
 use super::invocation::Invocation;
 use super::warnings::{self, Warning};
-use crate::backend::{Entries, MathPath};
 use crate::emit::Interface;
+use crate::language::{Entries, MathPath};
 use crate::program::Library;
 use crate::sincos::SinCos;
 

@@ -9,6 +9,7 @@ use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
+use crate::function::Function;
 use crate::plan::{self, Plan, PlanFileError};
 
 /// A robot file that was read.
@@ -16,6 +17,8 @@ use crate::plan::{self, Plan, PlanFileError};
 pub struct RobotFile {
     /// The robot.
     pub robot: Robot,
+    /// The functions that the file is for; empty if it does not say.
+    pub outputs: Vec<Function>,
     /// Its scenes.
     pub scenes: Vec<Scene>,
     /// Warnings and notes.
@@ -46,6 +49,7 @@ impl RobotFile {
         match read::parse_bytes(&bytes, &Options::default()) {
             Ok(reading) => Ok(RobotFile {
                 robot: reading.robot,
+                outputs: reading.outputs,
                 scenes: reading.scenes,
                 notes: reading.notes,
                 source,
@@ -85,7 +89,7 @@ pub enum RobotFileError {
     Unreadable {
         /// The path as messages show it.
         shown: String,
-        /// What the system says.
+        /// The message of the system.
         error: String,
     },
     /// The plan beside it cannot be read.
@@ -96,13 +100,13 @@ pub enum RobotFileError {
         shown: String,
         /// The text.
         source: String,
-        /// What is wrong with it.
+        /// The fault.
         diagnostics: Diagnostics,
     },
 }
 
 impl RobotFileError {
-    /// What the system says of a path, in the words that every way in has for it;
+    /// Returns what the system says of a path, in the words that every way in has for it;
     /// messages call it by a shorter name.
     pub fn of_system(path: &Path, shown: &str, error: &std::io::Error) -> RobotFileError {
         match error.kind() {
@@ -143,7 +147,7 @@ impl RobotFileError {
         }
     }
 
-    /// How many joints the file seems to have. A file with an error in it has
+    /// Returns how many joints the file seems to have. A file with an error in it has
     /// no robot to ask, and what users wrote calls functions of some size.
     pub fn joints(&self) -> Option<usize> {
         let RobotFileError::Wrong { source, .. } = self else {

@@ -20,7 +20,7 @@ pub(super) fn pairs(trees: &[TokenTree], separator: char, errors: &mut Errors) -
     pairs_of(trees, separator, |_| String::new(), errors)
 }
 
-/// The same where somebody knows what may stand behind a key.
+/// Reads the pairs where somebody knows what may stand behind a key.
 pub(super) fn pairs_of(
     trees: &[TokenTree],
     separator: char,
@@ -96,7 +96,7 @@ fn colon<'t>(
     }
 }
 
-/// How many trees belong to a value: up to a separator, or to the next key
+/// Returns how many trees belong to a value: up to a separator, or to the next key
 /// where the separator was forgotten.
 fn length(trees: &[TokenTree], separator: char) -> usize {
     let ends = |index: &usize| {
@@ -116,7 +116,7 @@ fn is_separator(tree: &TokenTree) -> bool {
     is_punct(tree, ';') || is_punct(tree, ',')
 }
 
-/// Whether a tree is this punctuation.
+/// Returns whether a tree is this punctuation.
 pub(super) fn is_punct(tree: &TokenTree, c: char) -> bool {
     matches!(tree, TokenTree::Punct(punct) if punct.as_char() == c)
 }

@@ -21,11 +21,13 @@ use super::errors::Errors;
 use super::messages as m;
 use super::statement::{self, Pair, group, pairs, trees};
 use super::warnings::Warning;
+use crate::function::Function;
 
 /// A robot and what is worth knowing about it; or as much as its callers need
 /// to go on after an error.
 pub(super) struct Read {
     pub(super) robot: Option<Robot>,
+    pub(super) outputs: Vec<Function>,
     pub(super) scenes: Vec<Scene>,
     pub(super) joints: usize,
     pub(super) warnings: Vec<Warning>,
@@ -65,9 +67,14 @@ pub(super) fn read(
     if let Some((head, body)) = scene {
         file.scene(head, body, errors);
     }
-    let (robot, scenes, found) = match read::parse(&file.text, &Options::default()) {
-        Ok(reading) => (Some(reading.robot), reading.scenes, reading.notes),
-        Err(diagnostics) => (None, Vec::new(), diagnostics.0),
+    let (robot, outputs, scenes, found) = match read::parse(&file.text, &Options::default()) {
+        Ok(reading) => (
+            Some(reading.robot),
+            reading.outputs,
+            reading.scenes,
+            reading.notes,
+        ),
+        Err(diagnostics) => (None, Vec::new(), Vec::new(), diagnostics.0),
     };
     let warnings = match robot {
         Some(_) => {
@@ -83,6 +90,7 @@ pub(super) fn read(
     };
     Read {
         robot,
+        outputs,
         scenes,
         joints: joints.len(),
         warnings,
@@ -108,7 +116,7 @@ pub(super) fn beside(source: &str, name: &Ident, body: &Group, errors: &mut Erro
     }
 }
 
-/// What a robot's block consists of.
+/// The parts of a robot's block.
 #[derive(Default)]
 struct Blocks {
     keys: Vec<TokenTree>,
@@ -361,7 +369,7 @@ impl File {
         errors.say(self.tokens(found, name), &reword(&found.message), &help);
     }
 
-    /// What is odd, at the innermost tokens that it is about.
+    /// Returns what is odd, at the innermost tokens that it is about.
     fn warning(&self, found: &Diagnostic, name: &Ident) -> Warning {
         Warning {
             at: self.tokens(found, name),
@@ -395,7 +403,7 @@ fn join(value: &[TokenTree]) -> String {
     text
 }
 
-/// How the reader's messages about a file read in the macro.
+/// The reader's words about a file, and the macro's for the same.
 const DIALECT: [(&str, &str); 8] = [
     ("a [scene.NAME] table", "a `scene NAME { … }` block"),
     ("the robot has: name, ", "the robot has: "),

@@ -41,7 +41,7 @@ impl Warning {
     }
 }
 
-/// What stands in each module for the warnings.
+/// Returns the tokens that stand in each module for the warnings.
 pub(super) fn tokens(warnings: &[Warning]) -> TokenStream {
     let numbered = (1..).zip(warnings);
     numbered

@@ -6,10 +6,10 @@ use std::fmt;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::{closest, for_bundle};
 
-use crate::backend::Entries;
 use crate::emit::Interface;
 use crate::function::{BundleError, Function};
 use crate::generate::{Fma, Prefer};
+use crate::language::Entries;
 use crate::portfolio::Start;
 use crate::program::ScalarType;
 use crate::simplify::Effort;
@@ -17,7 +17,7 @@ use crate::sincos::SinCos;
 
 /// A value that users name by a word.
 pub(crate) trait Word: Copy {
-    /// What messages call it.
+    /// The name in messages.
     const WHAT: &'static str;
 
     /// Every value with its word, in the order that messages list them.
@@ -155,7 +155,7 @@ impl std::error::Error for NoBundle {}
 /// A word that names nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct UnknownWord {
-    /// What it should name: `output`, `scalar`, …
+    /// The kind of word that it should be: `output`, `scalar`, …
     pub what: &'static str,
     /// The word.
     pub found: String,
@@ -166,7 +166,7 @@ pub(crate) struct UnknownWord {
 }
 
 impl UnknownWord {
-    /// What is wrong.
+    /// Returns what is wrong.
     pub(crate) fn message(&self) -> String {
         format!("unknown {} `{}`", self.what, self.found)
     }

@@ -42,6 +42,37 @@ impl Stage {
     }
 }
 
+/// Returns what a program differs from another by: edited − exact, output by output, as
+/// they stand. Written out as polynomials, what they have in common cancels.
+pub(crate) fn deviation(exact: &Program, edited: &Program) -> Graph {
+    let mut builder = Builder::new(Folding::Syntactic);
+    let before = traced(exact, &mut builder);
+    let after = traced(edited, &mut builder);
+    let pairs = after.iter().zip(&before);
+    let sums: Vec<Value> = pairs.map(|(a, b)| builder.sub(a, b)).collect();
+    builder.finish(&sums)
+}
+
+/// Returns the outputs of a program as values of a builder.
+pub(crate) fn traced(program: &Program, builder: &mut Builder) -> Vec<Value> {
+    let mut steps: Vec<Value> = Vec::with_capacity(program.steps.len());
+    let read = |operand: &Operand, steps: &[Value], builder: &mut Builder| match operand {
+        Operand::Input(input) => builder.input(*input),
+        Operand::Constant(constant) => Value::Constant(constant.clone()),
+        Operand::Step(index) => steps[*index].clone(),
+    };
+    for step in &program.steps {
+        let left = read(&step.left, &steps, builder);
+        let right = read(&step.right, &steps, builder);
+        steps.push(operate(builder, step.operation, &left, &right));
+    }
+    let outputs = program.outputs.iter().map(|output| {
+        let value = read(&output.value, &steps, builder);
+        builder.negate_if(&value, output.negative)
+    });
+    outputs.collect()
+}
+
 /// The errors of all stages together: edited − exact, output by output. Each
 /// stage's edited program must be equal to the next stage's program.
 pub fn difference(stages: &[Stage]) -> Graph {

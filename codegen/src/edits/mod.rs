@@ -9,6 +9,7 @@ mod edit;
 pub(crate) mod text;
 
 pub use difference::difference;
+pub(crate) use difference::{deviation, traced};
 pub(crate) use edit::BadEdit;
 pub(crate) use edit::has_edits;
 pub use edit::{Edit, EditSite, Stage};

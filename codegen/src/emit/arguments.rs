@@ -7,8 +7,8 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 use super::figures::{decimal, placed};
-use crate::backend::function::{LOAD, PAYLOAD};
 use crate::function::{Argument, Function};
+use crate::language::function::{LOAD, PAYLOAD};
 use crate::program::ScalarType;
 use crate::scene::SceneRobot;
 

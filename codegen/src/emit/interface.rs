@@ -4,8 +4,8 @@
 use std::fmt::Write;
 
 use super::GeneratedFunction;
-use crate::backend::function::result_type;
 use crate::function::{Columns, Function};
+use crate::language::function::result_type;
 use crate::program::ScalarType;
 
 /// The type that has the traits.

@@ -2,6 +2,7 @@
 //!
 //! - [`module`]: the module of a robot with its header, and of its `scene`;
 //!   `escape`: names that users chose
+//! - [`header`]: the header of a robot in C
 //! - `state_box`: where functions hold that do not hold everywhere
 //! - `generated`: a function with what was found and proved of it
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
@@ -18,6 +19,7 @@ pub(crate) mod figures;
 mod friction;
 mod fused;
 mod generated;
+pub(crate) mod header;
 pub(crate) mod interface;
 pub(crate) mod module;
 mod parameters;

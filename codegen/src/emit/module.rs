@@ -10,10 +10,10 @@ use super::friction;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{Interface, arguments, fused, interface, parameters, sines, variant};
-use crate::backend::entries::angles::Angles;
-use crate::backend::entries::{self, Around};
-use crate::backend::{Entries, Printed, function, result};
 use crate::emit::GeneratedFunction;
+use crate::language::entries::angles::Angles;
+use crate::language::entries::{self, Around};
+use crate::language::{Entries, Printed, function, result};
 use crate::program::{Lowered, ScalarType};
 use crate::scene::SceneRobot;
 
@@ -196,7 +196,7 @@ pub(crate) fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
 }
 
 /// Robot, conventions, DH table, counts and proof.
-fn header(
+pub(super) fn header(
     robot: &Robot,
     scene_robot: &SceneRobot,
     functions: &[GeneratedFunction],
@@ -344,7 +344,7 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
 }
 
 /// A placement as a header has it.
-fn function_doc(
+pub(super) fn function_doc(
     generated: &GeneratedFunction,
     scene_robot: &SceneRobot,
     scalar: ScalarType,

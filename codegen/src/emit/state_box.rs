@@ -10,6 +10,8 @@ use super::GeneratedFunction;
 use super::variant::held;
 use crate::function::Argument;
 use crate::interval::Interval;
+use crate::language::c99::{Names, float};
+use crate::language::dialect::Dialect;
 use crate::program::ScalarType;
 use crate::scene::SceneRobot;
 use crate::sincos;
@@ -96,6 +98,40 @@ impl StateBox {
             }
         }
         text.push_str("    inside\n}\n");
+    }
+}
+
+impl StateBox {
+    /// Prints the function of C that asks.
+    pub(super) fn write_c(&self, text: &mut String, scalar: ScalarType, names: &Names) {
+        let (float, restrict) = (float(scalar), names.constant("RESTRICT"));
+        let dialect = Dialect::c99(scalar);
+        let parameters = self.columns.iter().map(|(argument, column)| {
+            let (name, length) = (argument.name(), column.len());
+            format!("const {float} {name}[{restrict} {length}]")
+        });
+        let parameters: Vec<String> = parameters.collect();
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            "\n/* Whether a state is where the functions hold, ends included: 1 or 0. The error bounds\n \
+             * hold only there. A state with a NaN is not inside. */\n\
+             static inline int {}({})\n{{\n    int inside = 1;\n",
+            names.of("in_box"),
+            parameters.join(", ")
+        );
+        for (argument, column) in &self.columns {
+            let name = argument.name();
+            for (joint, range) in column.iter().enumerate().filter(|(_, r)| r.is_some()) {
+                let [low, high] = ends(*range, scalar).map(|end| dialect.digits(&end));
+                let _ = writeln!(
+                    text,
+                    "    if (!(({low} <= {name}[{joint}]) && ({name}[{joint}] <= {high}))) {{\n        \
+                     inside = 0;\n    }}"
+                );
+            }
+        }
+        text.push_str("    return inside;\n}\n");
     }
 }
 

@@ -37,7 +37,9 @@ pub(super) fn describe(
     lines.extend(states(certificate, scene_robot));
     lines.push(String::new());
     let left_out = omissions(&admitted.stages);
-    if left_out.is_empty() {
+    if left_out.is_empty() && !admitted.stages.is_empty() {
+        lines.push("Computed by a smaller model, fitted to the full one.".into());
+    } else if left_out.is_empty() {
         lines.push("Nothing was left out.".into());
     } else {
         lines.extend(omitted(left_out));

@@ -7,6 +7,8 @@ use super::reason::{Contradiction, NoSines, TextDefect};
 use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
 use crate::function::Function;
+use crate::generate::language::Lacks;
+use crate::language::Language;
 use crate::program::ScalarType;
 use crate::scene::SceneError;
 use crate::scene::base::NoBase;
@@ -85,6 +87,8 @@ pub enum GenerateError {
     Base(Function, NoBase),
     /// A parameter cannot be an argument.
     Parameter(ParameterError),
+    /// The language has no such thing, or no such name.
+    Language(Language, Lacks),
     /// No variant meets the scene's tolerance.
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
@@ -171,6 +175,7 @@ impl fmt::Display for GenerateError {
             ),
             GenerateError::Base(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Parameter(why) => why.fmt(f),
+            GenerateError::Language(language, why) => write!(f, "`{}`: {why}", language.name()),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
                 write!(

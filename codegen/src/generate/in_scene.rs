@@ -101,6 +101,16 @@ impl Request {
         self
     }
 
+    /// Takes the outputs that a robot file names, where it names any; a scene's and those
+    /// that somebody chose come after them.
+    #[must_use]
+    pub fn for_file(mut self, outputs: &[Function]) -> Request {
+        if !outputs.is_empty() {
+            self.functions = outputs.to_vec();
+        }
+        self
+    }
+
     /// The request in a scene, with its outputs and its scalar.
     #[must_use]
     pub fn in_scene(self, scene: &Scene) -> Request {

@@ -5,16 +5,20 @@
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`mod@keep`]: what was generated, in a plan
 //! - [`early`]: a search that was ended early, and what programs are compared by
+//! - `anew`: plans of a robot or a scene that was edited since
 //! - `contradiction`: what was proved, tried
 //! - [`parameters`]: which parameters can be arguments
+//! - [`language`]: what a language lacks
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated; [`reason`]: what it says of that
 
+mod anew;
 mod contradiction;
 pub(crate) mod early;
 pub(crate) mod error;
 pub(crate) mod in_scene;
 pub(crate) mod keep;
+pub(crate) mod language;
 pub(crate) mod parameters;
 mod range;
 pub(crate) mod reason;
@@ -28,13 +32,17 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 pub use crate::approximate::error::{ToleranceError, Unbounded};
-use crate::backend::entries::angles::Angles;
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::Layout;
+use crate::emit::header;
 use crate::emit::module::{self, ModuleOptions};
 use crate::function::{Columns, Function};
+use crate::language::c99::Names;
+use crate::language::entries::Around;
+use crate::language::entries::angles::Angles;
+use crate::language::{Language, Printed};
 use crate::parallel;
 use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
@@ -45,6 +53,7 @@ use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
+pub use anew::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub(crate) use reason::NoSines;
@@ -86,6 +95,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             return Err(GenerateError::Namesakes(other, function));
         }
     }
+    language::check(robot, request, &functions)
+        .map_err(|why| GenerateError::Language(request.language, why))?;
     if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.cheapest_scalar {
         return Err(GenerateError::Contents);
     }
@@ -146,31 +157,34 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     };
     let codes: Vec<Vec<Lowered>> = scalars.iter().map(in_scalar).collect();
     let name = request.module_name(robot);
-    let text = module::write(
-        robot,
-        &scene_robot,
-        &functions,
-        &codes,
-        &ModuleOptions {
-            scalars: &scalars,
-            path: &request.math.path,
-            entries: request.entries,
-            batch: &request.batch,
-            interface: request.interface,
-            traits: &request.traits,
-            name: &name,
-            layout: request.layout,
-        },
-    );
+    let options = ModuleOptions {
+        scalars: &scalars,
+        path: &request.math.path,
+        entries: request.entries,
+        batch: &request.batch,
+        interface: request.interface,
+        traits: &request.traits,
+        name: &name,
+        layout: request.layout,
+    };
+    let write = match request.language {
+        Language::Rust => module::write,
+        Language::C => header::write,
+    };
+    let text = write(robot, &scene_robot, &functions, &codes, &options);
     let angles = module::angles(robot.joints.len(), &functions);
     let mut emitted = Vec::new();
     for (&scalar, codes) in scalars.iter().zip(&codes) {
         for (generated, code) in functions.iter().zip(codes) {
-            let section = match request.layout {
-                Layout::Contents => Some(text.as_str()),
-                Layout::Modules => module::section(&text, &module::name(&name, scalar, &scalars)),
+            let section = match (request.language, request.layout) {
+                (Language::C, _) | (_, Layout::Contents) => Some(text.as_str()),
+                (Language::Rust, Layout::Modules) => {
+                    module::section(&text, &module::name(&name, scalar, &scalars))
+                }
             };
-            emitted.push(read_back(section, generated, code, request, &angles)?);
+            emitted.push(read_back(
+                section, generated, code, request, &angles, &name,
+            )?);
         }
     }
     contradiction::check(&scene_robot, &functions, &emitted)?;
@@ -346,20 +360,25 @@ fn read_back(
     code: &Lowered,
     request: &Request,
     angles: &Angles,
+    name: &str,
 ) -> Result<Emitted, GenerateError> {
     let scalar = code.scalar;
     let fail = |why| GenerateError::Text(generated.function, scalar, why);
     let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
-    let (function, entries) = (generated.function, request.entries);
-    let read = Lowered::parse_entries(
-        section,
-        function,
-        scalar,
-        entries,
+    let printed = Printed::of(&generated.program, code);
+    let around = Around {
+        path: &request.math.path,
+        batch: &request.batch,
         angles,
-        generated.program.sizes(),
-    )
-    .map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
+    };
+    let read = match request.language {
+        Language::Rust => Lowered::parse_entries(section, &printed, request.entries, &around),
+        Language::C => {
+            let names = Names::new(name, scalar);
+            Lowered::parse_c(section, &printed, request.entries, &names)
+        }
+    };
+    let read = read.map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(TextDefect::Differs(difference)));
     }

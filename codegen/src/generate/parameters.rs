@@ -6,8 +6,8 @@ use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::request::Request;
 use crate::approximate::error::Unbounded;
-use crate::backend::Entries;
 use crate::function::{Argument, Function};
+use crate::language::Entries;
 use crate::portfolio::Start;
 use crate::scene::SceneRobot;
 
@@ -27,7 +27,7 @@ pub enum ParameterError {
     },
     /// The scene has a tolerance, and no box bounds the argument.
     Tolerance(Function, Argument),
-    /// No joint depends_on what the last link carries.
+    /// No joint feels what the last link carries.
     Unfelt,
 }
 

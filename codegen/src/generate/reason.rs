@@ -4,8 +4,8 @@
 use std::fmt;
 
 use crate::approximate::error::NoPolynomials;
-use crate::backend::read::TextError;
 use crate::certificate::Refuted;
+use crate::language::read::TextError;
 use crate::program::Difference;
 use crate::sincos::TooAccurate;
 

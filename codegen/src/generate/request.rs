@@ -4,9 +4,9 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use crate::backend::{Entries, MathPath};
 use crate::emit::{Interface, Layout};
 use crate::function::Function;
+use crate::language::{Entries, Language, MathPath};
 use crate::plan::Plan;
 use crate::portfolio::{Start, load};
 use crate::program::shallow::Cycles;
@@ -79,6 +79,8 @@ pub struct Request {
     pub functions: Vec<Function>,
     /// The scalars; one module each.
     pub scalars: Vec<ScalarType>,
+    /// The language of the text.
+    pub language: Language,
     /// The formulation to start from.
     pub start: Start,
     /// How much work the simplifier may do for functions that are not in the
@@ -172,6 +174,7 @@ impl Default for Request {
         Request {
             functions: Function::by_default(),
             scalars: ScalarType::ALL.to_vec(),
+            language: Language::default(),
             start: Start::Auto,
             effort: Effort::Quick,
             prefer: Prefer::Accuracy,

@@ -176,7 +176,7 @@ fn one(
     let bound_effort = bound_effort(request);
     let settings = match request.effort {
         Effort::Thorough if !over => thorough(request),
-        _ => QUICK,
+        _ => PruneSettings::QUICK,
     };
     let settings = PruneSettings {
         work: request.work.map(|work| work.saturating_sub(meter.done())),
@@ -260,20 +260,6 @@ fn thorough(request: &Request) -> PruneSettings {
         ..PruneSettings::THOROUGH
     }
 }
-
-/// For who waits: seconds for a six-joint arm.
-const QUICK: PruneSettings = PruneSettings {
-    samples: 24,
-    guesses: 4,
-    retries: 0,
-    stages: 3,
-    alike: 2,
-    sweeps: 0,
-    budget: BoundEffort::QUICK.budget,
-    effort: Effort::Quick,
-    refit: true,
-    work: None,
-};
 
 /// The plan's variant, if it has the same one for each of the scalars.
 fn kept(

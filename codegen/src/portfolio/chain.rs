@@ -126,7 +126,14 @@ pub fn skeleton_for(scene_robot: &SceneRobot, function: Function) -> Skeleton<Ex
 
 fn with_columns(scene_robot: &SceneRobot, columns: &[Column<Exact>]) -> Skeleton<Exact> {
     let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone).fold_base();
-    Skeleton::with_columns(&arm, &scene_robot.merged(), columns)
+    let mut skeleton = Skeleton::with_columns(&arm, &scene_robot.merged(), columns);
+    let fitted = scene_robot.fitted_links().unwrap_or_default();
+    for (segment, link) in skeleton.links.iter_mut().zip(fitted) {
+        segment.body = link.body.clone();
+        segment.armature = link.armature.clone();
+        segment.friction.viscous = link.viscous.clone();
+    }
+    skeleton
 }
 
 /// The most choices of axes that the search is offered at once.

@@ -9,7 +9,7 @@ use super::run::State;
 use super::{Literal, Lowered, Operand, Operation, Step};
 use crate::states::JointState;
 
-/// Where a step reads what no step computes.
+/// A step's operand that no step computes: an input or a constant.
 #[derive(Debug)]
 pub(crate) struct Leaf<'p, C, I> {
     /// The step that reads it.
@@ -21,7 +21,7 @@ pub(crate) struct Leaf<'p, C, I> {
 }
 
 impl Operation {
-    /// What an adjoint of the result is for the left and for the right operand.
+    /// Returns the result's adjoint passed on to the left and to the right operand.
     #[inline]
     pub fn parts<S: Divide>(self, adjoint: &S, left: &S, right: &S) -> [S; 2] {
         match self {
@@ -141,8 +141,8 @@ pub(crate) fn backward<'p, C, I, S: Divide>(
 }
 
 impl Lowered {
-    /// What rounding may cost an output at a state, in units of u and to first order: the
-    /// sum of |value·adjoint| of all operations.
+    /// Returns the first-order rounding error that an output may have at a state, in units of
+    /// u: the sum of |value·adjoint| over all operations.
     pub(crate) fn rounded(&self, output: usize, state: &JointState) -> f64 {
         let Operand::Step(top) = self.outputs[output].value else {
             return 0.0;

@@ -14,9 +14,9 @@ use crate::states::JointState;
 /// States, coordinate by coordinate: a column a joint.
 #[derive(Clone, Debug, Default)]
 pub struct Columns<T> {
-    /// Of each argument, in the order of [`Argument::ALL`].
+    /// A list of columns for each argument, in the order of [`Argument::ALL`].
     pub arguments: [Vec<Vec<T>>; Argument::COUNT],
-    /// How many states.
+    /// The number of states.
     pub len: usize,
 }
 
@@ -112,7 +112,7 @@ fn at<'c, T>(states: &'c Columns<T>, trig: &'c BTreeMap<Input, Vec<T>>, input: I
     }
 }
 
-/// What an operation reads.
+/// An operand of an operation over columns.
 #[derive(Clone, Copy, Debug)]
 pub enum Column<'c, T> {
     /// A value of each state.

@@ -27,7 +27,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Of the arithmetic alone.
+    /// Counts the arithmetic alone, without sines.
     pub(super) fn of_steps<C, I>(steps: &[Step<C, I>]) -> Counts {
         let [mul, div, fma] = [Operation::Mul, Operation::Div, Operation::Fused].map(|operation| {
             let is = |step: &&Step<C, I>| step.operation == operation;

@@ -1,4 +1,4 @@
-//! Where two programs over literals differ.
+//! The first difference between two programs over literals.
 
 use std::fmt;
 
@@ -13,11 +13,11 @@ pub enum Difference {
     Library,
     /// The sines and cosines.
     Sines,
-    /// What is read of speeds.
+    /// The speeds that are read.
     Speeds,
-    /// How many operations there are.
+    /// The number of operations.
     Operations,
-    /// How many results there are.
+    /// The number of results.
     Results,
     /// An operation, from zero.
     Operation(usize),
@@ -43,7 +43,7 @@ impl fmt::Display for Difference {
 impl std::error::Error for Difference {}
 
 impl Lowered {
-    /// Where two differ; `None` if they are equal.
+    /// Returns the first difference between two programs; `None` if they are equal.
     pub fn difference(&self, other: &Lowered) -> Option<Difference> {
         let mut steps = self.steps.iter().zip(&other.steps);
         let mut outputs = self.outputs.iter().zip(&other.outputs);

@@ -27,11 +27,11 @@ use super::{Operand, Operation, Program, Step};
 pub struct Fusion<'p, C, I> {
     /// The product.
     pub product: &'p Step<C, I>,
-    /// Whether it is subtracted.
+    /// `true` if the product is subtracted.
     pub negative: bool,
-    /// What it is added to.
+    /// The operand that the product is added to.
     pub addend: &'p Operand<C, I>,
-    /// Whether that is subtracted.
+    /// `true` if the addend is subtracted.
     pub minus: bool,
 }
 
@@ -44,7 +44,7 @@ impl<C, I> Clone for Fusion<'_, C, I> {
 
 impl<C, I> Copy for Fusion<'_, C, I> {}
 
-/// What a step takes, if it is a sum with a fused product before it.
+/// Returns the fused product that a step takes, if it is a sum with one before it.
 pub fn fusion<C, I>(steps: &[Step<C, I>], index: usize) -> Option<Fusion<'_, C, I>> {
     let (before, step) = (index.checked_sub(1)?, steps.get(index)?);
     let product = steps.get(before)?;
@@ -84,9 +84,8 @@ impl<C, I> Fusion<'_, C, I> {
     }
 }
 
-/// Whether a step's rounding can lose what is below the least normal number: that
-/// of a product, a quotient, and a sum with a fused product. A sum of two floats
-/// cannot.
+/// Returns whether a step's rounding can lose what is below the least normal number: that of a
+/// product, a quotient, and a sum with a fused product. A sum of two floats cannot.
 pub(crate) fn underflows<C, I>(steps: &[Step<C, I>], index: usize) -> bool {
     match steps.get(index).map(|step| step.operation) {
         Some(Operation::Mul | Operation::Div) => true,
@@ -112,8 +111,8 @@ pub(crate) fn pieces<C, I>(steps: &[Step<C, I>], length: usize) -> Vec<std::ops:
 }
 
 impl Program {
-    /// The same program with its products fused, as the head of this file says;
-    /// fused once more, it stays as it is.
+    /// Returns the program with its products fused, as the head of this file says; a fused
+    /// program stays as it is.
     #[must_use]
     pub fn fused(&self) -> Program {
         let taken = self.taken();
@@ -149,7 +148,7 @@ impl Program {
         }
     }
 
-    /// The same program with every product rounded.
+    /// Returns the program with every product rounded by itself.
     #[must_use]
     pub fn unfused(&self) -> Program {
         let mut program = self.clone();
@@ -161,13 +160,13 @@ impl Program {
         program
     }
 
-    /// Whether it has fused products.
+    /// Returns whether the program has fused products.
     pub fn fuses(&self) -> bool {
         let mut steps = self.steps.iter();
         steps.any(|step| step.operation == Operation::Fused)
     }
 
-    /// Of each step, the product that it takes.
+    /// Returns, for each step, the product that is fused into it.
     fn taken(&self) -> Vec<Option<usize>> {
         let mut reads = vec![0usize; self.steps.len()];
         let results = self.outputs.iter().map(|output| &output.value);

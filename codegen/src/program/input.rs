@@ -1,4 +1,4 @@
-//! What a program reads.
+//! The inputs of a program.
 
 use core::fmt;
 

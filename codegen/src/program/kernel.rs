@@ -7,11 +7,11 @@
 use super::machine::Machine;
 use super::{Literal, Operand, Operation, Output, Step, evaluate};
 
-/// What a kernel reads: its angle.
+/// The one input of a kernel: its angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Angle;
 
-/// What a kernel's step reads.
+/// An operand of a kernel's step.
 pub type Term = Operand<Literal, Angle>;
 
 /// The angle as an operand.

@@ -16,7 +16,7 @@ impl Library {
     /// Both.
     pub const ALL: [Library; 2] = [Library::Libm, Library::Together];
 
-    /// What bounds rest on where its sines are called.
+    /// Returns the assumption about called sines that bounds rest on.
     pub fn assumption(self) -> &'static str {
         match self {
             Library::Libm => "sin and cos are libm's, within one ulp",

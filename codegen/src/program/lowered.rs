@@ -28,9 +28,9 @@ pub struct Lowered {
 pub struct LoweredTrig {
     /// The angle.
     pub angle: AngleSum,
-    /// Whether the sine is taken.
+    /// `true` if the sine is taken.
     pub sin: bool,
-    /// Whether the cosine is taken.
+    /// `true` if the cosine is taken.
     pub cos: bool,
     /// The polynomials, unless a library is called.
     pub kernel: Option<Kernel>,
@@ -70,8 +70,8 @@ impl Program {
 }
 
 impl Lowered {
-    /// The same with another library for the angles that call one. One that
-    /// takes all angles together is called after what is computed alone.
+    /// Returns the program with another library for the angles that call one. A library that
+    /// takes all angles together is called after the sines that are computed alone.
     #[must_use]
     pub fn calling(mut self, library: Library) -> Lowered {
         let calls = |trig: &LoweredTrig| trig.kernel.is_none();
@@ -84,8 +84,8 @@ impl Lowered {
         self
     }
 
-    /// The same with libm's sines instead of all others: what rounding costs
-    /// the rest.
+    /// Returns the program with libm's sines in place of all others, to measure what rounding
+    /// costs the rest.
     #[must_use]
     pub fn with_libm(&self) -> Lowered {
         let mut other = self.clone();
@@ -96,7 +96,7 @@ impl Lowered {
         other
     }
 
-    /// What it costs, with the polynomials of its sines.
+    /// Counts the operations, with those of the polynomials for sines.
     pub fn counts(&self) -> Counts {
         let steps = Counts::of_steps(&self.steps);
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();

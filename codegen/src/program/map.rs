@@ -1,9 +1,9 @@
-//! The same code over other constants and inputs, and operands whose steps have moved.
+//! Maps programs to other constants and inputs, and renumbers the steps that operands read.
 
 use super::{Operand, Output, Step};
 
 impl<C, I> Operand<C, I> {
-    /// The same value, its constant or input named otherwise.
+    /// Maps the operand's constant or input.
     pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Operand<D, J> {
         match self {
             Operand::Input(name) => Operand::Input(input(name)),
@@ -24,7 +24,7 @@ impl<C: Clone, I: Clone> Operand<C, I> {
 }
 
 impl<C, I> Step<C, I> {
-    /// The same operation on operands that are named otherwise.
+    /// Maps the operands of a step.
     pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Step<D, J> {
         Step {
             operation: self.operation,
@@ -35,7 +35,7 @@ impl<C, I> Step<C, I> {
 }
 
 impl<C, I> Output<C, I> {
-    /// The same result, its value named otherwise.
+    /// Maps the value of a result.
     pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Output<D, J> {
         Output {
             negative: self.negative,

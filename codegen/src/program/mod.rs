@@ -54,7 +54,7 @@ pub use speed::Speed;
 /// Straight-line code with exact constants: what is proved and emitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// What it computes.
+    /// The function that the program computes.
     pub function: Function,
     /// n: the length of every argument that has an entry a joint.
     pub joints: usize,
@@ -62,8 +62,7 @@ pub struct Program {
     pub rows: Vec<usize>,
     /// The arguments there are, in order.
     pub arguments: Vec<Argument>,
-    /// How many entries the load has; none where it is neither argument nor
-    /// result.
+    /// The number of entries of the load; zero where the load is neither argument nor result.
     pub load: usize,
     /// The angles whose sine or cosine it needs, ascending.
     pub trig: Vec<Trig>,
@@ -80,16 +79,16 @@ pub struct Program {
 pub struct Trig {
     /// The angle.
     pub angle: AngleSum,
-    /// Whether the sine is needed.
+    /// `true` if the sine is needed.
     pub sin: bool,
-    /// Whether the cosine is needed.
+    /// `true` if the cosine is needed.
     pub cos: bool,
 }
 
 /// One operation over constants C and inputs I.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<C = Exact, I = Input> {
-    /// What is done.
+    /// The arithmetic operation.
     pub operation: Operation,
     /// Left operand.
     pub left: Operand<C, I>,
@@ -113,7 +112,7 @@ pub enum Operation {
     Fused,
 }
 
-/// What a step reads.
+/// An operand of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operand<C = Exact, I = Input> {
     /// An input.
@@ -127,7 +126,7 @@ pub enum Operand<C = Exact, I = Input> {
 /// A result, negated or not: negation is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output<C = Exact, I = Input> {
-    /// Whether it is negated.
+    /// `true` if the result is negated.
     pub negative: bool,
     /// The value.
     pub value: Operand<C, I>,
@@ -186,7 +185,7 @@ impl Program {
         self.trig = trig.into_values().collect();
     }
 
-    /// The same program with these joints' r, as far as it reads them.
+    /// Returns the program with these speeds, as far as it reads them.
     #[must_use]
     pub(crate) fn with_speeds(self, mut speeds: Vec<Speed>) -> Program {
         let read = speed::read(&self.steps, &self.outputs);
@@ -194,7 +193,7 @@ impl Program {
         Program { speeds, ..self }
     }
 
-    /// What it costs.
+    /// Counts the operations.
     pub fn counts(&self) -> Counts {
         let steps = Counts::of_steps(&self.steps);
         let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
@@ -208,8 +207,8 @@ impl Program {
 }
 
 impl Program {
-    /// What the lengths of its results follow from: how many base parameters
-    /// there are, from how many results.
+    /// Returns the numbers that the lengths of results follow from; the number of base
+    /// parameters is derived from the number of results.
     pub fn sizes(&self) -> Sizes {
         let rows = self.rows.len();
         let mut sizes = Sizes {
@@ -226,14 +225,14 @@ impl Program {
         sizes
     }
 
-    /// Whether it divides.
+    /// Returns whether the program divides.
     pub fn divides(&self) -> bool {
         let mut steps = self.steps.iter();
         steps.any(|step| step.operation == Operation::Div)
     }
 }
 
-/// Whether a program returns D.
+/// Returns whether a program computes D.
 pub(crate) fn has_inertia(program: &Program) -> bool {
     let mut quantities = program.function.quantities().iter();
     quantities.any(|quantity| quantity.is_definite())

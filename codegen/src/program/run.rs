@@ -37,7 +37,7 @@ impl Lowered {
         evaluate(&self.steps, &self.outputs, read, constant).unwrap_or_default()
     }
 
-    /// What steps read of a state, if it has a value for it.
+    /// Returns the value of each input at a state, if the state has one.
     pub(super) fn inputs<'s, T: Machine>(
         &self,
         state: State<'s, T>,

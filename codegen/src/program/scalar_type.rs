@@ -30,7 +30,7 @@ impl ScalarType {
         ScalarType::ALL.into_iter().find(|s| s.name() == name)
     }
 
-    /// What libm appends to its functions' names.
+    /// Returns the suffix of libm's functions for this scalar.
     pub fn math_suffix(self) -> &'static str {
         match self {
             ScalarType::F64 => "",

@@ -17,16 +17,16 @@ use super::{Operand, Operation, Program, Step};
 /// Cycles until the next operation can read the result of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cycles {
-    /// Of a sum or a difference.
+    /// Cycles of a sum or a difference.
     pub add: u64,
-    /// Of a product.
+    /// Cycles of a product.
     pub mul: u64,
-    /// Of a quotient.
+    /// Cycles of a quotient.
     pub div: u64,
 }
 
 impl Cycles {
-    /// Of a desktop processor, by LLVM's scheduling model of Skylake,
+    /// Latencies of a desktop processor, by LLVM's scheduling model of Skylake,
     /// `X86SchedSkylakeClient.td`: f64; f32 divides in 11.
     pub const DESKTOP: Cycles = Cycles {
         add: 4,
@@ -43,7 +43,7 @@ impl Cycles {
     }
 }
 
-/// What can be taken in any order.
+/// An operation whose operands can be taken in any order.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Sum,
@@ -68,8 +68,8 @@ struct Term {
 }
 
 impl Program {
-    /// The same program with the longest chain as short as another order of its sums
-    /// and products makes it. One with fused products stays as it is.
+    /// Returns the program with sums and products reordered so that the longest chain is
+    /// shortest. One with fused products stays as it is.
     #[must_use]
     pub fn shallow(&self, cycles: Cycles) -> Program {
         if self.fuses() {
@@ -130,7 +130,7 @@ impl Program {
         depths.into_iter().max().unwrap_or(0)
     }
 
-    /// Whether each step is read by one step alone, which is of its kind.
+    /// Returns, for each step, whether a single step reads it and is of its kind.
     fn inner(&self) -> Vec<bool> {
         let mut reads = vec![0usize; self.steps.len()];
         let mut inner = vec![false; self.steps.len()];

@@ -1,5 +1,5 @@
-//! What code reads of a joint's speed beside its velocity: r = 1/√(q̇² + w²), by
-//! which Coulomb friction is smoothed over a width w.
+//! The reciprocal speed of a joint, r = 1/√(q̇² + w²), which code reads beside the velocity: it
+//! smooths Coulomb friction over a width w.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,7 @@ pub struct Speed<C = Exact> {
     pub square: C,
 }
 
-/// What one of them costs: a product, a sum, a root and a quotient.
+/// The operations of one reciprocal speed: a product, a sum, a root and a quotient.
 pub(crate) const OPERATIONS: [usize; 4] = [1; 4];
 
 impl Speed<Literal> {

@@ -24,7 +24,7 @@ impl SceneRobot {
         self.joints().iter().filter_map(of).collect()
     }
 
-    /// Whether a joint has Coulomb friction.
+    /// Returns whether a joint has Coulomb friction.
     pub fn has_coulomb(&self) -> bool {
         self.robot().joints.iter().any(|joint| joint.has_coulomb())
     }

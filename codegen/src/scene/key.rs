@@ -1,4 +1,4 @@
-//! Of which robot and scene something is, and what of the robot is an argument.
+//! Keys that identify a robot, a scene, and the parameters that are arguments.
 
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
@@ -8,8 +8,8 @@ use hmac_sha256::Hash;
 use super::SceneRobot;
 use crate::function::Function;
 
-/// Which scene a plan's entry or a claim is about. The hash of a plan is the
-/// robot's alone, so that a scene can be added; an edited scene shows in its own.
+/// The scene that a plan's entry or a claim is about. The hash of a plan is the robot's alone,
+/// so that a scene can be added; an edited scene shows in its own.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SceneKey {
     /// Its name.
@@ -19,7 +19,7 @@ pub struct SceneKey {
 }
 
 impl SceneKey {
-    /// Of a scene.
+    /// Returns the key of a scene.
     pub fn of(scene: &Scene) -> SceneKey {
         SceneKey {
             name: scene.name.clone(),
@@ -28,20 +28,20 @@ impl SceneKey {
     }
 }
 
-/// Which parameters of the robot a plan's entry takes as arguments, and what the
-/// load's numbers are: a program of others means nothing in its place.
+/// The parameters of the robot that a plan's entry takes as arguments, and the load's numbers:
+/// a program of others means nothing in its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParametersKey {
     /// In the order of [`RuntimeParameter::ALL`].
     pub taken: Vec<RuntimeParameter>,
-    /// How many numbers the load has; none where it is no argument.
+    /// The number of entries of the load; zero where the load is no argument.
     pub load: usize,
     /// The hash of these numbers.
     pub hash: String,
 }
 
 impl ParametersKey {
-    /// Of a function that takes some.
+    /// Returns the key of a function; `None` if it takes no parameters as arguments.
     pub fn of(scene_robot: &SceneRobot, function: Function) -> Option<ParametersKey> {
         let all = RuntimeParameter::ALL.into_iter();
         let taken = all.filter(|&parameter| scene_robot.takes(function, parameter));

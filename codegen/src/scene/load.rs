@@ -24,12 +24,12 @@ pub struct LoadParameters {
     pub numbers: Vec<Exact>,
     /// Each by what the arm has of it and what the payload adds.
     pub rows: Vec<LoadRow<Exact>>,
-    /// How the chain is regrouped.
+    /// The chain's regrouping.
     pub regrouping: Regrouping<Exact>,
 }
 
 impl LoadParameters {
-    /// Of a chain in a regrouping, which has these numbers.
+    /// Creates the load of a chain in a regrouping, which has these numbers.
     pub fn new(
         scene_robot: &SceneRobot,
         numbers: Vec<Exact>,
@@ -44,13 +44,13 @@ impl LoadParameters {
         }
     }
 
-    /// Where a number is among the load's, and whether it is negated there.
+    /// Returns the index of a number among the load's, and whether it is negated there.
     pub fn place(&self, number: &Exact) -> Option<(usize, bool)> {
         place(&self.numbers, number)
     }
 }
 
-/// Where a number is in a list, and whether it is negated there.
+/// Returns the index of a number in a list, and whether it is negated there.
 pub(crate) fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
     let is_negative = number.leads_negative();
     let number = if is_negative {
@@ -113,7 +113,7 @@ impl Unknowns {
         self.angles.iter().map(value).collect()
     }
 
-    /// Whether a number depends on one.
+    /// Returns whether a number depends on one of the load's.
     pub fn occur_in(&self, number: &Exact) -> bool {
         let mut found = false;
         number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {

@@ -32,6 +32,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use dalembert_model::equations::JointPosition;
+use dalembert_model::equations::chain::Body;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Axis, Columns, Motion, RuntimeParameter, Sizes};
@@ -61,12 +62,26 @@ pub struct SceneRobot {
     chained: Vec<usize>,
     /// An entry a joint.
     locks: Vec<Option<JointPosition<Exact>>>,
-    /// What functions take as arguments that are constants otherwise.
+    /// The parameters that are arguments of functions instead of constants.
     parameters: Vec<RuntimeParameter>,
     /// Found where a quantity is over them.
     base: Bases,
     /// Chosen where a payload is an argument.
     load: Option<LoadParameters>,
+    /// What the joints of the chain move in place of the robot's links.
+    fitted: Option<Vec<FittedLink>>,
+}
+
+/// What a joint of the chain moves where it is not the robot's link, but one that a
+/// search chose: it need not be physical.
+#[derive(Clone, Debug)]
+pub struct FittedLink {
+    /// About the origin and in the axes of the joint's segment.
+    pub body: Body<Exact>,
+    /// The rotor's inertia.
+    pub armature: Exact,
+    /// Viscous friction.
+    pub viscous: Exact,
 }
 
 /// The base parameters, an entry a quantity: there where one is over them.
@@ -77,7 +92,7 @@ type Bases = [OnceLock<Result<BaseParameters, NoBase>>; Quantity::ALL.len()];
 pub struct SceneError {
     /// The scene's name.
     pub scene: String,
-    /// What is wrong with it; never empty.
+    /// The errors; never empty.
     pub findings: Vec<SceneFinding>,
 }
 
@@ -109,6 +124,7 @@ impl SceneRobot {
             parameters: Vec::new(),
             base: no_bases(),
             load: None,
+            fitted: None,
         }
     }
 
@@ -138,6 +154,7 @@ impl SceneRobot {
             parameters: Vec::new(),
             base: no_bases(),
             load: None,
+            fitted: None,
         })
     }
 
@@ -152,7 +169,7 @@ impl SceneRobot {
         )
     }
 
-    /// The same where functions take these parameters as arguments.
+    /// Returns the robot with these parameters as arguments of its functions.
     #[must_use]
     pub fn taking(self, parameters: &[RuntimeParameter]) -> SceneRobot {
         SceneRobot {
@@ -163,8 +180,25 @@ impl SceneRobot {
         }
     }
 
-    /// The same joints at any velocities and accelerations, with the torques of
-    /// all that move: what any function may depend on.
+    /// Returns the robot with other links in its chain, one a segment, and results over
+    /// these joints. The textbook formulations do not know of them.
+    #[must_use]
+    pub(crate) fn fitted(&self, links: Vec<FittedLink>, rows: &[usize]) -> SceneRobot {
+        SceneRobot {
+            fitted: Some(links),
+            rows: rows.to_vec(),
+            base: no_bases(),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the links in place of the robot's, if a search chose any.
+    pub(crate) fn fitted_links(&self) -> Option<&[FittedLink]> {
+        self.fitted.as_deref()
+    }
+
+    /// Returns the robot with any velocities and accelerations and the torques of all joints
+    /// that move, which is all that any function may depend on.
     #[must_use]
     pub fn in_full_motion(&self) -> SceneRobot {
         let mut full = self.clone().taking(&self.parameters);
@@ -175,17 +209,17 @@ impl SceneRobot {
         full
     }
 
-    /// Whether a parameter is an argument.
+    /// Returns whether a parameter is an argument.
     pub fn has(&self, parameter: RuntimeParameter) -> bool {
         self.parameters.contains(&parameter)
     }
 
-    /// Whether a function takes a parameter as an argument.
+    /// Returns whether a function takes a parameter as an argument.
     pub fn takes(&self, function: Function, parameter: RuntimeParameter) -> bool {
         self.has(parameter) && function.depends_on(parameter)
     }
 
-    /// Whether a function takes any.
+    /// Returns whether a function takes any parameter as an argument.
     pub fn takes_any(&self, function: Function) -> bool {
         let mut all = RuntimeParameter::ALL.into_iter();
         function == Function::Load || all.any(|parameter| self.takes(function, parameter))
@@ -201,8 +235,8 @@ impl SceneRobot {
         self.scene.as_ref()
     }
 
-    /// Whether the equations are the whole robot's: no scene, or one that only
-    /// says where and how exactly.
+    /// Returns whether the equations are the whole robot's: no scene, or one that only gives a
+    /// box and a tolerance.
     pub fn has_whole_model(&self) -> bool {
         let changes = |scene: &Scene| {
             let still = scene.velocity_zero || scene.acceleration_zero;
@@ -253,7 +287,7 @@ impl SceneRobot {
         own
     }
 
-    /// Whether the scene says that an argument is zero.
+    /// Returns whether the scene holds an argument at zero.
     fn has_zero(&self, argument: Argument) -> bool {
         self.scene.as_ref().is_some_and(|scene| match argument {
             Argument::Velocity => scene.velocity_zero,
@@ -311,7 +345,7 @@ impl SceneRobot {
         found.as_ref().map_err(|why| *why)
     }
 
-    /// The same with the numbers of the chain that a payload changes.
+    /// Returns the robot with the numbers of the chain that a payload changes.
     #[must_use]
     pub fn with_load(self, load: LoadParameters) -> SceneRobot {
         SceneRobot {
@@ -326,8 +360,8 @@ impl SceneRobot {
         self.load.as_ref()
     }
 
-    /// What the columns of a function's regressor are; none of other functions,
-    /// and where there are no base parameters.
+    /// Returns the columns of a function's regressor; empty for other functions and where there
+    /// are no base parameters.
     pub fn columns<S: Scalar>(
         &self,
         function: Function,
@@ -343,7 +377,7 @@ impl SceneRobot {
         }
     }
 
-    /// What the lengths of a function's results follow from.
+    /// Returns the numbers that the lengths of a function's results follow from.
     pub fn sizes(&self, function: Function) -> Sizes {
         let is_loaded =
             function == Function::Load || self.takes(function, RuntimeParameter::Payload);

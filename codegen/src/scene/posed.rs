@@ -14,7 +14,7 @@ use super::SceneRobot;
 use crate::function::{Argument, Function};
 use crate::program::Input;
 
-/// What a formula of a function is evaluated with.
+/// The arm and motion that a formula is evaluated with.
 #[derive(Clone, Debug)]
 pub struct Posed<S> {
     /// The arm, gravity as the argument says and the payload on the last link,
@@ -22,7 +22,7 @@ pub struct Posed<S> {
     pub arm: Arm<S>,
     /// Its motion.
     pub motion: Motion<S>,
-    /// What the columns of a regressor are.
+    /// The columns of the regressor.
     pub columns: Vec<Column<S>>,
     /// The joints that results are over before rows are selected: with a payload
     /// one more, behind the last, which does not move.
@@ -46,7 +46,7 @@ impl SceneRobot {
         self.record_of(function, arm, formula)
     }
 
-    /// The same over another arm, such as one without lengths that have no effect.
+    /// Records a formula over another arm, such as one without lengths that have no effect.
     pub fn record_of(
         &self,
         function: Function,

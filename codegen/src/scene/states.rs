@@ -11,7 +11,7 @@ use crate::program::Input;
 use crate::random::Random;
 use crate::states::{JointState, seeded};
 
-/// What the seed of the parameters differs by: they do not move the states.
+/// Distinguishes the seed of the parameters from that of the states, which they must not move.
 const PARAMETERS: u64 = 0x7061_7261;
 
 impl SceneRobot {

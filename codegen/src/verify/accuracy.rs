@@ -1,5 +1,4 @@
-//! Which programs are accurate enough: those whose rounding error is not many
-//! times that of a textbook form.
+//! Accepts programs whose rounding error is at most a few times that of a textbook form.
 
 use dalembert_model::equations::Formulation;
 
@@ -74,7 +73,7 @@ impl<'a> AccuracyFilter<'a> {
         }
     }
 
-    /// Whether the program is accurate enough.
+    /// Returns whether the program is accurate enough.
     pub(crate) fn accepts(&self, graph: &Graph) -> bool {
         self.excess(graph) <= 1.0
     }

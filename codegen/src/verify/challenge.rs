@@ -21,8 +21,7 @@ use dalembert_model::scene::write as write_scene;
 use crate::program::{Input, Operand, Program};
 use crate::scene::SceneRobot;
 
-/// What a hash of this crate's proofs begins with; another way to draw is
-/// another version.
+/// The first text of every hash of this crate's proofs; another way to draw is another version.
 const DOMAIN: &str = "dalembert proof 1";
 
 /// Numbers to try before a prime is given up: one in 22 is prime.
@@ -131,7 +130,7 @@ impl Transcript {
         }
     }
 
-    /// Nothing more is added: where it is evaluated is decided.
+    /// Ends the statement; its hash decides the points of evaluation.
     pub(crate) fn seal(self) -> Challenge {
         Challenge(self.0.finalize())
     }

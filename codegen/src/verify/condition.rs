@@ -1,17 +1,17 @@
-//! How close an inertia matrix is to singular.
+//! The condition of an inertia matrix.
 
 /// The condition of a symmetric positive semidefinite matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition {
     /// Largest over least eigenvalue of D.
     pub raw: f64,
-    /// The same of D_ik / √(D_ii D_kk): what is left when units and sizes of
-    /// the joints are taken out.
+    /// The condition of D_ik / √(D_ii D_kk), from which units and sizes of the joints are taken
+    /// out.
     pub scaled: f64,
-    /// Whether a pivot of the elimination is below n·u·max D_ii: no solver
-    /// in this arithmetic can tell D from a singular matrix.
+    /// `true` if a pivot of the elimination is below n·u·max D_ii: no solver in this arithmetic
+    /// can tell D from a singular matrix.
     pub singular: bool,
-    /// Whether a pivot is negative beyond what rounding explains: D is that of no arm.
+    /// `true` if a pivot is negative beyond what rounding explains: no arm has this D.
     pub indefinite: bool,
 }
 
@@ -19,7 +19,7 @@ pub struct Condition {
 const BEYOND_ROUNDING: f64 = 1e3;
 
 impl Condition {
-    /// Of a matrix row by row, for arithmetic of unit roundoff u.
+    /// Computes the condition of a matrix, row by row, for arithmetic of unit roundoff u.
     pub fn of(d: &[f64], u: f64) -> Condition {
         let n = d.len().isqrt();
         let matrix: Vec<Vec<f64>> = d.chunks(n.max(1)).map(<[f64]>::to_vec).collect();

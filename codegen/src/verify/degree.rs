@@ -36,7 +36,7 @@ pub struct Degree {
     angles: u32,
     /// In constants that are no integers.
     constants: u32,
-    /// How often it was halved.
+    /// The number of halvings.
     halvings: u32,
 }
 
@@ -52,7 +52,7 @@ impl Degree {
         }
     }
 
-    /// Of an input.
+    /// Returns the degree of an input.
     pub fn input(input: Input) -> Degree {
         let mut degree = Degree::one();
         match input.angle() {
@@ -71,7 +71,7 @@ impl Degree {
         degree
     }
 
-    /// Of a constant, whose denominators are noted.
+    /// Returns the degree of a constant and adds its denominators to `denominators`.
     pub fn constant(constant: &Exact, denominators: &mut Denominators) -> Degree {
         if constant.is_zero() {
             return Degree::zero();

@@ -2,7 +2,7 @@
 //!
 //! Both are evaluated with their exact constants modulo [`PRIMES`] primes of
 //! 63 bits, each with a random point of its own. Above [`WRITTEN_LIMIT`] joints
-//! the reference_formulation is the link-frame recursion modulo the same primes, itself
+//! the reference is the link-frame recursion modulo the same primes, itself
 //! proved against Lagrange–Euler for every joint kind and convention at up to
 //! that many joints by tests. The formula is executed once, by a scalar that
 //! [records](dalembert_model::scalar::record) the operations it asks for; the
@@ -40,7 +40,7 @@ use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
 use crate::scene::SceneRobot;
 
-/// The most joints for which Lagrange–Euler itself is the reference_formulation: its cost
+/// The most joints for which Lagrange–Euler itself is the reference: its cost
 /// grows with n⁴ to n⁵.
 pub(crate) const WRITTEN_LIMIT: usize = 10;
 
@@ -50,7 +50,7 @@ pub(crate) const PRIMES: usize = 4;
 /// Primes to draw before a statement is given up for want of fit ones.
 pub(super) const MAX_DRAWS: usize = 64;
 
-/// What was proved.
+/// A successful proof, and the probability that it is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Proof {
     /// The formulation that the program equals; none of a load, which has its
@@ -79,13 +79,12 @@ impl Proof {
 pub enum Disproof {
     /// An output differs at a point.
     Output {
-        /// Which output, flat.
+        /// The index of the output in the flat list.
         index: usize,
         /// Its name, one-based.
         entry: String,
     },
-    /// What should solve an equation of the arm does not: a defect of this
-    /// library.
+    /// The formula does not solve its own equation of motion: a defect of this library.
     Equation,
     /// The base parameters do not give what a parameter takes of torque: a
     /// defect of this library.
@@ -99,7 +98,7 @@ pub enum Disproof {
     Unfit,
     /// Degree or coefficients are so large that a miss is not unlikely.
     Large {
-        /// Of the difference in the random parameters.
+        /// The degree of the difference in the random parameters.
         degree: u64,
         /// Bits of its coefficients.
         height: u64,
@@ -226,7 +225,7 @@ struct Formula {
     /// that they are to solve: D q̈ + h + c + b∘q̇ = τ, D D⁻¹ = 1, or their slopes,
     /// with D and the loads as written. None if they solve none.
     solving: Option<Recording<Input, Exact>>,
-    /// How many results there are.
+    /// The number of results.
     length: usize,
 }
 

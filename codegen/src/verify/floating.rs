@@ -37,11 +37,11 @@ pub const LEAST_PART: f64 = 1.0 / 16.0;
 /// An emitted function, read back.
 #[derive(Clone, Debug)]
 pub struct Emitted {
-    /// Which function.
+    /// The function.
     pub function: Function,
     /// Its scalar.
     pub scalar: ScalarType,
-    /// What the lengths of its results follow from.
+    /// The numbers that the lengths of its results follow from.
     pub sizes: Sizes,
     /// Its text.
     pub text: Lowered,
@@ -50,11 +50,11 @@ pub struct Emitted {
 /// The worst normwise error of one quantity of one function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
-    /// Which function.
+    /// The function.
     pub function: Function,
     /// Its scalar.
     pub scalar: ScalarType,
-    /// Which of its quantities.
+    /// The quantity.
     pub quantity: Quantity,
     /// The worst error, over the condition of D where the quantity inverts it;
     /// infinite if a result is not a number.
@@ -68,9 +68,9 @@ impl Measure {
     }
 }
 
-/// How many times more than others the results at a state may err: what inverts D
-/// as many as the condition of D over the joints that move, with a unit diagonal.
-/// What units and sizes of the joints make of it is no excuse.
+/// The factor by which the results at a state may err more than others: for what inverts D, the
+/// condition of D over the joints that move, with a unit diagonal. Units and sizes of the
+/// joints are taken out and excuse nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Granted(f64);
 
@@ -102,12 +102,12 @@ pub struct Runtime {
 type Formulas = RefCell<BTreeMap<Function, Rc<Recording<Input, f64>>>>;
 
 impl Runtime {
-    /// Of a robot; lengths without effect are folded away while exact.
+    /// Creates the runtime of a robot; lengths without effect are folded away while exact.
     pub fn new(robot: &Robot) -> Runtime {
         Runtime::in_scene(SceneRobot::whole(robot))
     }
 
-    /// Of a robot in a scene: the same recursion over all its joints, with
+    /// Creates the runtime of a robot in a scene: the same recursion over all its joints, with
     /// the scene's constants in place of the state's.
     pub fn in_scene(scene_robot: SceneRobot) -> Runtime {
         let whole = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
@@ -120,7 +120,7 @@ impl Runtime {
         }
     }
 
-    /// How many times more than others a function's results may err at a state.
+    /// Returns the factor by which a function's results may err more than others at a state.
     pub fn granted(&self, function: Function, state: &JointState) -> Granted {
         if !function.inverts_inertia() {
             return Granted(1.0);
@@ -195,7 +195,7 @@ impl Emitted {
         self.text.run_at(state)
     }
 
-    /// The same with libm's sines in the place of polynomials.
+    /// Returns the function with libm's sines in place of polynomials.
     #[must_use]
     pub fn with_libm(&self) -> Emitted {
         Emitted {
@@ -204,8 +204,8 @@ impl Emitted {
         }
     }
 
-    /// Which results were proved to vanish: these are compared with zero, not with
-    /// the dust that a runtime leaves there.
+    /// Returns, for each result, whether it was proved to vanish: these are compared with zero,
+    /// not with the rounding noise that a runtime leaves there.
     pub fn vanishing(&self) -> impl Iterator<Item = bool> {
         let outputs = self.text.outputs.iter();
         outputs.map(|output| output.value == Operand::Constant(Literal(0.0)))
@@ -272,7 +272,7 @@ impl Emitted {
     }
 }
 
-/// How far an angle's polynomials are from libm at a state.
+/// Returns how far an angle's polynomials are from libm at a state.
 fn off<T: Machine>(trig: &LoweredTrig, kernel: &Kernel, state: &JointState) -> f64 {
     let q: Vec<T> = state.q.iter().map(|&x| T::literal(x)).collect();
     let angle = angle_value(trig.angle, &q);

@@ -5,7 +5,7 @@ use std::array::from_fn;
 
 use dalembert_model::scalar::{Divide, Scalar};
 
-/// How many states.
+/// The number of states side by side.
 pub(super) const LANES: usize = 8;
 
 /// A number of each. What is zero stays zero, whatever it is multiplied by: an error
@@ -14,7 +14,7 @@ pub(super) const LANES: usize = 8;
 pub(super) struct Lanes(pub [f64; LANES]);
 
 impl Lanes {
-    /// The same number in each.
+    /// Returns the same number in each lane.
     pub(super) fn all(value: f64) -> Lanes {
         Lanes([value; LANES])
     }

@@ -22,8 +22,8 @@ use num_traits::One;
 /// Attempts that somebody is granted who wants a wrong program to pass.
 pub(crate) const ATTEMPTS_EXPONENT: u32 = 64;
 
-/// What is left of the chance after so many attempts is below 10 to the power
-/// of this, or nothing is proved.
+/// The largest admitted exponent: after all attempts the chance of a miss must be below 10 to
+/// the power of this.
 pub(crate) const MAX_EXPONENT: i32 = -9;
 
 /// The chance of a miss in one attempt is below 10 to the power of this.
@@ -31,7 +31,7 @@ pub(crate) fn exponent(degree: u64, height: u64, primes: usize) -> i32 {
     digits(degree, height, primes, 0)
 }
 
-/// Whether a wrong program is unlikely to pass, whatever was attempted.
+/// Returns whether a wrong program is unlikely to pass, after all attempts.
 pub(crate) fn is_small(degree: u64, height: u64, primes: usize) -> bool {
     digits(degree, height, primes, ATTEMPTS_EXPONENT) <= MAX_EXPONENT
 }

@@ -176,7 +176,7 @@ fn at(differences: &Recording<Input, Exact>, point: &Point) -> Option<Vec<u64>> 
     values.iter().map(|x| x.value(point.prime())).collect()
 }
 
-/// Whether a miss is unlikely.
+/// Refuses differences for which a miss is not unlikely.
 fn is_sure(differences: &Recording<Input, Exact>) -> Result<(), Disproof> {
     let mut denominators = Denominators::default();
     let constant = |constant: &Exact| Some(Ratio::constant(constant, &mut denominators));

@@ -40,12 +40,12 @@ impl From<Degree> for Ratio {
 }
 
 impl Ratio {
-    /// Of an input.
+    /// Returns the ratio of an input.
     pub fn input(input: Input) -> Ratio {
         Degree::input(input).into()
     }
 
-    /// Of a constant, whose denominators are noted.
+    /// Returns the ratio of a constant and adds its denominators to `denominators`.
     pub fn constant(constant: &Exact, denominators: &mut Denominators) -> Ratio {
         Degree::constant(constant, denominators).into()
     }

@@ -30,7 +30,7 @@ const LOST: f64 = 6.3e-61;
 pub struct Reference<'s> {
     scene_robot: &'s SceneRobot,
     arm: Arm<Known>,
-    /// Of angles that were asked for, by their bits: several functions are run at the
+    /// The pairs of angles already computed, by their bits: several functions are run at the
     /// same states.
     pairs: RefCell<FxHashMap<u64, SinCosPair<Wide>>>,
 }
@@ -70,7 +70,7 @@ impl TrueValue {
 }
 
 impl<'s> Reference<'s> {
-    /// Of a robot in its scene.
+    /// Creates the reference of a robot in its scene.
     pub fn new(scene_robot: &'s SceneRobot) -> Reference<'s> {
         let robot = scene_robot.robot();
         Reference {
@@ -80,7 +80,7 @@ impl<'s> Reference<'s> {
         }
     }
 
-    /// What it is about.
+    /// Returns the robot in its scene.
     pub fn scene_robot(&self) -> &'s SceneRobot {
         self.scene_robot
     }
@@ -125,7 +125,7 @@ impl<'s> Reference<'s> {
     }
 }
 
-/// How many recursions a function takes: what a state costs.
+/// Returns the number of recursions that a function takes, which is the cost of a state.
 pub(crate) fn recursions(function: Function, joints: usize) -> usize {
     let of = |quantity: &Quantity| {
         let axes = quantity.shape().0.iter();
@@ -239,8 +239,8 @@ impl Scalar for Known {
 }
 
 impl Divide for Known {
-    /// What x and y are off moves x/y by (Δx + |x/y| Δy)/(|y| − Δy): at most twice that
-    /// with |y| below, unless Δy is more than half of y, and nothing is known.
+    /// Errors of x and y move x/y by (Δx + |x/y| Δy)/(|y| − Δy): at most twice that with |y|
+    /// below, unless Δy is more than half of y, and nothing is known.
     fn div(&self, other: &Self) -> Self {
         let value = self.value.div(&other.value);
         let divisor = other.size.next_down();
@@ -257,7 +257,7 @@ mod tests {
     use super::*;
     use dalembert_model::read::{self, Options};
 
-    /// Where the reference knew less, an error of what is emitted could hide in it.
+    /// An error of emitted code could hide where the reference knew less.
     #[test]
     fn every_result_is_known_far_beyond_a_double() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");

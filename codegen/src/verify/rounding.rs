@@ -21,7 +21,7 @@ use crate::program::{Input, Operand, Operation, Program};
 use crate::scene::SceneRobot;
 use crate::states::JointState;
 
-/// How many states are looked at.
+/// The number of states.
 const STATES: usize = 64;
 
 /// A seed of its own.
@@ -37,7 +37,7 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Of a program inside the limits of the scene's robot.
+    /// Estimates the rounding error of a program inside the limits of the scene's robot.
     pub fn estimate(scene_robot: &SceneRobot, program: &Program) -> Rounding {
         let network = Network::new(program);
         let states = scene_robot.states(STATES, SEED);
@@ -92,7 +92,7 @@ struct Network<'a> {
     /// The rounded constants; whether each is a power of two, which costs no
     /// digit as it stands and none as a factor.
     constants: Vec<(f64, bool)>,
-    /// Which constants each step reads.
+    /// The constants that each step reads.
     shared: Vec<[Option<usize>; 2]>,
 }
 
@@ -127,7 +127,8 @@ impl<'a> Network<'a> {
         runs
     }
 
-    /// The same for a few states; lanes beyond repeat the last of them.
+    /// Returns each output with its error for a few states; lanes beyond repeat the last of
+    /// them.
     fn side_by_side(&self, states: &[JointState]) -> Vec<(Lanes, Lanes)> {
         let each = |of: &dyn Fn(&JointState) -> f64| {
             Lanes(from_fn(|lane| {

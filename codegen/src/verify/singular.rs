@@ -1,4 +1,4 @@
-//! Whether D has an inverse in almost every state, exactly.
+//! Decides exactly whether D has an inverse in almost every state.
 //!
 //! D of the joints that move is factorised from the hand inward at random
 //! points, as proofs draw them. A pivot that is zero at every one of them is

@@ -24,7 +24,7 @@ impl Size {
         exponent: -31,
     };
 
-    /// Of a rational's magnitude: a power of two, at most four times as large.
+    /// Returns the size of a rational's magnitude: a power of two, at most four times as large.
     pub(crate) fn of(x: &Rational) -> Size {
         let [numerator, denominator] = [x.numer(), x.denom()].map(|x| x.bits() as i64);
         let bits = match x.is_integer() && numerator == 1 {

@@ -19,7 +19,7 @@ pub struct Controller {
     pub gain: f64,
 }
 
-/// What is wished for at a state.
+/// The reference motion at a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Wish {
     /// v = q̇_d − Λ(q − q_d), rad/s.
@@ -31,7 +31,7 @@ pub struct Wish {
 }
 
 impl Wish {
-    /// What is wished for where the arm should be at a target.
+    /// Returns the reference motion towards a target.
     pub fn new(state: &State, target: &Target) -> Wish {
         let v: Joints =
             core::array::from_fn(|i| target.qd[i] - LAMBDA * (state.q[i] - target.q[i]));
@@ -52,7 +52,7 @@ impl Controller {
         }
     }
 
-    /// The same law, which keeps the empty arm.
+    /// Creates a controller that keeps the parameters of the empty arm.
     pub fn fixed() -> Controller {
         Controller {
             gain: 0.0,
@@ -67,7 +67,7 @@ impl Controller {
         self.answer(&y, &s, period)
     }
 
-    /// The same from Y and s.
+    /// Computes the torques from Y and s.
     pub fn answer(&mut self, y: &[Parameters; arm::N], s: &Joints, period: f64) -> Joints {
         let tau = core::array::from_fn(|i| product(&y[i], &self.estimate) - DAMPING[i] * s[i]);
         for (row, s) in y.iter().zip(s) {

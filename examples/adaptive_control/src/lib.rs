@@ -53,5 +53,5 @@ pub type Joints = [f64; arm::N];
 /// A value for each base parameter.
 pub type Parameters = [f64; arm::PASSIVITY_PARAMETERS.len()];
 
-/// Where the arm is and how fast it moves.
+/// Positions and velocities of the arm.
 pub type State = example_shared::integrate::State<{ arm::N }>;

@@ -9,7 +9,7 @@ use crate::{Joints, Parameters, State, arm, loaded};
 /// The period of the controller, s.
 pub const PERIOD: f64 = 1e-3;
 
-/// What was seen at one period.
+/// Measurements at one period.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// When, s.

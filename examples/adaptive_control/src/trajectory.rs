@@ -1,5 +1,5 @@
-//! Where the arm should be: every joint swings with two frequencies, so that every
-//! parameter is felt.
+//! The reference trajectory: every joint swings with two frequencies, so that every parameter
+//! is excited.
 
 use crate::{Joints, arm};
 
@@ -8,9 +8,9 @@ pub type Target = example_shared::target::Target<{ arm::N }>;
 
 /// About where every joint swings, rad.
 const CENTRE: Joints = [0.0, 0.4, -0.8];
-/// How far at each frequency, rad.
+/// Amplitudes at each frequency, rad.
 const SWING: [Joints; 2] = [[0.6, 0.35, 0.5], [0.25, 0.15, 0.3]];
-/// How fast, rad/s.
+/// Frequencies, rad/s.
 const FREQUENCY: [Joints; 2] = [[1.3, 1.7, 2.1], [3.7, 3.1, 4.3]];
 
 /// The target at a time, s. It starts at rest.

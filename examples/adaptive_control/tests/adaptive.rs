@@ -1,4 +1,4 @@
-//! What the theory says of the controller, and what comes of it.
+//! Tests the controller against its theory.
 
 use std::process::Command;
 
@@ -43,7 +43,7 @@ fn the_regressor_of_the_torques_will_not_do() {
 
 type Regressor = fn(&Joints, &Joints, &Joints, &Joints) -> [Parameters; arm::N];
 
-/// How far the rate of V is from −sᵀ(K + b) s, relative to it, near the trajectory.
+/// Returns how far the rate of V is from −sᵀ(K + b) s, relative to it, near the trajectory.
 fn rate_is_off(step: u32, regressor: Regressor) -> f64 {
     let time = 0.1 * f64::from(step);
     let target = trajectory::at(time);
@@ -76,7 +76,7 @@ fn rate_is_off(step: u32, regressor: Regressor) -> f64 {
     (found - power).abs() / power
 }
 
-/// Of the arm with its payload Y π is D a + C v + c + b∘v; what it carries does not change Y.
+/// Y π of the arm with its payload is D a + C v + c + b∘v; the payload does not change Y.
 #[test]
 fn the_regressor_is_that_of_the_passivity_form() {
     let (q, qd, v, a) = (

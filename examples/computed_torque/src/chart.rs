@@ -1,4 +1,4 @@
-//! How far the arm was from its trajectory, as SVG.
+//! Draws the tracking error as SVG.
 
 use example_shared::chart::{Chart, Line, Panel, Scale};
 

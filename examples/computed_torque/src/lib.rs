@@ -22,8 +22,6 @@ use plant::{Plant, State};
 
 dalembert::dynamics! {
     /// The arm as the controller knows it.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
     outputs: inverse_dynamics, forward_dynamics;
     scalar: f64;
@@ -31,8 +29,6 @@ dalembert::dynamics! {
 
 dalembert::dynamics! {
     /// The arm with a payload in its hand.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod loaded = "robots/loaded.toml";
     outputs: forward_dynamics;
     scalar: f64;
@@ -44,7 +40,7 @@ pub type Joints = [f64; puma560::N];
 /// The period of the controller, s.
 pub const PERIOD: f64 = 1e-3;
 
-/// How far the arm was from where it should be.
+/// The tracking error of a run.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// Largest distance of a joint while gravity compensation held it, rad.

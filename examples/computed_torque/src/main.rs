@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use computed_torque::plant::Plant;
 use computed_torque::simulate;
 
-/// What counts as held on the trajectory, rad.
+/// The largest error that counts as tracking, rad.
 const TOLERANCE: f64 = 1e-4;
 
 fn main() -> ExitCode {

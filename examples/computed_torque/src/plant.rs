@@ -2,15 +2,15 @@
 
 use crate::{Joints, loaded, puma560};
 
-/// Where the arm is and how fast it moves.
+/// Positions and velocities of the arm.
 pub type State = example_shared::integrate::State<{ puma560::N }>;
 
-/// Which arm it is.
+/// The arm that is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plant {
     /// The arm that the controller knows.
     Nominal,
-    /// The same with a payload that it does not know of.
+    /// The arm with a payload that the controller does not know of.
     Loaded,
 }
 

@@ -1,9 +1,7 @@
-//! What `dynamics!` costs in a crate with cargo's default profile.
+//! Measures what `dynamics!` costs in a crate with cargo's default profile.
 
 dalembert::dynamics! {
     /// Unimation PUMA 560.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
     outputs: inverse_dynamics;
     scalar: f64;

@@ -6,7 +6,7 @@ use crate::{Joints, arm};
 /// Each joint follows as a critically damped system of this frequency, rad/s.
 const FREQUENCY: f64 = 20.0;
 
-/// Where the arm should be, and how that changes.
+/// The reference motion: position, velocity and acceleration.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     pub q: Joints,

@@ -1,5 +1,5 @@
-//! What the guide prints: torques that hold, a payload found, a motion followed, and
-//! how long a call takes here.
+//! Prints what the guide shows: torques that hold, a payload found, a motion followed, and how
+//! long a call takes here.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -5,7 +5,7 @@ use crate::{Joints, arm, with_a_kilogram};
 /// The mass that explains the torques measured at poses, in kg, by least squares.
 ///
 /// Torques are linear in a mass whose place in the hand is known, so a kilogram of it
-/// tells what any other mass does. `None` where no pose depends_on the mass.
+/// tells what any other mass does. `None` where no pose depends on the mass.
 pub fn mass(measured: &[(Joints, Joints)]) -> Option<f64> {
     let (mut along, mut size) = (0.0, 0.0);
     for (q, tau) in measured {

@@ -2,7 +2,7 @@
 
 use crate::{Joints, arm};
 
-/// Where the arm is and how fast it moves.
+/// Positions and velocities of the arm.
 #[derive(Clone, Copy, Debug)]
 pub struct State {
     pub q: Joints,

@@ -26,7 +26,12 @@ fn the_code_of_the_guide_is_this_crate() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let sources = files(&here.join("src"), "rs").into_iter();
     let mut sources: Vec<String> = sources.map(|f| fs::read_to_string(f).unwrap()).collect();
-    for example in ["adaptive_control", "bare_metal", "swing_up"] {
+    for example in [
+        "adaptive_control",
+        "bare_metal",
+        "swing_up",
+        "with_build_script",
+    ] {
         let others = files(&here.join("..").join(example).join("src"), "rs").into_iter();
         sources.extend(others.map(|f| fs::read_to_string(f).unwrap()));
     }
@@ -107,7 +112,7 @@ fn a_motion_is_followed() {
     assert!(error < 1e-4, "{error:e}");
 }
 
-/// What the certificate of the scene says, at a state inside its box.
+/// The scene's torques stay within its certificate at a state inside its box.
 #[test]
 fn picking_is_within_its_tolerance() {
     let (q, qd, qdd) = ([0.0, 0.7, -1.1], [0.0, 1.5, -2.0], [0.0, 8.0, 5.0]);

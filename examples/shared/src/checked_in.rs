@@ -1,4 +1,4 @@
-//! Whether a chart is what is checked in, and what an example prints what the guide shows.
+//! Compares charts and printed text with what is checked in and shown in the guide.
 
 use std::fs;
 use std::io;
@@ -11,7 +11,7 @@ pub fn guide(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// Whether a file holds this text. If not, it is written: so a test that fails has
+/// Returns whether a file holds this text. If not, it is written: so a test that fails has
 /// mended the file, and who looks at the difference says whether that is right.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
-//! How an arm moves under torques.
+//! Integrates the motion of an arm under torques.
 
-/// Where an arm is and how fast it moves.
+/// Positions and velocities of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<const N: usize> {
     /// Positions, rad.
@@ -62,7 +62,7 @@ mod tests {
         assert_eq!(distance(&[1.0, -3.0, 2.0], &[0.0; 3]), 3.0);
     }
 
-    /// Of the fourth order: half the step, a sixteenth of the error.
+    /// Fourth order: half the step gives a sixteenth of the error.
     #[test]
     fn an_oscillator_keeps_its_time() {
         let error = |steps: u32| {

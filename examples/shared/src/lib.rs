@@ -1,4 +1,4 @@
-//! What the examples share. A program of your own needs none of it.
+//! Helpers shared by the examples. A program of your own needs none of it.
 //!
 //! - [`integrate`]: an arm's motion under torques, from its forward dynamics
 //! - [`chart`]: lines over time as SVG

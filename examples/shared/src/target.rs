@@ -1,4 +1,4 @@
-//! Where an arm should be.
+//! A point of a reference trajectory.
 
 /// A point of a trajectory of joints.
 #[derive(Clone, Copy, Debug)]

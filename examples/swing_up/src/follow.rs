@@ -9,17 +9,17 @@ use crate::{limited, model};
 /// The period of the controller, s.
 pub const PERIOD: f64 = 1e-3;
 
-/// What the arm did.
+/// The motion and torques of a run.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// When, s; the state; the torque from then on, N·m.
     pub samples: Vec<(f64, State, f64)>,
-    /// Where it ended.
+    /// The state at the end.
     pub end: State,
 }
 
 impl Run {
-    /// How far it ended from upright at rest.
+    /// Returns how far the end is from upright at rest.
     pub fn off(&self) -> f64 {
         largest((self.end - UPRIGHT).abs().iter().copied())
     }

@@ -12,13 +12,13 @@ use crate::model::{HANGING, Square, State, UPRIGHT, slopes, step};
 
 /// The period of the plan, s.
 pub const PERIOD: f64 = 0.02;
-/// How many periods it has.
+/// The number of periods.
 pub const STEPS: usize = 250;
-/// What a torque costs, per (N·m)² and s.
+/// The cost of a torque, per (N·m)² and s.
 const EFFORT: f64 = 0.1;
-/// What being elsewhere than upright at rest costs, per rad² and s, (rad/s)² and s.
+/// The cost of a state other than upright at rest, per rad² and s, (rad/s)² and s.
 const ELSEWHERE: State = State::new(0.5, 0.5, 0.05, 0.05);
-/// The same at the end, per rad² and (rad/s)².
+/// The cost of the last state, per rad² and (rad/s)².
 const END: State = State::new(1000.0, 1000.0, 100.0, 100.0);
 /// A plan that gets no better than by this is done.
 const ENOUGH: f64 = 1e-4;
@@ -32,7 +32,7 @@ pub struct Plan {
     pub torques: Vec<f64>,
     /// One more: that at the end.
     pub states: Vec<State>,
-    /// How the torque answers to a state that is off, a row a period.
+    /// The feedback gains, a row a period.
     pub gains: Vec<State>,
     /// The cost before each round, and at last.
     pub costs: Vec<f64>,
@@ -74,7 +74,7 @@ pub fn plan() -> Plan {
 }
 
 impl Plan {
-    /// What these torques do, without gains.
+    /// Simulates these torques without gains.
     fn of(torques: Vec<f64>) -> Plan {
         let mut states = vec![HANGING];
         for (k, torque) in torques.iter().enumerate() {
@@ -90,7 +90,7 @@ impl Plan {
         plan
     }
 
-    /// What it costs: ½∫ (r τ² + xᵀ Q x) dt + ½ xᵀ W x at the end, x how far it is from
+    /// Returns the cost: ½∫ (r τ² + xᵀ Q x) dt + ½ xᵀ W x at the end, with x the distance from
     /// upright at rest.
     pub fn cost(&self) -> f64 {
         let square = |off: &State, weights: &State| off.component_mul(weights).dot(off);
@@ -102,7 +102,7 @@ impl Plan {
         (PERIOD * along + square(&self.off(), &END)) / 2.0
     }
 
-    /// How far its end is from upright at rest.
+    /// Returns the difference between the end and upright at rest.
     pub fn off(&self) -> State {
         self.states
             .last()

@@ -1,4 +1,4 @@
-//! What the build script wrote is the dynamics of the arm.
+//! Tests the build script's code against the dynamics of the arm.
 
 use with_build_script::{arm, kinetic_energy};
 

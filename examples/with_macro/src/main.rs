@@ -3,8 +3,6 @@
 
 dalembert::dynamics! {
     /// Unimation PUMA 560.
-    // Its table leaves out moments that no torque depends on, which warns.
-    #[allow(deprecated)]
     pub mod puma560 = "../../generated/robots/puma560.toml";
     outputs: inverse_dynamics, gravity;
     scalar: f64;

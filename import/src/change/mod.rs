@@ -25,7 +25,7 @@ use crate::tree::Chain;
 use crate::urdf::{Kind, Urdf};
 use pair::{NextUp, Pair, root_of_squares, upward, vectors};
 
-/// How far torques and pose of the snapped arm are from those of the URDF's digits.
+/// Bounds of how far torques and pose of the snapped arm are from those of the URDF's digits.
 #[derive(Clone, Debug)]
 pub struct Change {
     links: Vec<Parts>,
@@ -47,7 +47,7 @@ pub struct Motion {
     pub acceleration: Vec<f64>,
 }
 
-/// How far the hand of the snapped arm may be from that of the URDF's digits.
+/// A bound of how far the hand of the snapped arm is from that of the URDF's digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Displacement {
     /// m
@@ -56,7 +56,7 @@ pub struct Displacement {
     pub angle: f64,
 }
 
-/// What a joint's recursion is made of.
+/// The parameters of a joint's recursion, of both arms.
 #[derive(Clone, Debug)]
 struct Parts {
     slides: bool,
@@ -75,8 +75,8 @@ impl Change {
         &self.limits
     }
 
-    /// What each torque may be off over a motion, N·m or N; joints beyond the
-    /// motion's are taken not to move.
+    /// Returns what each torque may be off over a motion, N·m or N; joints
+    /// beyond the motion's are taken not to move.
     pub fn torques(&self, motion: &Motion) -> Vec<f64> {
         let value =
             |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
@@ -123,7 +123,7 @@ impl Change {
         torques
     }
 
-    /// How far the hand may be off over a motion, in the base.
+    /// Returns how far the hand may be off over a motion, in the base.
     pub fn hand(&self, motion: &Motion) -> Displacement {
         let (mut at, mut turn) = (Pair::ZERO, Pair::of(1.0));
         for (i, part) in self.links.iter().enumerate() {

@@ -50,7 +50,7 @@ impl Pair {
         off: 0.0,
     };
 
-    /// The same of both.
+    /// Returns the same of both.
     pub(super) fn of(size: f64) -> Pair {
         Pair {
             size: size.next_up_unless_zero(),

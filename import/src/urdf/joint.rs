@@ -10,7 +10,7 @@ use roxmltree::Node;
 use super::{Number, Origin, Reader, Value, child, start_tag};
 use crate::problems::instead;
 
-/// How a joint moves.
+/// The kind of motion of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Revolute,

@@ -72,13 +72,6 @@ impl Reader<'_, '_, '_> {
                 .error(&mass.span, message, "a mass is zero or more, in kg");
             return None;
         }
-        let exact = inertia.map(|entry| entry.value.clone());
-        if let Some(defect) = exact.impossible(&mass.value) {
-            let message = format!("link `{link}`: {defect}");
-            let help =
-                "the inertia is about the centre of mass, in kg·m²; it is taken as it stands";
-            self.problems.warning(&inertia.xx.span, message, help);
-        }
         Some(Inertial {
             origin,
             mass,

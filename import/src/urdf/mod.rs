@@ -1,11 +1,13 @@
 //! What a URDF says: links, joints, and the rotors of transmissions.
 //!
+//! - `guard`: limits of the text, and whether it is a xacro
 //! - `number`: numbers and words of attributes
 //! - `link`: a link and its inertial
 //! - `joint`: a joint and what drives it
 //!
 //! Shapes, materials and sensors are not looked at, nor is what simulators add.
 
+mod guard;
 mod joint;
 mod link;
 mod number;
@@ -18,27 +20,30 @@ use roxmltree::{Document, Node};
 use crate::problems::Problems;
 
 pub(crate) use joint::{Joint, Kind};
-pub(crate) use link::Link;
+pub(crate) use link::{Inertial, Link};
 pub(crate) use number::{Number, Origin, Value};
 
-/// No robot has more links.
+/// No robot has more links, or joints.
 const MAX_LINKS: usize = 1024;
 
 /// A URDF, every joint with a parent and a child that there are.
 #[derive(Clone, Debug)]
 pub(crate) struct Urdf {
-    /// What the robot is called.
+    /// The name of the robot.
     pub(crate) name: String,
     /// The start tag of the robot.
     pub(crate) span: Range<usize>,
     pub(crate) links: Vec<Link>,
-    /// The names of those that something is wrong with, which was said.
-    pub(crate) unread: BTreeSet<String>,
     pub(crate) joints: Vec<Joint>,
+    /// The names of all links and of all joints, those that cannot be read included.
+    pub(crate) names: [BTreeSet<String>; 2],
 }
 
 /// Reads a URDF; `None` after saying why there is none.
 pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
+    if !guard::admits(source, problems) {
+        return None;
+    }
     // Nodes: more than any robot has, fewer than fill a memory.
     let options = roxmltree::ParsingOptions {
         allow_dtd: false,
@@ -68,9 +73,6 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
         return None;
     }
     let mut reader = Reader { source, problems };
-    if !reader.is_expanded(root) {
-        return None;
-    }
     let elements = |name: &'static str| root.children().filter(move |node| node.has_tag_name(name));
     let links: Vec<Link> = elements("link")
         .filter_map(|node| reader.link(node))
@@ -86,8 +88,11 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
         "joint",
         joints.iter().map(|joint| (&joint.name, &joint.span)),
     );
-    if links.len() > MAX_LINKS {
-        let message = format!("there are {} links, more than {MAX_LINKS}", links.len());
+    for (what, count) in [("links", links.len()), ("joints", joints.len())] {
+        if count <= MAX_LINKS {
+            continue;
+        }
+        let message = format!("there are {count} {what}, more than {MAX_LINKS}");
         let help = "is this a robot? cut out the arm";
         reader.problems.error(&span, message, help);
         return None;
@@ -99,20 +104,20 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
             .error(&span, "there are no links".to_owned(), help);
         return None;
     }
-    let named = elements("link").filter_map(|node| node.attribute("name"));
-    let read: BTreeSet<&str> = links.iter().map(|link| link.name.as_str()).collect();
-    let unread = named.filter(|name| !read.contains(name));
-    let unread = unread.map(str::to_owned).collect();
+    let names = ["link", "joint"].map(|kind| {
+        let names = elements(kind).filter_map(|node| node.attribute("name"));
+        names.map(str::to_owned).collect()
+    });
     Some(Urdf {
         name: root.attribute("name").unwrap_or("arm").to_owned(),
         span,
-        unread,
         links,
         joints,
+        names,
     })
 }
 
-/// What to do with another format.
+/// Returns what to do with another format.
 fn other_format(root: Node) -> Option<&'static str> {
     match root.tag_name().name() {
         "robot" => None,
@@ -131,22 +136,6 @@ pub(crate) struct Reader<'r, 's, 'p> {
 }
 
 impl Reader<'_, '_, '_> {
-    /// Whether a xacro was expanded: it has no element of its own any more.
-    fn is_expanded(&mut self, root: Node) -> bool {
-        let of_xacro = |node: &Node| {
-            let space = node.tag_name().namespace();
-            node.is_element() && space.is_some_and(|space| space.contains("xacro"))
-        };
-        let Some(left) = root.descendants().find(of_xacro) else {
-            return true;
-        };
-        let span = start_tag(self.source, left);
-        let message = format!("<xacro:{}> is not expanded", left.tag_name().name());
-        let help = "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first";
-        self.problems.error(&span, message, help);
-        false
-    }
-
     fn unique<'n>(
         &mut self,
         what: &str,

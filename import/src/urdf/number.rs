@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use dalembert_model::number::parse::{NumberError, parse_decimal};
+use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rational};
 use num_traits::Zero;
 use roxmltree::Node;
@@ -12,7 +12,7 @@ use super::{Reader, start_tag};
 /// A value of the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Value<T> {
-    /// What it is.
+    /// The value itself.
     pub(crate) value: T,
     /// As it stands in the file.
     pub(crate) text: String,
@@ -144,15 +144,8 @@ impl Reader<'_, '_, '_> {
                 span,
             }),
             Err(error) => {
-                let help = match error {
-                    // What was left of a xacro, or a unit.
-                    NumberError::Malformed if text.contains("${") => {
-                        "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first"
-                    }
-                    error => error.help(),
-                };
-                self.problems
-                    .error(&span, format!("`{text}` is {error}"), help);
+                let message = format!("`{text}` is {error}");
+                self.problems.error(&span, message, error.help());
                 None
             }
         }

@@ -43,7 +43,7 @@ pub struct Link<S> {
     pub com: [S; 3],
     /// About the centre of mass, link axes.
     pub inertia: Inertia<S>,
-    /// What the drive takes while the joint moves.
+    /// The friction of the joint.
     pub friction: Friction<S>,
     /// Rotor inertia felt at the joint.
     pub armature: S,
@@ -91,7 +91,7 @@ impl<S: Scalar> Arm<S> {
 }
 
 impl<S: Scalar> Arm<S> {
-    /// The same arm where gravity is this, in base axes.
+    /// Returns the same arm where gravity is this, in base axes.
     #[must_use]
     pub fn with_gravity(mut self, gravity: &Vector<S>) -> Arm<S> {
         self.gravity = match &self.base {
@@ -101,14 +101,14 @@ impl<S: Scalar> Arm<S> {
         self
     }
 
-    /// The same arm with a link behind the last one.
+    /// Returns the same arm with a link behind the last one.
     #[must_use]
     pub fn with_link(mut self, link: Link<S>) -> Arm<S> {
         self.links.push(link);
         self
     }
 
-    /// The same arm without friction.
+    /// Returns the same arm without friction.
     #[must_use]
     pub fn without_friction(mut self) -> Arm<S> {
         for link in &mut self.links {
@@ -117,7 +117,7 @@ impl<S: Scalar> Arm<S> {
         self
     }
 
-    /// The same arm without Coulomb friction.
+    /// Returns the same arm without Coulomb friction.
     #[must_use]
     pub fn without_coulomb(mut self) -> Arm<S> {
         for link in &mut self.links {
@@ -128,8 +128,8 @@ impl<S: Scalar> Arm<S> {
 }
 
 impl<S: Clone> Arm<S> {
-    /// The same arm at velocities of which each r_i is this, where a joint has
-    /// Coulomb friction.
+    /// Returns the same arm at velocities of which each r_i is this, where a
+    /// joint has Coulomb friction.
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Arm<S> {
         for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
@@ -163,7 +163,7 @@ impl<S: Scalar> Link<S> {
     }
 }
 
-/// The same parameters in another scalar, each taken over by `f`.
+/// Conversions of the parameters to another scalar, each taken over by `f`.
 ///
 /// Pairs are converted entry by entry: a conversion that rounds leaves them on
 /// the circle only to its own accuracy.

@@ -5,7 +5,7 @@ use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
 impl<S: Scalar + PartialEq> Arm<S> {
-    /// The same dynamics without the lengths that have no effect on it.
+    /// Returns the same dynamics without the lengths that have no effect on it.
     ///
     /// While the links only slide, nothing turns: where the later links are
     /// cannot matter. While they turn about parallel axes alone, a shift of

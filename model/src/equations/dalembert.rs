@@ -26,7 +26,7 @@ pub struct Split<T> {
     pub translation: T,
 }
 
-/// What moves with a link, taken by itself. As each is an arm, D and h of either
+/// A part of what moves with a link. As each is an arm, D and h of either
 /// may come from any formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {

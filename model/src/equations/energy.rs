@@ -199,7 +199,7 @@ fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vect
     moment
 }
 
-/// The same from the hand inward: what follows a joint is one body.
+/// Returns the same from the hand inward: what follows a joint is one body.
 fn first_moment<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
     let mut moment = zero_vector();
     let mut mass = S::zero();

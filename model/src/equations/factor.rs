@@ -24,7 +24,7 @@ pub struct Factor<S> {
 }
 
 impl<S: Divide> Factor<S> {
-    /// Of a symmetric matrix, whose upper half is not read. A division for
+    /// Factors a symmetric matrix, whose upper half is not read. A division for
     /// each pivot that an entry above it is divided by; n − 1 at most.
     pub fn new(matrix: &[Vec<S>]) -> Factor<S> {
         let n = matrix.len();

@@ -21,20 +21,23 @@ pub enum Formulation {
     NewtonEulerLinkAsPrinted,
     /// The recursion in link axes: [`table2::Moment::RotateFirst`].
     NewtonEulerLink,
+    /// The recursion in link axes that rounds least: [`table2::Moment::Differences`].
+    NewtonEulerLinkDifferences,
 }
 
 impl Formulation {
     /// Every formulation.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::LagrangeEuler,
         Self::Dalembert,
         Self::NewtonEulerBase,
         Self::NewtonEulerLinkAsPrinted,
         Self::NewtonEulerLink,
+        Self::NewtonEulerLinkDifferences,
     ];
 
-    /// Whether it has D and h by formulas of their own, not as torques of chosen
-    /// motions.
+    /// Returns whether it has D and h by formulas of their own, not as torques
+    /// of chosen motions.
     pub(super) fn has_closed_form(self) -> bool {
         matches!(self, Self::LagrangeEuler | Self::Dalembert)
     }
@@ -57,6 +60,9 @@ impl Formulation {
             }
             Self::NewtonEulerLink => {
                 table2::inverse_dynamics(arm, at, qd, qdd, Moment::RotateFirst, None)
+            }
+            Self::NewtonEulerLinkDifferences => {
+                table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences, None)
             }
         }
     }

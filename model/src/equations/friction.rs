@@ -46,7 +46,7 @@ pub fn per_speed<S: Divide>(qd: &S, square_of_width: &S, sqrt: impl Fn(&S) -> S)
 }
 
 impl<S: Scalar> Friction<S> {
-    /// Of a joint that moves freely.
+    /// Returns the friction of a joint that moves freely.
     pub fn none() -> Friction<S> {
         Friction {
             viscous: S::zero(),
@@ -77,8 +77,8 @@ impl<S: Scalar> Friction<S> {
 }
 
 impl<S: Clone> Friction<S> {
-    /// The same at a velocity of which r is this, where there is Coulomb friction
-    /// that reads it and the velocity is known.
+    /// Returns the same at a velocity of which r is this, where there is Coulomb
+    /// friction that reads it and the velocity is known.
     #[must_use]
     pub fn at_speed(mut self, per_speed: Option<&S>) -> Friction<S> {
         if let (Some(coulomb), Some(given)) = (&mut self.coulomb, per_speed) {
@@ -121,7 +121,7 @@ impl<S: Scalar> Coulomb<S> {
         times(&self.damping(), qd)
     }
 
-    /// What it grows by with the velocity, F r (w r)².
+    /// Returns what it grows by with the velocity, F r (w r)².
     pub fn slope(&self) -> S {
         let part = times(&self.width, &self.per_speed);
         times(&self.damping(), &times(&part, &part))

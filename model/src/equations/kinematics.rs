@@ -68,7 +68,7 @@ impl Formulation {
         match self {
             Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
             Self::Dalembert | Self::NewtonEulerBase => hand_by_levers(arm, at, &levers(arm, at)),
-            Self::NewtonEulerLink => hand_inward(arm, at),
+            Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences => hand_inward(arm, at),
             Self::NewtonEulerLinkAsPrinted => hand_by_two_axes(arm, at),
         }
     }
@@ -108,8 +108,8 @@ impl Formulation {
         [linear, angular(&hand).map(|omega| omega.rate)]
     }
 
-    /// What link i−1 exerts on link i, gravity included, in base axes; the
-    /// moment about the origin of frame i−1, or of frame i in modified DH.
+    /// Returns what link i−1 exerts on link i, gravity included, in base axes;
+    /// the moment about the origin of frame i−1, or of frame i in modified DH.
     pub fn wrenches<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -204,7 +204,7 @@ fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector
     [linear, angular(&hand)]
 }
 
-/// The same by the joint's axis and the lever from there to the hand.
+/// Returns the same by the joint's axis and the lever from there to the hand.
 fn geometric<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
     let frame = match arm.convention {
         Convention::Standard => &levers[j],
@@ -257,7 +257,7 @@ fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     }
 }
 
-/// The same, where x and z travel and y is z × x.
+/// Returns the same, where x and z travel and y is z × x.
 fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let Columns {
         axes: [mut x, _, mut z],

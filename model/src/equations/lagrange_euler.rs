@@ -2,7 +2,7 @@
 //! poses.
 //!
 //! The formulas stand as written: every h_ikm with k ≤ m is a sum of traces,
-//! also those that are zero for every arm. That makes this form the reference_formulation
+//! also those that are zero for every arm. That makes this form the reference
 //! that everything else is proved against.
 //!
 //! Products with ʲ⁻¹A_i are taken one link at a time, U_ij = U_{i−1,j} ⁱ⁻¹A_i,

@@ -44,7 +44,7 @@ impl LinkParameter {
         LinkParameter::Tensor(0, 2),
     ];
 
-    /// How many a link has.
+    /// The number of parameters of a link.
     pub const COUNT: usize = Self::ALL.len();
 
     /// Its name without the link's number.
@@ -126,7 +126,8 @@ pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
         .collect()
 }
 
-/// What of a joint's drive a column is: what it multiplies in the joint's row.
+/// Returns what of a joint's drive a column is: what it multiplies in the
+/// joint's row.
 pub(super) fn drive<'a, S>(
     column: &Column<S>,
     qd: &'a [S],
@@ -155,7 +156,7 @@ impl Formulation {
         })
     }
 
-    /// The same of D a + C v + c + b∘v.
+    /// Computes the regressor of D a + C v + c + b∘v.
     pub fn passivity_regressor<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -203,7 +204,7 @@ pub fn differences<S: Scalar>(
     rows
 }
 
-/// The same joints without masses, friction and rotors.
+/// Returns the same joints without masses, friction and rotors.
 fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     let mut empty = arm.clone();
     for link in &mut empty.links {

@@ -34,16 +34,16 @@ impl Angle {
         Angle::PiTimes(Rational::new(n.into(), 2.into()))
     }
 
-    /// Whether it is zero, in either form.
+    /// Returns whether it is zero, in either form.
     pub fn is_zero(&self) -> bool {
         match self {
             Angle::PiTimes(value) | Angle::Radians(value) => value.is_zero(),
         }
     }
 
-    /// The same angle in the form that compares equal whenever the value
-    /// does: zero radians become zero times π. (No other rational number of
-    /// radians is a rational multiple of π.)
+    /// Returns the same angle in the form that compares equal whenever the
+    /// value does: zero radians become zero times π. (No other rational number
+    /// of radians is a rational multiple of π.)
     #[must_use]
     pub fn canonical(self) -> Self {
         if self.is_zero() {
@@ -186,7 +186,7 @@ pub enum Snap {
     Never,
 }
 
-/// What became of a number of radians.
+/// The reading of a number of radians.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Snapped {
     /// It stays as written, far from any right angle, or is exactly zero.
@@ -199,7 +199,7 @@ pub enum Snapped {
         angle: Angle,
         /// The multiple of π/2 next to it.
         multiple: Angle,
-        /// How far apart they are, rad.
+        /// The distance between them, rad.
         distance: f64,
     },
 }

@@ -48,7 +48,7 @@ impl PartialOrd for Form {
     }
 }
 
-/// Of a rational its reduced numerator and denominator: its own hash goes through the
+/// Hashes of a rational its reduced numerator and denominator: its own hash goes through the
 /// steps of a division with remainder, since it does not count on them being reduced.
 impl Hash for Form {
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -73,7 +73,7 @@ pub(super) struct Power {
     pub(super) cos: u32,
 }
 
-/// How large a constant is: what arithmetic with it may cost.
+/// The size of a constant: what arithmetic with it may cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     /// Its monomials: 1 for a rational.
@@ -88,7 +88,7 @@ pub struct Extent {
 }
 
 impl Exact {
-    /// How large it is.
+    /// Returns how large it is.
     pub fn extent(&self) -> Extent {
         let bits = |value: &Rational| value.numer().bits() + value.denom().bits();
         match &self.0 {
@@ -155,8 +155,9 @@ impl Exact {
         }
     }
 
-    /// Whether the leading coefficient is negative: the sign that canonical
-    /// forms pull out (for a polynomial not necessarily that of the value).
+    /// Returns whether the leading coefficient is negative: the sign that
+    /// canonical forms pull out (for a polynomial not necessarily that of the
+    /// value).
     pub fn leads_negative(&self) -> bool {
         match &self.0 {
             Form::Rational(value) => value.is_negative(),
@@ -381,9 +382,9 @@ fn multiply_into(
     }
 }
 
-/// How an angle in (−π/2, π/2) relates to its generator's angle.
+/// The relation of an angle in (−π/2, π/2) to its generator's angle.
 enum Reflection {
-    /// The same.
+    /// The angle itself.
     None,
     /// The generator's is −angle.
     Negated,

@@ -38,7 +38,7 @@ pub enum NumberError {
 }
 
 impl NumberError {
-    /// What would be right instead.
+    /// Returns what would be right instead.
     pub fn help(self) -> &'static str {
         match self {
             NumberError::Malformed => "write a number like 0.5, -3 or 1.2e-4",
@@ -135,7 +135,7 @@ pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
     digits.finish()
 }
 
-/// Whether a number is zero or of a size from 1e-300 to 1e300.
+/// Returns whether a number is zero or of a size from 1e-300 to 1e300.
 pub fn in_range(value: &Rational) -> bool {
     // Bits first: the exact comparison would build the huge power anyway, but
     // should not multiply it with a numerator a thousand times as long.

@@ -15,7 +15,7 @@ use num_traits::{One, Signed, Zero};
 use super::{Angle, Rational, Rounded, Wide};
 use crate::scalar::Scalar;
 
-/// What is closer than 2^−`NEAR` to a number, in units of the size of what it
+/// A value closer than 2^−`NEAR` to a number, in units of the size of what it
 /// was computed from, is that number.
 const NEAR: u32 = 200;
 /// The most bits of the denominator of a fraction that was meant.

@@ -81,7 +81,8 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// What words compute is what big integers do, in the same form, up to the largest.
+    /// What words compute is what big integers do, in the same form, up to the
+    /// largest.
     #[test]
     fn words_and_big_integers_agree() {
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;

@@ -28,7 +28,7 @@ pub enum Argument {
     Payload,
 }
 
-/// How many entries an argument has.
+/// The number of entries of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Length {
     /// One a joint.
@@ -39,7 +39,7 @@ enum Length {
     Load,
 }
 
-/// What there is to say of an argument.
+/// The facts of an argument.
 struct Facts {
     name: &'static str,
     symbol: &'static str,
@@ -146,7 +146,7 @@ const TABLE: [Facts; Argument::COUNT] = [
 ];
 
 impl Argument {
-    /// How many there are.
+    /// The number of arguments.
     pub const COUNT: usize = 9;
 
     /// Every argument, in the order of signatures.
@@ -208,7 +208,7 @@ impl Argument {
         self.facts().given
     }
 
-    /// What an entry is, in one or two words.
+    /// Returns what an entry is, in one or two words.
     pub fn noun(self) -> &'static str {
         self.facts().noun
     }
@@ -218,7 +218,7 @@ impl Argument {
         self.facts().meaning
     }
 
-    /// How many entries it has.
+    /// Returns how many entries it has.
     pub fn length(self, sizes: Sizes) -> usize {
         match self.facts().length {
             Length::Joints => sizes.joints,
@@ -227,7 +227,7 @@ impl Argument {
         }
     }
 
-    /// Whether it has an entry a joint.
+    /// Returns whether it has an entry a joint.
     pub fn is_of_joints(self) -> bool {
         self.facts().length == Length::Joints
     }
@@ -238,8 +238,8 @@ impl Argument {
         self.facts().limit
     }
 
-    /// How far its entries are taken to reach where a joint has no such limit
-    /// (a position that turns: half a turn).
+    /// Returns how far its entries are taken to reach where a joint has no such
+    /// limit (a position that turns: half a turn).
     pub fn reach(self) -> f64 {
         self.facts().reach
     }

@@ -7,7 +7,6 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{zero_vector, zeros};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -58,12 +57,5 @@ impl Formula for Coriolis {
         let mut still = chain.clone().without_friction();
         still.gravity = zero_vector();
         Some(still.inverse_dynamics(at.at, &at.motion.qd, &rest, form.spin, form.couple))
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(runtime.coriolis(&at.q, &at.qd)?.iter().copied().collect())
     }
 }

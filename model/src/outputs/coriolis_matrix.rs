@@ -7,7 +7,6 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -57,14 +56,5 @@ impl Formula for CoriolisMatrix {
             false => contracted(&at.composite.christoffel(), qd),
         };
         Some(c.into_iter().flatten().collect())
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        // The entries of a matrix come column by column.
-        let c = runtime.coriolis_matrix(&at.q, &at.qd)?;
-        Ok(c.transpose().iter().copied().collect())
     }
 }

@@ -7,7 +7,6 @@ use super::function::Definition;
 use super::quantity::{Facts, kilograms, load, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Shape, Written};
 use crate::equations::dalembert::Part;
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -46,15 +45,6 @@ impl Formula for RotationInertia {
         let d = at.formulation.inertia_part(Part::Rotation, at.arm, at.at);
         d.into_iter().flatten().collect()
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        // Symmetric: its columns are its rows.
-        let d = runtime.part(Part::Rotation).inertia(&at.q)?;
-        Ok(d.iter().copied().collect())
-    }
 }
 
 /// D^tran_ik
@@ -80,15 +70,6 @@ impl Formula for TranslationInertia {
             .inertia_part(Part::Translation, at.arm, at.at);
         d.into_iter().flatten().collect()
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        // Symmetric: its columns are its rows.
-        let d = runtime.part(Part::Translation).inertia(&at.q)?;
-        Ok(d.iter().copied().collect())
-    }
 }
 
 /// h^rot_i
@@ -113,14 +94,6 @@ impl Formula for RotationCoriolis {
         at.formulation
             .velocity_part(Part::Rotation, at.arm, at.at, qd)
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let h = runtime.part(Part::Rotation).coriolis(&at.q, &at.qd)?;
-        Ok(h.iter().copied().collect())
-    }
 }
 
 /// h^tran_i
@@ -144,13 +117,5 @@ impl Formula for TranslationCoriolis {
         let qd = &at.motion.qd;
         at.formulation
             .velocity_part(Part::Translation, at.arm, at.at, qd)
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let h = runtime.part(Part::Translation).coriolis(&at.q, &at.qd)?;
-        Ok(h.iter().copied().collect())
     }
 }

@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -14,7 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.",
     results: &[Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity],
     structure: Some("DynamicCoefficients"),
-    by_default: true,
+    by_default: false,
     parts: &[],
 };
 
@@ -51,15 +50,6 @@ impl Formula for Christoffel {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let h = at.composite.christoffel();
         Some(h.into_iter().flatten().flatten().collect())
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        // Each symmetric: its columns are its rows.
-        let symbols = runtime.christoffel(&at.q)?;
-        Ok(symbols.iter().flatten().copied().collect())
     }
 }
 

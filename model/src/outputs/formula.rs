@@ -9,12 +9,11 @@ use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::{Divide, Scalar};
 
 /// A quantity: what it is, and its formulas, each over any scalar.
 pub(super) trait Formula {
-    /// What it is.
+    /// The value itself.
     const FACTS: Facts;
 
     /// By a textbook formulation: what everything else is proved against.
@@ -26,21 +25,15 @@ pub(super) trait Formula {
         None
     }
 
-    /// Whether it exists only where D has an inverse.
+    /// True if it exists only where D has an inverse.
     const INVERTS_INERTIA: bool = false;
 
-    /// What vanishes if these entries over all joints are the quantity's, by an
-    /// equation that it solves; nothing where [`Formula::written`] says what it
-    /// is.
+    /// Returns what vanishes if these entries over all joints are the
+    /// quantity's, by an equation that it solves; nothing where
+    /// [`Formula::written`] says what it is.
     fn residual<S: Divide>(_: &Written<'_, S>, _: &[S]) -> Vec<S> {
         Vec::new()
     }
-
-    /// By the generic runtime.
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength>;
 }
 
 /// The arguments in the scalar of a computation.
@@ -61,9 +54,9 @@ pub struct Motion<S> {
     /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
     /// that of a joint at rest ([`friction`](crate::equations::friction)).
     pub per_speed: Vec<Option<S>>,
-    /// Whether each joint moves; one that does not is held where it is.
+    /// For each joint, true if it moves; one that does not is held where it is.
     pub moves: Vec<bool>,
-    /// What the hand carries, where that is an argument.
+    /// The payload at the hand, where that is an argument.
     pub loading: Option<Loading<S>>,
 }
 
@@ -144,9 +137,9 @@ pub struct Written<'a, S> {
     pub arm: &'a Arm<S>,
     /// Where it is.
     pub at: &'a [DhVariables<S>],
-    /// How it moves.
+    /// The motion of the arm.
     pub motion: &'a Motion<S>,
-    /// What the columns of a regressor are; none where nothing asked is one.
+    /// The columns of a regressor; none where nothing asked is one.
     pub columns: &'a [Column<S>],
 }
 
@@ -159,7 +152,7 @@ pub struct Regrouped<'a, S> {
     pub at: &'a [Displacement<S>],
     /// Its composite bodies.
     pub composite: Composite<'a, S>,
-    /// How its joints move.
+    /// The motion of its joints.
     pub motion: &'a Motion<S>,
     /// The association.
     pub form: Form,

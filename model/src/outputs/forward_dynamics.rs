@@ -9,7 +9,6 @@ use super::quantity::{Choices, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::{EliminatedTip, Unknowns};
 use crate::equations::matrix::zeros;
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -17,7 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).",
     results: &[Quantity::Acceleration],
     structure: None,
-    by_default: false,
+    by_default: true,
     parts: &[],
 };
 
@@ -81,13 +80,5 @@ impl Formula for Acceleration {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(accelerations(at, Unknowns::AgainstBase))
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let accelerations = runtime.forward_dynamics(&at.q, &at.qd, &at.tau)?;
-        Ok(accelerations.iter().copied().collect())
     }
 }

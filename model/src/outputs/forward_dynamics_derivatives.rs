@@ -13,7 +13,6 @@ use super::quantity::{Choices, Facts, Index};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::forward::{against, free};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -120,15 +119,6 @@ impl Formula for AccelerationByPosition {
         let [position, _] = slopes(at);
         Some(position)
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let [position, _] = runtime.acceleration_slopes(&at.q, &at.qd, &at.tau)?;
-        // The entries of a matrix come column by column.
-        Ok(position.transpose().iter().copied().collect())
-    }
 }
 
 impl Formula for AccelerationByVelocity {
@@ -165,14 +155,6 @@ impl Formula for AccelerationByVelocity {
         let [_, velocity] = slopes(at);
         Some(velocity)
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let [_, velocity] = runtime.acceleration_slopes(&at.q, &at.qd, &at.tau)?;
-        Ok(velocity.transpose().iter().copied().collect())
-    }
 }
 
 impl Formula for AccelerationByTorque {
@@ -197,12 +179,5 @@ impl Formula for AccelerationByTorque {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         InertiaInverse::regrouped(at)
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        InertiaInverse::runtime(runtime, at)
     }
 }

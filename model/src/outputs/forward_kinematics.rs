@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -14,7 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.",
     results: &[Quantity::Pose],
     structure: None,
-    by_default: false,
+    by_default: true,
     parts: &[],
 };
 
@@ -40,12 +39,5 @@ impl Formula for Pose {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         at.formulation.hand(at.arm, at.at).rows()
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(runtime.hand(&at.q)?.rows())
     }
 }

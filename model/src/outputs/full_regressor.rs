@@ -7,7 +7,6 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::regressor::{CHOICES, MOTION, regrouped, unit, written};
 use super::{Axis, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -45,14 +44,5 @@ impl Formula for LinkRegressor {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(regrouped(at))
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let y = runtime.full_regressor(&at.q, &at.qd, &at.qdd)?;
-        // By rows: nalgebra keeps columns.
-        Ok(y.transpose().iter().copied().collect())
     }
 }

@@ -11,18 +11,18 @@ use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
-/// What an output's file says of its function, and a bundle of itself.
+/// The definition of a function by its file, or of a bundle.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Definition {
     /// Its name in generated code, on the command line and in the macro.
     pub name: &'static str,
     /// A line for its documentation.
     pub summary: &'static str,
-    /// What it returns.
+    /// The quantities that it returns.
     pub results: &'static [Quantity],
     /// The struct it returns, if it returns several quantities.
     pub structure: Option<&'static str>,
-    /// Whether it is generated where nobody says which functions are wanted.
+    /// True if it is generated where nobody says which functions are wanted.
     pub by_default: bool,
     /// The functions whose results these are; none if it is no bundle of others.
     pub parts: &'static [Function],
@@ -61,7 +61,7 @@ impl Function {
         self.definition().summary
     }
 
-    /// What it reads: all that its results depend on.
+    /// Returns what it reads: all that its results depend on.
     pub fn arguments(self) -> Vec<Argument> {
         let read = |argument: &Argument| {
             let mut results = self.quantities().iter();
@@ -70,7 +70,7 @@ impl Function {
         Argument::ALL.into_iter().filter(read).collect()
     }
 
-    /// What it has to do with a payload: as much as any of its results.
+    /// Returns what it has to do with a payload: as much as any of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
         let has = |payload_dependence| {
             self.quantities()
@@ -84,7 +84,7 @@ impl Function {
         }
     }
 
-    /// Whether it depends on a parameter that can be an argument.
+    /// Returns whether it depends on a parameter that can be an argument.
     pub fn depends_on(self, parameter: RuntimeParameter) -> bool {
         match parameter {
             RuntimeParameter::Payload => self.payload_dependence() == PayloadDependence::Torque,
@@ -92,7 +92,7 @@ impl Function {
         }
     }
 
-    /// What it returns.
+    /// Returns what it returns.
     pub fn quantities(self) -> &'static [Quantity] {
         self.definition().results
     }
@@ -102,7 +102,7 @@ impl Function {
         self.definition().structure
     }
 
-    /// How many numbers it returns.
+    /// Returns how many numbers it returns.
     pub fn outputs(self, sizes: Sizes) -> usize {
         self.quantities().iter().map(|q| q.len(sizes)).sum()
     }
@@ -142,8 +142,8 @@ impl Function {
             .collect()
     }
 
-    /// What vanishes if these results over all joints solve the equations that
-    /// they are to solve.
+    /// Returns what vanishes if these results over all joints solve the
+    /// equations that they are to solve.
     pub fn residual<S: Divide>(
         self,
         formulation: Formulation,
@@ -169,7 +169,7 @@ impl Function {
         residual
     }
 
-    /// Whether it exists only where D has an inverse.
+    /// Returns whether it exists only where D has an inverse.
     pub fn inverts_inertia(self) -> bool {
         self.quantities().iter().any(|q| q.inverts_inertia())
     }

@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -48,12 +47,5 @@ impl Formula for Gravity {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(at.composite.gravity(at.form.travel))
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(runtime.gravity(&at.q)?.iter().copied().collect())
     }
 }

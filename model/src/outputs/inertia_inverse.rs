@@ -8,7 +8,6 @@ use super::quantity::{Choices, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::EliminatedTip;
 use crate::equations::forward::{free, inverted};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -81,13 +80,5 @@ impl Formula for InertiaInverse {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(inverse(at).into_iter().flatten().collect())
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        // Symmetric: its columns are its rows.
-        Ok(runtime.inertia_inverse(&at.q)?.iter().copied().collect())
     }
 }

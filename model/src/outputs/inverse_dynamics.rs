@@ -7,7 +7,6 @@ use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{plus, times, zero_vector};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::{Divide, Scalar};
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -75,13 +74,5 @@ impl Formula for Torque {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(torques(at, &at.motion.qdd))
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let tau = runtime.inverse_dynamics(&at.q, &at.qd, &at.qdd)?;
-        Ok(tau.iter().copied().collect())
     }
 }

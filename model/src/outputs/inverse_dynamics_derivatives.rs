@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -66,15 +65,6 @@ impl Formula for TorqueByPosition {
         let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
         Some(slopes.position.into_iter().flatten().collect())
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let slopes = runtime.torque_by_position(&at.q, &at.qd, &at.qdd)?;
-        // The entries of a matrix come column by column.
-        Ok(slopes.transpose().iter().copied().collect())
-    }
 }
 
 /// ∂τ_i/∂q̇_k
@@ -114,13 +104,5 @@ impl Formula for TorqueByVelocity {
         let motion = at.motion;
         let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
         Some(slopes.velocity.into_iter().flatten().collect())
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let slopes = runtime.torque_by_velocity(&at.q, &at.qd)?;
-        Ok(slopes.transpose().iter().copied().collect())
     }
 }

@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -14,7 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.",
     results: &[Quantity::Jacobian],
     structure: None,
-    by_default: false,
+    by_default: true,
     parts: &[],
 };
 
@@ -42,12 +41,5 @@ impl Formula for Jacobian {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let j = at.formulation.jacobian(at.arm, at.at);
         j.into_iter().flatten().collect()
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(runtime.jacobian(&at.q)?.into_iter().flatten().collect())
     }
 }

@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -41,13 +40,5 @@ impl Formula for JacobianRate {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let rate = at.formulation.jacobian_rate(at.arm, at.at, &at.motion.qd);
         rate.into_iter().flatten().collect()
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let rate = runtime.jacobian_rate(&at.q, &at.qd)?;
-        Ok(rate.into_iter().flatten().collect())
     }
 }

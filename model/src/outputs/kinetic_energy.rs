@@ -9,7 +9,6 @@ use super::quantity::{Choices, Facts};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::matrix::{halved, times, total};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -58,12 +57,5 @@ impl Formula for KineticEnergy {
                 halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
             }
         }])
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(vec![runtime.kinetic_energy(&at.q, &at.qd)?])
     }
 }

@@ -8,7 +8,6 @@ use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Shape, Written};
 use crate::equations::kinematics::poses;
 use crate::equations::matrix::Columns;
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -42,16 +41,5 @@ impl Formula for LinkPoses {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let poses = poses(at.arm, at.at);
         poses.iter().flat_map(Columns::rows).collect()
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(runtime
-            .poses(&at.q)?
-            .iter()
-            .flat_map(Columns::rows)
-            .collect())
     }
 }

@@ -12,7 +12,6 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, Quantity, Shape, Written};
 use crate::equations::load::Loading;
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -41,9 +40,5 @@ impl Formula for Load {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let loading = at.motion.loading.as_ref();
         loading.map_or_else(Vec::new, Loading::load)
-    }
-
-    fn runtime<T: Float>(_: &Reference<T>, at: &JointVectors<T>) -> Result<Vec<T>, WrongLength> {
-        Ok(at.loading.as_ref().map_or_else(Vec::new, Loading::load))
     }
 }

@@ -80,7 +80,7 @@ registry! {
     momentum: Momentum { Momentum, MomentumSlope }
     /// C(q, q̇): the Coriolis matrix.
     coriolis_matrix: CoriolisMatrix { CoriolisMatrix }
-    /// What rotation and translation of the links contribute to D and h, and c.
+    /// Contributions of the links' rotation and translation to D and h, and c.
     dalembert_terms: DalembertTerms {
         RotationInertia, TranslationInertia, RotationCoriolis, TranslationCoriolis
     }

@@ -7,7 +7,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -51,13 +50,6 @@ impl Formula for Momentum {
         let [p, _] = at.chain.momentum(at.at, &at.motion.qd);
         Some(p)
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(runtime.momentum(&at.q, &at.qd)?.iter().copied().collect())
-    }
 }
 
 /// (Cᵀq̇)_i
@@ -88,13 +80,5 @@ impl Formula for MomentumSlope {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let [_, slope] = at.chain.momentum(at.at, &at.motion.qd);
         Some(slope)
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let slope = runtime.momentum_slope(&at.q, &at.qd)?;
-        Ok(slope.iter().copied().collect())
     }
 }

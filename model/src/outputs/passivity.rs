@@ -7,7 +7,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -19,7 +18,7 @@ pub(super) const FUNCTION: Definition = Definition {
     parts: &[],
 };
 
-/// What it and its regressor depend on.
+/// The arguments of it and of its regressor.
 pub(super) const ARGUMENTS: &[Argument] = &[
     Argument::Position,
     Argument::Velocity,
@@ -61,13 +60,5 @@ impl Formula for Passivity {
         let motion = at.motion;
         let torques = at.chain.passivity(at.at, &motion.qd, &motion.v, &motion.a);
         Some(torques)
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let torques = runtime.passivity(&at.q, &at.qd, &at.v, &at.a)?;
-        Ok(torques.iter().copied().collect())
     }
 }

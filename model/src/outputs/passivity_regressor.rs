@@ -14,7 +14,6 @@ use super::passivity::ARGUMENTS;
 use super::quantity::Facts;
 use super::regressor::CHOICES;
 use super::{Axis, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -56,14 +55,5 @@ impl Formula for PassivityRegressor {
         let wished = [&motion.v[..], &motion.a[..]];
         let rows = (at.chain).passivity_regressor(at.at, &motion.qd, wished, travel);
         Some(rows.into_iter().flatten().collect())
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let y = runtime.passivity_regressor(&at.q, &at.qd, &at.v, &at.a, &at.columns)?;
-        // By rows: nalgebra keeps columns.
-        Ok(y.transpose().iter().copied().collect())
     }
 }

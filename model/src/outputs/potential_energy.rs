@@ -7,7 +7,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, PayloadDependence, Quantity, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -40,12 +39,5 @@ impl Formula for PotentialEnergy {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         vec![at.formulation.potential_energy(at.arm, at.at)]
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(vec![runtime.potential_energy(&at.q)?])
     }
 }

@@ -8,10 +8,10 @@ use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
-/// What given states have, from a result's entries and q̇.
+/// The conversion of a result's entries, with q̇, into those of given states.
 pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
 
-/// What a quantity's file says of it, but for its formulas.
+/// The facts that a quantity's file states, beside its formulas.
 pub(super) struct Facts {
     /// Its field in the structs that generated functions return.
     pub field: &'static str,
@@ -21,42 +21,42 @@ pub(super) struct Facts {
     pub symbol: &'static str,
     /// A line of documentation for its field.
     pub summary: &'static str,
-    /// What it depends on.
+    /// The arguments that it depends on.
     pub arguments: &'static [Argument],
-    /// How its numbers are arranged.
+    /// The arrangement of its numbers.
     pub shape: Shape,
-    /// Of what is over base parameters: what it gives with their values, and the
+    /// For a quantity over base parameters: what it gives with their values, and the
     /// constant of generated code that has these.
     pub linear: Option<(&'static str, &'static str)>,
     /// The unit of an entry, given its place along each axis.
     pub unit: fn(&[Index]) -> &'static str,
-    /// What an error is held against where actuators are the measure.
+    /// The scale of an error where actuators are the measure.
     pub scale: ErrorScale,
     /// Its key in files of given states.
     pub given: Option<&'static str>,
-    /// What given states have in its stead, and how that follows from its
+    /// The quantity that given states have in its stead, and how that follows from its
     /// entries and q̇.
     pub given_as: Option<(Quantity, FromEntries)>,
-    /// What the chain formulas leave open; `None` if they do not give it.
+    /// The choices that the chain formulas leave; `None` if they do not give it.
     pub choices: Option<Choices>,
-    /// Whether the textbook recursion is a start that may be the cheapest.
+    /// True if the textbook recursion is a start that may be the cheapest.
     pub starts_from_recursion: bool,
-    /// Whether recursions give it only by differences of torques, which costs
+    /// True if recursions give it only by differences of torques, which costs
     /// digits and n² recursions.
     pub by_differences: bool,
-    /// Whether it is a matrix that is positive definite.
+    /// True if it is a matrix that is positive definite.
     pub definite: bool,
-    /// Whether it depends on lengths that no torque depends on: where the
+    /// True if it depends on lengths that no torque depends on: where the
     /// first joints stand.
     pub depends_on_base: bool,
-    /// What it has to do with a payload.
+    /// Its dependence on a payload.
     pub payload_dependence: PayloadDependence,
-    /// Whether it depends on gravity.
+    /// True if it depends on gravity.
     pub gravity: bool,
 }
 
 impl Facts {
-    /// What is said of most quantities; a file says the rest, and what differs.
+    /// The facts of most quantities; a file states the rest, and what differs.
     pub(super) const PLAIN: Facts = Facts {
         field: "",
         letter: "",
@@ -82,30 +82,30 @@ impl Facts {
 /// Which associations of the chain formulas matter to a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Choices {
-    /// Whether it comes out of the recursion over velocities.
+    /// True if it comes out of the recursion over velocities.
     pub recursion: bool,
-    /// Whether it may travel outward or inward.
+    /// True if it may travel outward or inward.
     pub travel: bool,
-    /// Whether it may come from composite momenta, which then travel.
+    /// True if it may come from composite momenta, which then travel.
     pub flows: bool,
 }
 
 /// The place of an entry along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Index {
-    /// Of a joint that turns.
+    /// A joint that turns.
     Turning,
-    /// Of a joint that slides.
+    /// A joint that slides.
     Sliding,
-    /// Of an axis that is the same for every arm.
+    /// A place on an axis that is the same for every arm.
     Fixed(usize),
-    /// Of an inertial parameter of a link.
+    /// An inertial parameter of a link.
     Parameter(LinkParameter),
-    /// Of a base parameter: a combination, whose unit its terms share.
+    /// A base parameter: a combination, whose unit its terms share.
     Base,
 }
 
-/// What an error of an entry is held against where the actuators' torque
+/// The scale that an error of an entry is held against where the actuators' torque
 /// limits T_i are the measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorScale {
@@ -120,7 +120,7 @@ pub enum ErrorScale {
 }
 
 impl Quantity {
-    /// How its numbers are arranged.
+    /// Returns how its numbers are arranged.
     pub fn shape(self) -> Shape {
         self.facts().shape
     }
@@ -131,12 +131,12 @@ impl Quantity {
         self.facts().linear
     }
 
-    /// How many numbers it has.
+    /// Returns how many numbers it has.
     pub fn len(self, sizes: Sizes) -> usize {
         self.shape().len(sizes)
     }
 
-    /// What it depends on.
+    /// Returns what it depends on.
     pub fn arguments(self) -> &'static [Argument] {
         self.facts().arguments
     }
@@ -156,7 +156,7 @@ impl Quantity {
         self.facts().symbol
     }
 
-    /// What an error is held against where actuators are the measure.
+    /// Returns what an error is held against where actuators are the measure.
     pub fn scale(self) -> ErrorScale {
         self.facts().scale
     }
@@ -166,8 +166,8 @@ impl Quantity {
         self.facts().given
     }
 
-    /// What given states have of it, from its entries at a state of these
-    /// velocities.
+    /// Returns what given states have of it, from its entries at a state of
+    /// these velocities.
     pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
         match self.facts().given_as {
             Some((quantity, convert)) => (quantity, convert(values, qd)),
@@ -175,37 +175,38 @@ impl Quantity {
         }
     }
 
-    /// Whether the textbook recursion is a start that may be the cheapest.
+    /// Returns whether the textbook recursion is a start that may be the
+    /// cheapest.
     pub fn starts_from_recursion(self) -> bool {
         self.facts().starts_from_recursion
     }
 
-    /// Whether recursions give it only by differences of torques.
+    /// Returns whether recursions give it only by differences of torques.
     pub fn by_differences(self) -> bool {
         self.facts().by_differences
     }
 
-    /// Whether it is a matrix that is positive definite.
+    /// Returns whether it is a matrix that is positive definite.
     pub fn is_definite(self) -> bool {
         self.facts().definite
     }
 
-    /// Whether the chain formulas give it.
+    /// Returns whether the chain formulas give it.
     pub fn is_regrouped(self) -> bool {
         self.facts().choices.is_some()
     }
 
-    /// Whether it depends on where the first joints stand.
+    /// Returns whether it depends on where the first joints stand.
     pub fn depends_on_base(self) -> bool {
         self.facts().depends_on_base
     }
 
-    /// What it has to do with a payload.
+    /// Returns what it has to do with a payload.
     pub fn payload_dependence(self) -> PayloadDependence {
         self.facts().payload_dependence
     }
 
-    /// Whether it depends on gravity.
+    /// Returns whether it depends on gravity.
     pub fn feels_gravity(self) -> bool {
         self.facts().gravity
     }
@@ -286,8 +287,8 @@ pub(super) fn kilograms(metres: i32) -> &'static str {
     }
 }
 
-/// How many of the joints turn: a force over an axis is a torque, one metre
-/// more.
+/// Returns how many of the joints turn: a force over an axis is a torque, one
+/// metre more.
 pub(super) fn turns(at: &[Index]) -> i32 {
     at.iter().map(|at| i32::from(*at == Index::Turning)).sum()
 }

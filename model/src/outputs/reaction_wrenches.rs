@@ -7,7 +7,6 @@ use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Shape, Written};
 use crate::equations::newton_euler::Wrench as ForceAndMoment;
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -51,13 +50,6 @@ impl Formula for Wrench {
             .formulation
             .wrenches(at.arm, at.at, &motion.qd, &motion.qdd);
         flat(wrenches)
-    }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        Ok(flat(runtime.wrenches(&at.q, &at.qd, &at.qdd)?))
     }
 }
 

@@ -85,7 +85,7 @@ macro_rules! registry {
                 }
             }
 
-            /// Whether it exists only where D has an inverse.
+            /// Returns whether it exists only where D has an inverse.
             pub fn inverts_inertia(self) -> bool {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)*)*
@@ -93,8 +93,8 @@ macro_rules! registry {
                 }
             }
 
-            /// What vanishes if these entries over all joints are its own, by an
-            /// equation that it solves; nothing if it solves none.
+            /// Returns what vanishes if these entries over all joints are its
+            /// own, by an equation that it solves; nothing if it solves none.
             pub fn residual<S: $crate::scalar::Divide>(
                 self,
                 at: &Written<'_, S>,
@@ -103,21 +103,6 @@ macro_rules! registry {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)*)*
                     $($(Quantity::$part => <$along_file::$part as formula::Formula>::residual(at, values),)*)*
-                }
-            }
-
-            /// Its entries by the generic runtime.
-            ///
-            /// # Errors
-            /// A vector of another length than the arm has joints.
-            pub fn runtime<T: $crate::reference::Float>(
-                self,
-                runtime: &$crate::reference::Reference<T>,
-                at: &$crate::reference::JointVectors<T>,
-            ) -> ::core::result::Result<::alloc::vec::Vec<T>, $crate::reference::WrongLength> {
-                match self {
-                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::runtime(runtime, at),)*)*
-                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::runtime(runtime, at),)*)*
                 }
             }
         }

@@ -6,7 +6,6 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
-use crate::reference::{Float, JointVectors, Reference, WrongLength};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -45,18 +44,9 @@ impl Formula for BaseRegressor {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(regrouped(at))
     }
-
-    fn runtime<T: Float>(
-        runtime: &Reference<T>,
-        at: &JointVectors<T>,
-    ) -> Result<Vec<T>, WrongLength> {
-        let y = runtime.regressor(&at.q, &at.qd, &at.qdd, &at.columns)?;
-        // By rows: nalgebra keeps columns.
-        Ok(y.transpose().iter().copied().collect())
-    }
 }
 
-/// What both regressors depend on.
+/// The arguments of both regressors.
 pub(super) const MOTION: [Argument; 3] = [
     Argument::Position,
     Argument::Velocity,

@@ -34,7 +34,7 @@ impl RuntimeParameter {
     }
 }
 
-/// What a payload has to do with a quantity.
+/// The dependence of a quantity on a payload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PayloadDependence {
     /// Nothing.

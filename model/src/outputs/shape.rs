@@ -20,7 +20,7 @@ pub enum Axis {
     Load,
 }
 
-/// What the lengths of axes follow from.
+/// The numbers that the lengths of axes follow from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// The joints that results are over.
@@ -35,7 +35,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Of results over all joints, of which none is over base parameters.
+    /// Returns the sizes of results over all joints, of which none is over base parameters.
     pub fn whole(joints: usize) -> Sizes {
         Sizes {
             rows: joints,
@@ -45,7 +45,7 @@ impl Sizes {
         }
     }
 
-    /// The same over so many joints.
+    /// Returns the same over so many joints.
     #[must_use]
     pub fn over(self, rows: usize) -> Sizes {
         Sizes { rows, ..self }
@@ -71,7 +71,7 @@ impl Shape {
         self.0.iter().map(move |axis| axis.length(sizes))
     }
 
-    /// How many numbers it has.
+    /// Returns how many numbers it has.
     pub fn len(self, sizes: Sizes) -> usize {
         self.lengths(sizes).product()
     }
@@ -87,7 +87,7 @@ impl Shape {
         places
     }
 
-    /// Whether it has an axis over base parameters.
+    /// Returns whether it has an axis over base parameters.
     pub fn is_over_base(self) -> bool {
         self.0.contains(&Axis::BaseParameters)
     }

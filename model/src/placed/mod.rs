@@ -126,8 +126,8 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
     Ok(())
 }
 
-/// What lengths are small against: the arm stretched out, or a metre if it has
-/// no length.
+/// Returns what lengths are small against: the arm stretched out, or a metre if
+/// it has no length.
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     let ends = [&robot.base, &robot.tool, &robot.payload_frame];
     let ends = ends.into_iter().flatten();
@@ -139,7 +139,7 @@ fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     }
 }
 
-/// Whether a number is nothing beside what is of this size.
+/// Returns whether a number is nothing beside what is of this size.
 fn is_nothing(value: &Wide, size: &Rational) -> bool {
     let value = num_traits::Signed::abs(&value.to_rational());
     value <= size * crate::number::recover::near()

@@ -184,7 +184,7 @@ fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<W
     }
 }
 
-/// Of both directions of a normal, the one nearer to the frame's own x; to its
+/// Returns, of both directions of a normal, the one nearer to the frame's own x; to its
 /// y where it is across.
 fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
     let SinCosPair { sin, cos } = components(here, &x);

@@ -12,14 +12,15 @@ use super::places::Places;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
-use super::{Options, allow, guard, joint, placed, scene, syntax};
+use super::{Options, allow, guard, joint, outputs, placed, scene, syntax};
 use crate::number::Rational;
+use crate::outputs::Function;
 use crate::placed::Placed;
 use crate::robot::{Convention, Finding, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
 
 /// The keys of a robot.
-const KEYS: [&str; 9] = [
+const KEYS: [&str; 10] = [
     "name",
     "convention",
     "gravity",
@@ -27,6 +28,7 @@ const KEYS: [&str; 9] = [
     "tool",
     "payload_frame",
     "allow",
+    "outputs",
     "joint",
     "scene",
 ];
@@ -36,7 +38,7 @@ pub(super) fn read<'s>(
     source: &'s str,
     options: &Options,
     sink: &mut Sink<'s>,
-) -> Option<(Robot, Vec<Scene>)> {
+) -> Option<(Robot, Vec<Function>, Vec<Scene>)> {
     if !guard::admits(source, sink) {
         return None;
     }
@@ -62,13 +64,15 @@ pub(super) fn read<'s>(
         let help = finding.help.unwrap_or_default();
         cx.sink.found(finding.warning, span, finding.message, &help);
     }
-    let scenes = root.as_table().and_then(|table| table.get("scene"));
+    let key = |key| root.as_table().and_then(|table| table.get(key));
+    let outputs = key("outputs").and_then(|value| outputs::read(&mut cx, value, "a robot"));
+    let scenes = key("scene");
     // Without joints, every joint of a scene would be unknown as well.
     let scenes = scenes.filter(|_| !robot.joints.is_empty());
     let scenes = scenes.map_or_else(Vec::new, |scenes| {
         scene::read(&mut cx, &robot, &places, scenes)
     });
-    Some((robot, scenes))
+    Some((robot, outputs.unwrap_or_default(), scenes))
 }
 
 /// The robot, and what is wrong or odd about it beside what cannot be read.

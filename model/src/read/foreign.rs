@@ -49,7 +49,7 @@ pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     (first == "---" || first.starts_with("%YAML") || keyed).then_some(("YAML", TOML))
 }
 
-/// What to write for a character that TOML does not take.
+/// Returns what to write for a character that TOML does not take.
 pub(super) fn character(c: char) -> Option<(String, &'static str)> {
     let code = u32::from(c);
     let named = |what: &str| format!("the character `{c}` (U+{code:04X}) is {what}");
@@ -92,7 +92,7 @@ fn decimal_comma(text: &str) -> Option<String> {
     (digits(alone) && digits(fraction)).then(|| format!("{whole}.{part}"))
 }
 
-/// The same for a number that a comma at this byte cuts in two.
+/// Returns the same for a number that a comma at this byte cuts in two.
 pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
     let (before, rest) = (source.get(..comma)?, source.get(comma..)?);
     let ends = |c: char| c.is_whitespace() || matches!(c, '=' | '[' | '{' | ']' | '}' | '#');
@@ -102,7 +102,8 @@ pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
     decimal_comma(text.trim_end_matches(','))
 }
 
-/// Whether an array's text has a number with a decimal comma: `[0, 0, -9,81]`.
+/// Returns whether an array's text has a number with a decimal comma:
+/// `[0, 0, -9,81]`.
 pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
     let inner = array.trim().trim_start_matches('[').trim_end_matches(']');
     let mut words = inner

@@ -15,6 +15,7 @@
 //! tool = { xyz = [0, 0, 0.107] }                      # the hand in the last frame
 //! payload_frame = { xyz = [0, 0, 0.05] }              # of payloads in the last frame
 //! allow = ["impossible_inertia"]                      # warnings that are known, by name
+//! outputs = ["inverse_dynamics", "gravity"]            # generated where nobody names any
 //!
 //! [[joint]]                       # a joint without a row of the DH table:
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
@@ -41,6 +42,7 @@ mod file;
 mod foreign;
 mod guard;
 mod joint;
+mod outputs;
 mod placed;
 mod places;
 mod report;
@@ -53,6 +55,7 @@ mod value;
 use alloc::vec::Vec;
 
 use crate::number::Snap;
+use crate::outputs::Function;
 use crate::robot::Robot;
 use crate::scene::Scene;
 
@@ -61,7 +64,7 @@ pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
 pub use suggest::{closest, for_bundle};
 
-/// How to read.
+/// The options of a reading.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// When a number of radians counts as a multiple of π/2.
@@ -73,6 +76,9 @@ pub struct Options {
 pub struct Reading {
     /// The robot; [`Robot::validate`] finds no error in it.
     pub robot: Robot,
+    /// The functions that the file is for, which are generated where nobody names any; empty
+    /// if it does not say.
+    pub outputs: Vec<Function>,
     /// Its scenes, in the order of the file; [`Scene::validate`] finds nothing.
     pub scenes: Vec<Scene>,
     /// Warnings and notes, in the order of the file.

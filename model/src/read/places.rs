@@ -30,7 +30,7 @@ impl Places {
         })
     }
 
-    /// Whether a part is as the file says, and not made up.
+    /// Returns whether a part is as the file says, and not made up.
     pub(super) fn was_read(&self, place: Place) -> bool {
         !self.unread.contains(&place)
     }

@@ -8,6 +8,7 @@ use core::fmt;
 use core::ops::Range;
 
 use super::{Reading, RobotWarning, Severity};
+use crate::outputs::Function;
 use crate::robot::Robot;
 use crate::scene::Scene;
 
@@ -21,9 +22,9 @@ const MAX_WIDTH: usize = 120;
 pub struct Diagnostic {
     /// Error, warning or note.
     pub severity: Severity,
-    /// What a warning of a robot file is about; `None` of anything else.
+    /// The name of a robot file's warning; `None` of anything else.
     pub warning: Option<RobotWarning>,
-    /// What is wrong, and what was expected.
+    /// A sentence that says the mistake, and what was expected.
     pub message: String,
     /// Bytes of the source that it is about.
     pub span: Range<usize>,
@@ -221,7 +222,7 @@ impl<'s> Sink<'s> {
     /// only in the way.
     pub(super) fn finish(
         mut self,
-        read: Option<(Robot, Vec<Scene>)>,
+        read: Option<(Robot, Vec<Function>, Vec<Scene>)>,
     ) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
         let allowed = self.allowed;
@@ -239,8 +240,9 @@ impl<'s> Sink<'s> {
             }
         }
         match read {
-            Some((robot, scenes)) if errors.is_empty() => Ok(Reading {
+            Some((robot, outputs, scenes)) if errors.is_empty() => Ok(Reading {
                 robot,
+                outputs,
                 scenes,
                 notes,
             }),

@@ -8,6 +8,7 @@ use core::ops::Range;
 
 use toml_span::Value;
 
+use super::outputs;
 use super::places::Places;
 use super::report::quote;
 use super::suggest;
@@ -31,12 +32,12 @@ const KEYS: [&str; 10] = [
     "scalar",
 ];
 
-/// What one scene's tables say, and where.
+/// The reader of one scene's tables.
 struct Reader<'r, 's, 'k> {
     cx: &'r mut Context<'s, 'k>,
     robot: &'r Robot,
     spans: BTreeMap<Part, Range<usize>>,
-    /// Whether something could not be read: what seems to be missing then
+    /// True if something could not be read: what seems to be missing then
     /// may be that.
     incomplete: bool,
 }
@@ -89,7 +90,7 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, places: &Places, scenes: &Va
     read
 }
 
-/// Whether a finding here may come from what could not be read.
+/// Returns whether a finding here may come from what could not be read.
 fn is_of_absence(part: Part) -> bool {
     matches!(
         part,
@@ -120,7 +121,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// What was read, noting if it could not be.
+    /// Returns what was read, noting if it could not be.
     fn noted<T>(&mut self, read: Option<T>) -> Option<T> {
         self.incomplete |= read.is_none();
         read
@@ -159,51 +160,13 @@ impl Reader<'_, '_, '_> {
     }
 
     fn outputs(&mut self, keys: &Keys) -> Vec<Function> {
-        const HELP: &str = "outputs = [\"inverse_dynamics\"]";
         let Some(value) = keys.get("outputs") else {
             return Vec::new();
         };
         self.mark(Part::Outputs, value);
-        let items = self.list(value, HELP).unwrap_or_default();
-        let mut outputs: Vec<Function> = Vec::new();
-        for item in items {
-            let read = self.output(item, &outputs);
-            let Some(output) = self.noted(read) else {
-                continue;
-            };
-            if outputs.iter().any(|other| output.is_namesake(*other)) {
-                let message = format!("`{}` is in the list already", output.name());
-                let span = Context::span(item);
-                self.cx.sink.error(span, message, "once is enough");
-            } else {
-                outputs.push(output);
-            }
-        }
-        if items.is_empty() {
-            let span = first_line(self.cx.source, Context::span(value));
-            let message = "a scene wants one output at least".to_string();
-            let help = "leave `outputs` out for the request's";
-            self.cx.sink.error(span, message, help);
-        }
-        outputs
-    }
-
-    /// An output by its name, or a bundle of some.
-    fn output(&mut self, item: &Value, before: &[Function]) -> Option<Function> {
-        let words = Function::ALL.map(|function| (function.name(), function));
-        let Some(text) = item.as_str().filter(|text| text.contains(['=', '+'])) else {
-            return self.cx.word(item, &words);
-        };
-        match Function::parse(text) {
-            Ok(bundle) => Some(bundle),
-            Err(error) => {
-                let error = error.among(before);
-                let help = suggest::for_bundle(&error);
-                let span = Context::span(item);
-                self.cx.sink.error(span, error.message(), &help);
-                None
-            }
-        }
+        let read = outputs::read(self.cx, value, "a scene");
+        self.incomplete |= read.is_none();
+        read.unwrap_or_default()
     }
 
     fn joints(&mut self, keys: &Keys) -> Option<Vec<usize>> {
@@ -250,12 +213,12 @@ impl Reader<'_, '_, '_> {
         if found.is_none() {
             let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
             let help = match (number, suggest::closest(text, &names)) {
-                (Some(_), _) => format!("joints are counted from 1 to {n}"),
                 (None, Some(meant)) => format!("did you mean `{meant}`?"),
                 (None, None) if names.is_empty() => {
                     format!("the joints have no names: count them from 1 to {n}")
                 }
-                (None, None) => format!("known: {}", names.join(", ")),
+                _ if names.is_empty() => format!("joints are counted from 1 to {n}"),
+                _ => format!("joints are counted from 1 to {n}: {}", names.join(", ")),
             };
             let message = format!("there is no joint {}", quote(text));
             self.cx.sink.error(span, message, &help);
@@ -292,7 +255,8 @@ impl Reader<'_, '_, '_> {
         locks
     }
 
-    /// How a lock is written: of the joint with this name or number, if there is one.
+    /// Returns how a lock is written: of the joint with this name or number, if there
+    /// is one.
     fn lock_of(&self, word: Option<&str>) -> String {
         let joints = self.robot.joints.iter().enumerate();
         let names = joints.map(|(i, joint)| (format!("{}", i + 1), joint.name.as_deref()));

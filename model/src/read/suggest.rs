@@ -5,7 +5,7 @@ use alloc::string::String;
 
 use crate::outputs::{BundleError, Function};
 
-/// What other tools and textbooks call the same thing.
+/// Words of other tools and textbooks, with ours.
 const OTHER_WORDS: [(&str, &str); 32] = [
     ("m", "mass"),
     ("weight", "mass"),
@@ -41,8 +41,8 @@ const OTHER_WORDS: [(&str, &str); 32] = [
     ("sliding", "prismatic"),
 ];
 
-/// What to do about a bundle that is none, with the output that was probably
-/// meant.
+/// Returns what to do about a bundle that is none, with the output that was
+/// probably meant.
 pub fn for_bundle(error: &BundleError) -> String {
     let meant = match error {
         BundleError::Unknown(word) => closest(word, &Function::ALL.map(Function::name)),
@@ -61,8 +61,8 @@ const SEVERAL: [(&str, &[&str], &str); 1] = [(
     "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both",
 )];
 
-/// What to write instead of a key that is not known, if that is one or several of
-/// these.
+/// Returns what to write instead of a key that is not known, if that is one or
+/// several of these.
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     let has_all = |keys: &[&str]| keys.iter().all(|key| known.contains(key));
     let mut several = SEVERAL.iter();
@@ -72,10 +72,13 @@ pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     closest(word, known).map(|meant| format!("did you mean `{meant}`?"))
 }
 
+/// The longest word that is compared, with one place before its first letter.
+const N: usize = 64;
+
 /// The candidate that `word` is most likely a slip of, if one is near.
 pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
     // Nothing is near a longer word, and the work stays bounded.
-    if word.len() > 32 {
+    if word.len() >= N {
         return None;
     }
     let word = word.to_ascii_lowercase();
@@ -87,7 +90,7 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
     let letters = word.chars().count();
     candidates
         .iter()
-        .map(|candidate| (distance(&word, candidate), *candidate))
+        .map(|candidate| (distance(&word, &candidate.to_ascii_lowercase()), *candidate))
         // One slip in three letters at most: `a` is not a slip of `d`.
         .filter(|(distance, candidate)| distance * 3 <= letters.max(candidate.len()))
         .min_by_key(|(distance, _)| *distance)
@@ -97,7 +100,6 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
 /// Insertions, deletions, substitutions and swaps of neighbours that turn one
 /// word into the other.
 fn distance(left: &str, right: &str) -> usize {
-    const N: usize = 40;
     let mut table = [[0usize; N]; N];
     let (mut l, mut r) = (['\0'; N], ['\0'; N]);
     let fill = |chars: &mut [char; N], word: &str| {
@@ -143,7 +145,7 @@ mod tests {
             ("I", Some("inertia")),
             ("limit", Some("limits")),
             ("type", Some("kind")),
-            ("b", None),
+            ("B", None),
             ("x", None),
             ("colour", None),
             ("", None),

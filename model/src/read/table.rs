@@ -18,7 +18,7 @@ pub(super) struct Keys<'v, 'de> {
     pub(super) table: &'v Table<'de>,
     /// Where to report what is missing.
     pub(super) span: Range<usize>,
-    /// What it is: `the robot`, `joint 3`.
+    /// Its name in messages: `the robot`, `joint 3`.
     pub(super) what: String,
 }
 

@@ -18,7 +18,7 @@ use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
 use crate::robot::{Inertia, Placement};
 
-/// What reading a value needs.
+/// The source, the sink and the options of a reading.
 pub(super) struct Context<'s, 'k> {
     pub(super) source: &'s str,
     pub(super) snap: Snap,

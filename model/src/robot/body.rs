@@ -9,9 +9,9 @@ use num_traits::{Signed, Zero};
 use super::Inertia;
 use crate::number::Rational;
 
-/// What is wrong with a tensor.
+/// The reason why no body can have a tensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Defect {
+pub enum Defect {
     /// A principal moment is negative.
     NegativeMoment,
     /// One principal moment exceeds the sum of the other two.
@@ -21,8 +21,8 @@ pub(crate) enum Defect {
 }
 
 impl Defect {
-    /// What is wrong.
-    pub(crate) fn message(self) -> &'static str {
+    /// Returns the reason in words.
+    pub fn message(self) -> &'static str {
         match self {
             Defect::NegativeMoment => "no body has this inertia: a principal moment is negative",
             Defect::Triangle => {
@@ -34,14 +34,9 @@ impl Defect {
 }
 
 impl Inertia<Rational> {
-    /// Why no body of this mass can have this tensor, in words, if none can.
-    pub fn impossible(&self, mass: &Rational) -> Option<&'static str> {
-        self.defect(mass).map(Defect::message)
-    }
-
-    /// The reason why no body of this mass can have this tensor, if there is
+    /// Returns the reason why no body of this mass can have this tensor, if there is
     /// one.
-    pub(crate) fn defect(&self, mass: &Rational) -> Option<Defect> {
+    pub fn defect(&self, mass: &Rational) -> Option<Defect> {
         let tensor = self.rows();
         if !is_semidefinite(&tensor) {
             return Some(Defect::NegativeMoment);

@@ -7,7 +7,7 @@ use core::fmt;
 
 use super::{Place, RobotWarning};
 
-/// How much a finding matters.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// Nothing can be generated.
@@ -33,13 +33,13 @@ impl fmt::Display for Severity {
 pub struct Finding {
     /// Error or warning.
     pub severity: Severity,
-    /// What a warning is about; `None` of an error.
+    /// The name of a warning; `None` of an error.
     pub warning: Option<RobotWarning>,
     /// Which part of the robot.
     pub place: Place,
-    /// What is wrong.
+    /// A sentence that says the mistake.
     pub message: String,
-    /// What would be right.
+    /// The likely fix.
     pub help: Option<String>,
 }
 

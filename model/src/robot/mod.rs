@@ -33,6 +33,7 @@ use num_traits::Zero;
 
 use crate::number::{Angle, Rational};
 
+pub use body::Defect;
 pub use findings::{Finding, Severity};
 pub use place::{Field, Place};
 pub use placement::Placement;
@@ -58,7 +59,7 @@ impl Convention {
     ];
 }
 
-/// How a joint moves.
+/// The kind of motion of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum JointKind {
     /// Turns about its axis: θ_i = q_i + constant.
@@ -119,8 +120,8 @@ impl Robot {
     /// The longest name of a robot or a joint, in characters.
     pub const MAX_NAME: usize = 64;
 
-    /// What a message calls a joint, from its zero-based index: `joint 2`, or
-    /// `joint 2 (elbow)` where it has a name.
+    /// Returns what a message calls a joint, from its zero-based index:
+    /// `joint 2`, or `joint 2 (elbow)` where it has a name.
     pub fn joint_label(&self, index: usize) -> String {
         let name = self.joints.get(index).and_then(|joint| joint.name.as_ref());
         match name {
@@ -173,7 +174,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Whether it has Coulomb friction.
+    /// Returns whether it has Coulomb friction.
     pub fn has_coulomb(&self) -> bool {
         !self.coulomb.is_zero()
     }
@@ -257,8 +258,8 @@ pub struct Limits {
 /// A position of a joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Position {
-    /// Of a revolute joint.
+    /// The position of a revolute joint.
     Angle(Angle),
-    /// Of a prismatic joint, m.
+    /// The position of a prismatic joint, m.
     Length(Rational),
 }

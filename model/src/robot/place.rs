@@ -44,7 +44,7 @@ pub enum Field {
     D,
     /// Constant theta of a prismatic joint.
     Theta,
-    /// What is added to q.
+    /// The constant that is added to q.
     Offset,
     /// Mass of the link.
     Mass,

@@ -17,7 +17,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Whether it moves nothing.
+    /// Returns whether it moves nothing.
     pub fn is_identity(&self) -> bool {
         self.xyz.iter().all(Zero::is_zero) && self.rpy.iter().all(Angle::is_zero)
     }

@@ -13,10 +13,11 @@ use crate::number::{Rational, Rounded};
 /// A body whose mass is further from its centre than this many times the arm's reach
 /// was probably given in kg·mm².
 const MAX_GYRATION: i64 = 3;
-/// The same in metres, of an arm without lengths.
+/// The distance, in metres, for an arm without lengths.
 const MAX_GYRATION_ALONE: i64 = 3;
 
-/// How far an arm reaches at most, m, without its base: zero of one without lengths.
+/// Returns how far an arm reaches at most, m, without its base: zero of one without
+/// lengths.
 pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     let largest = |xyz: &[Rational; 3]| xyz.iter().map(Signed::abs).sum::<Rational>();
     let travel = |joint: &Joint| {
@@ -35,9 +36,9 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     rows.sum::<Rational>() + steps + bodies.max().unwrap_or_default()
 }
 
-/// What is odd about an inertia that is far too large for its mass on an arm that
-/// reaches so far, and what to do about it. A body whose mass is all at a distance k
-/// from an axis has the moment m k².
+/// Returns what is odd about an inertia that is far too large for its mass on an arm
+/// that reaches so far, and what to do about it. A body whose mass is all at a
+/// distance k from an axis has the moment m k².
 pub(crate) fn large_inertia(
     inertia: &Inertia<Rational>,
     mass: &Rational,

@@ -22,7 +22,7 @@ const MAX_MASS: i64 = 1000;
 /// Limits of a turning joint's position beyond this many radians (five turns)
 /// were probably given in degrees.
 const MAX_POSITION: i64 = 31;
-/// The same of a velocity, in rad/s; in m/s of a sliding joint.
+/// Larger velocities, in rad/s or m/s, were probably given in degrees or millimetres.
 const MAX_VELOCITY: i64 = 100;
 /// From the Moon's gravity to Jupiter's, in m/s², with some room.
 const GRAVITY: [f64; 2] = [1.5, 30.0];
@@ -36,7 +36,7 @@ pub(super) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// The same number with another unit of a thousandth.
+/// Returns the same number with another unit of a thousandth.
 fn thousandth(value: &Rational) -> String {
     shown(&(value / whole(1000)))
 }
@@ -69,6 +69,20 @@ impl Findings {
             Place::Gravity,
             format!("the acceleration of gravity is {size:.4} m/s², far from the Earth's 9.81"),
             &format!("{meant}: on the Earth it is [0, 0, -9.81] if z points up"),
+        );
+    }
+
+    /// Warns of gravity that points along the base's z more than along its other axes.
+    pub(super) fn upward_gravity(&mut self, [x, y, z]: &[Rational; 3]) {
+        if !z.is_positive() || x.abs() > *z || y.abs() > *z {
+            return;
+        }
+        self.warning(
+            RobotWarning::UpwardGravity,
+            Place::Gravity,
+            "gravity points upwards, along the base's z".to_owned(),
+            "it is the acceleration of what falls, [0, 0, -9.81] if z points up; of an arm that \
+             hangs, say base = { rpy = [\"pi\", 0, 0] }",
         );
     }
 
@@ -135,6 +149,19 @@ impl Findings {
 
     fn doubtful_limits(&mut self, index: usize, joint: &Joint) {
         let at = |field| Place::Joint(index, field);
+        for (field, limit) in [
+            (Field::Velocity, &joint.limits.velocity),
+            (Field::Acceleration, &joint.limits.acceleration),
+        ] {
+            if limit.as_ref().is_some_and(Zero::is_zero) {
+                self.warning(
+                    RobotWarning::ZeroLimit,
+                    at(field),
+                    format!("the limit of {} is 0: the joint never moves", field.key()),
+                    "leave it out where it is not known; a scene locks a joint that stands still",
+                );
+            }
+        }
         for position in joint.limits.position.iter().flatten() {
             match position {
                 Position::Angle(Angle::Radians(value)) if value.abs() > whole(MAX_POSITION) => {
@@ -229,7 +256,7 @@ pub(super) fn turns_text(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// What to do about one of them.
+/// Returns what to do about one of them.
 pub(super) fn without_turns(name: &str) -> String {
     let plain: String = name.chars().filter(|c| !turns_text(*c)).collect();
     match plain.is_empty() {

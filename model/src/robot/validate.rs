@@ -31,8 +31,9 @@ impl Robot {
         self.validate_placed(&[])
     }
 
-    /// The same of a robot whose joints are placed, before it has rows: what is wrong
-    /// or odd about the numbers that somebody wrote, not about those that follow.
+    /// Returns the same of a robot whose joints are placed, before it has rows: what
+    /// is wrong or odd about the numbers that somebody wrote, not about those that
+    /// follow.
     pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Finding> {
         let mut findings = Findings::default();
         let reach = reach::reach(self, placed);
@@ -41,6 +42,7 @@ impl Robot {
             findings.size(Place::Gravity, value);
         }
         findings.doubtful_gravity(&self.gravity);
+        findings.upward_gravity(&self.gravity);
         for (place, _, placement) in self.placements() {
             if let Some(placement) = placement {
                 findings.placement(place, placement);
@@ -80,6 +82,7 @@ impl Robot {
             };
             let place = Place::Joint(index, Field::Name);
             findings.joint_name(place, name);
+            findings.joint_number(index, name);
             if let Some(first) = names.get(name) {
                 findings.error(
                     place,
@@ -131,6 +134,21 @@ impl Findings {
                 "a joint's name has no character that turns the direction of text".to_owned(),
                 &units::without_turns(name),
             );
+        }
+    }
+
+    /// Refuses a name that is another joint's number: scenes name joints by either.
+    fn joint_number(&mut self, index: usize, name: &str) {
+        let Ok(number) = name.trim().parse::<i64>() else {
+            return;
+        };
+        if usize::try_from(number) != Ok(index + 1) {
+            let message = format!(
+                "joint {} is called {name:?}, which is a joint's number and not its own",
+                index + 1
+            );
+            let help = format!("write \"joint_{number}\"");
+            self.error(Place::Joint(index, Field::Name), message, &help);
         }
     }
 
@@ -276,7 +294,8 @@ impl Findings {
         };
         let help = match defect {
             Defect::NegativeMoment => {
-                "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass; taken as it stands"
+                let help = "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass";
+                return self.error(place, defect.message().to_owned(), help);
             }
             Defect::Triangle => {
                 "expected for a link whose other moments were left out; taken as it stands"

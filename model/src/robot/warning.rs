@@ -2,14 +2,16 @@
 
 use core::fmt;
 
-/// What a warning is about. A robot file that knows better says so by the name,
-/// `allow = ["large_mass"]`, and hears no more of it.
+/// The name of a warning about a robot file. List it in the file to silence the warning:
+/// `allow = ["large_mass"]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RobotWarning {
     /// No body has this inertia.
     ImpossibleInertia,
     /// Gravity is not that of the Earth, nor of the other planets.
     UnusualGravity,
+    /// Gravity points along the base's z, upwards.
+    UpwardGravity,
     /// A length looks like millimetres.
     LargeLength,
     /// A mass looks like grams.
@@ -22,6 +24,8 @@ pub enum RobotWarning {
     LargeLimit,
     /// A limit of velocity looks like degrees or millimetres a second.
     LargeVelocity,
+    /// A limit of velocity or acceleration is zero.
+    ZeroLimit,
     /// Coulomb friction is smoothed over all speeds that a joint reaches.
     LargeWidth,
     /// An angle is near a multiple of π/2, but not near enough to be taken for it.
@@ -34,15 +38,17 @@ pub enum RobotWarning {
 
 impl RobotWarning {
     /// All of them with their names in robot files.
-    pub const WORDS: [(&'static str, RobotWarning); 12] = [
+    pub const WORDS: [(&'static str, RobotWarning); 14] = [
         ("impossible_inertia", RobotWarning::ImpossibleInertia),
         ("unusual_gravity", RobotWarning::UnusualGravity),
+        ("upward_gravity", RobotWarning::UpwardGravity),
         ("large_length", RobotWarning::LargeLength),
         ("large_mass", RobotWarning::LargeMass),
         ("large_inertia", RobotWarning::LargeInertia),
         ("large_angle", RobotWarning::LargeAngle),
         ("large_limit", RobotWarning::LargeLimit),
         ("large_velocity", RobotWarning::LargeVelocity),
+        ("zero_limit", RobotWarning::ZeroLimit),
         ("large_width", RobotWarning::LargeWidth),
         ("near_right_angle", RobotWarning::NearRightAngle),
         ("box_beyond_limits", RobotWarning::BoxBeyondLimits),

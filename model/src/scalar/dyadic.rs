@@ -25,17 +25,17 @@ impl Dyadic {
         self.units
     }
 
-    /// How often.
+    /// Returns the number of halvings.
     pub fn halvings(self) -> u32 {
         self.halvings
     }
 
-    /// Whether it is zero.
+    /// Returns whether it is zero.
     pub fn is_zero(self) -> bool {
         self.units == 0
     }
 
-    /// Whether it is one.
+    /// Returns whether it is one.
     pub fn is_one(self) -> bool {
         self.units == 1 && self.halvings == 0
     }

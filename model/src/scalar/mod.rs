@@ -49,14 +49,14 @@ pub trait Scalar: Clone {
     /// `self / 2`, exact in every scalar (floats: but for underflow).
     fn half(&self) -> Self;
 
-    /// Whether the value is zero *by structure*, whatever the state is.
+    /// Returns whether the value is zero *by structure*, whatever the state is.
     ///
     /// Floats answer `false` even for 0.0: skipping `0 · x` would lose a NaN
     /// or an infinity in `x`, and would put a branch into the runtime.
     fn is_zero(&self) -> bool {
         false
     }
-    /// Whether the value is one by structure.
+    /// Returns whether the value is one by structure.
     fn is_one(&self) -> bool {
         false
     }

@@ -94,7 +94,7 @@ impl Prime {
     }
 }
 
-/// Whether a number below 2⁶³ is a prime.
+/// Returns whether a number below 2⁶³ is a prime.
 ///
 /// Miller and Rabin's test with the twelve smallest primes as bases decides
 /// every number below 3.1·10²³ (Sorenson, Webster 2015).

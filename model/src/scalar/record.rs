@@ -39,11 +39,11 @@ enum Call {
     Div(u32, u32),
     Neg(u32),
     Half(u32),
-    /// Of a number beyond its range, or of two recordings: there is no value.
+    /// A number beyond its range, or a mixture of two recordings: there is no value.
     Lost,
 }
 
-/// What the values of a recording depend on.
+/// A value that a recording begins with.
 #[derive(Clone, Debug)]
 enum Leaf<I, C> {
     Input(I),
@@ -119,7 +119,7 @@ impl<I, C: Scalar> Recorder<I, C> {
         push(&self.0, Call::Leaf(number))
     }
 
-    /// What was recorded, with these as its results.
+    /// Returns what was recorded, with these as its results.
     pub fn finish(self, outputs: &[Recorded<I, C>]) -> Recording<I, C> {
         let outputs = outputs.iter();
         let outputs: Vec<u32> = outputs.map(|output| output.enter(&self.0)).collect();
@@ -149,7 +149,7 @@ fn push<I, C>(tape: &Rc<RefCell<Tape<I, C>>>, call: Call) -> Recorded<I, C> {
 }
 
 impl Call {
-    /// The same over other places.
+    /// Returns the same over other places.
     fn map(self, mut f: impl FnMut(u32) -> u32) -> Call {
         match self {
             Call::Leaf(_) | Call::Number(_) | Call::Lost => self,
@@ -211,7 +211,7 @@ fn placed<I, C>(leaves: Vec<Leaf<I, C>>, calls: &[Call], outputs: &[u32]) -> Rec
 }
 
 impl<I, C> Recording<I, C> {
-    /// The same over other constants, such as rounded ones.
+    /// Returns the same over other constants, such as rounded ones.
     pub fn with_constants<D>(self, mut of: impl FnMut(&C) -> D) -> Recording<I, D> {
         let leaves = self.leaves.into_iter().map(|leaf| match leaf {
             Leaf::Input(input) => Leaf::Input(input),
@@ -389,7 +389,7 @@ impl<I, C: Scalar> Scalar for Recorded<I, C> {
 }
 
 impl<I, C: Scalar> Divide for Recorded<I, C> {
-    /// Of two numbers: lost, unless it is by one.
+    /// Divides; of two numbers the quotient is lost, unless it is by one.
     fn div(&self, other: &Self) -> Self {
         self.combine(other, |a, b| b.is_one().then_some(a), Call::Div)
     }

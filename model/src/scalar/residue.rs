@@ -18,11 +18,11 @@ pub struct Residue(Form);
 
 #[derive(Clone, Copy, Debug)]
 enum Form {
-    /// Of no prime yet.
+    /// A number of no prime yet.
     Free(Dyadic),
     /// x·2⁶⁴ mod p
     Of(Prime, u64),
-    /// Of two primes, a free number beyond its range, or a quotient by zero:
+    /// A mixture of two primes, a free number beyond its range, or a quotient by zero:
     /// equal to nothing.
     Lost,
 }

@@ -38,11 +38,11 @@ pub struct Scene {
     pub velocity_zero: bool,
     /// q̈ = 0: the same for accelerations.
     pub acceleration_zero: bool,
-    /// What the last link carries.
+    /// The payload on the last link.
     pub payload: Option<Payload>,
     /// Where the motion stays, instead of the robot's limits.
     pub bounds: MotionBox,
-    /// How much accuracy may be given up.
+    /// The accuracy that may be given up.
     pub tolerance: Option<Tolerance>,
     /// The scalar; `None` if the scene leaves that to the request.
     pub scalar: Option<Float>,
@@ -75,12 +75,12 @@ pub struct MotionBox {
     pub acceleration: Option<Vec<Rational>>,
 }
 
-/// How much a torque may be off, over the box.
+/// The largest error of a torque over the box.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tolerance {
     /// Relative to the scale; one for all joints, or one a joint of the robot.
     pub value: Vec<Rational>,
-    /// What it is relative to.
+    /// The scale that the values are relative to.
     pub relative_to: Scale,
 }
 
@@ -141,7 +141,7 @@ impl Scene {
         locks.find(|(at, _)| *at == joint).map(|(_, q)| q)
     }
 
-    /// The same scene with nothing given up.
+    /// Returns the same scene with nothing given up.
     #[must_use]
     pub fn without_tolerance(&self) -> Scene {
         Scene {

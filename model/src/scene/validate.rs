@@ -49,13 +49,13 @@ pub enum Part {
 pub struct SceneFinding {
     /// Error or warning.
     pub severity: Severity,
-    /// What a warning is about; `None` of an error.
+    /// The name of a warning; `None` of an error.
     pub warning: Option<RobotWarning>,
     /// Which part.
     pub part: Part,
-    /// What is wrong.
+    /// A sentence that says the mistake.
     pub message: String,
-    /// What would be right.
+    /// The likely fix.
     pub help: String,
 }
 

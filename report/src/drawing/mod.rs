@@ -29,7 +29,7 @@ use page::Page;
 pub use page::escaped;
 use view::View;
 
-/// The arm at a position, as SVG.
+/// Draws the arm at a position, as SVG.
 ///
 /// # Errors
 /// The position has not one value a joint.

@@ -22,7 +22,7 @@ pub(super) fn seen(mass: f64, inertia: &[[f64; 3]; 3], view: &View) -> Option<El
     )
 }
 
-/// How far the ellipsoid goes from its centre along each axis of the base; none of
+/// Returns how far the ellipsoid goes from its centre along each axis of the base; none of
 /// what is no body.
 pub(super) fn reach(mass: f64, inertia: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
     let half_trace = 0.5 * (inertia[0][0] + inertia[1][1] + inertia[2][2]);

@@ -8,11 +8,14 @@ pub(super) const HEAD: f64 = 64.0;
 /// The height of a line of the table.
 pub(super) const ROW: f64 = 17.0;
 
+/// The room for a character of the table: the widest of common monospaced fonts.
+const CHARACTER: f64 = 7.5;
+
 /// Colours of equal weight on white and on black. x, y and z of frames; t and s
 /// the axes of joints that turn and slide; m masses; l links; b bars.
 const STYLE: &str = "\
 svg{font:12px sans-serif;color:#222}\
-.p{fill:#fff}.i{fill:currentColor}.c{font:12px monospace;white-space:pre}\
+.p{fill:#fff}.i{fill:currentColor}.c{font:12px monospace}\
 .x,.y,.z,.t,.s,.l,.b{fill:none;stroke-width:1.5}\
 .x{stroke:#c03030}.y{stroke:#2b8a4b}.z{stroke:#1b6ca8}\
 .t,.s{stroke:#9b3fa0;stroke-width:1}.s{stroke-dasharray:5 3}\
@@ -22,7 +25,7 @@ svg{font:12px sans-serif;color:#222}\
 .x{stroke:#ff8080}.y{stroke:#6cc98c}.z{stroke:#62b0ea}.t,.s{stroke:#d68ada}\
 .m{fill:#f0935a}.e{fill:#f0935a;stroke:#f0935a}}";
 
-/// What the marks mean.
+/// The meaning of the marks.
 const LEGEND: [&str; 2] = [
     "frames: x red, y green, z blue; arrows with numbers: axes of joints, dashed where they slide",
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",
@@ -49,7 +52,7 @@ impl Page {
         let mut page = Page {
             svg: format!(
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-                 role=\"img\">\n<title>{name}</title>\n<style>{STYLE}</style>\n\
+                 role=\"img\">\n<title>{name}</title>\n<!-- by dalembert show -->\n<style>{STYLE}</style>\n\
                  <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
             ),
         };
@@ -125,10 +128,14 @@ impl Page {
         self.written("i", at, text);
     }
 
-    /// A line of the table.
-    pub(super) fn row(&mut self, index: usize, text: &str) {
+    /// Writes a line of the table: cells, each so many characters from the left. Every cell
+    /// is a text of its own, since not everything that draws SVG keeps spaces.
+    pub(super) fn row(&mut self, index: usize, cells: &[(usize, String)]) {
         let y = HEAD + SIDE + ROW * (index as f64 + 1.0);
-        self.written("i c", [16.0, y], text);
+        for (characters, text) in cells.iter().filter(|(_, text)| !text.is_empty()) {
+            let x = 16.0 + CHARACTER * *characters as f64;
+            self.written("i c", [x, y], text);
+        }
     }
 
     /// The text of the file.

@@ -18,7 +18,8 @@ pub(super) fn write(robot: &Robot, q: &[f64], page: &mut Page) {
     }
 }
 
-fn rows(robot: &Robot, q: &[f64]) -> Vec<String> {
+/// The lines, each of cells that are so many characters from the left.
+fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
         Convention::Modified => "modified DH (Craig)",
@@ -54,17 +55,27 @@ fn rows(robot: &Robot, q: &[f64]) -> Vec<String> {
         lengths.max().unwrap_or(0)
     };
     let widths: [usize; 7] = core::array::from_fn(width);
-    rows.extend(cells.iter().map(|row| {
-        let cells = row.iter().zip(widths);
-        let padded = cells.map(|(cell, width)| format!("{cell:width$}"));
-        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    let mut rows: Vec<Vec<(usize, String)>> = rows.into_iter().map(line).collect();
+    rows.extend(cells.into_iter().map(|row| {
+        let mut start = 0;
+        let placed = row.into_iter().zip(widths).map(|(cell, width)| {
+            let at = start;
+            start += width + 2;
+            (at, cell)
+        });
+        placed.collect()
     }));
     // Below the table: such a sentence is wider than what is left beside it.
     rows.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
-        let why = joint.inertia.impossible(&joint.mass)?;
-        Some(format!("joint {}: {why}", i + 1))
+        let why = joint.inertia.defect(&joint.mass)?.message();
+        Some(line(format!("joint {}: {why}", i + 1)))
     }));
     rows
+}
+
+/// A line of one text.
+fn line(text: String) -> Vec<(usize, String)> {
+    vec![(0, text)]
 }
 
 fn row(index: usize, joint: &Joint) -> [String; 7] {

@@ -12,10 +12,10 @@ pub(super) struct View {
     pub(super) coordinates: [usize; 2],
     /// Pixels a metre, the same in both views.
     scale: f64,
-    /// What is in the middle of the view, and where that is on the paper.
+    /// The point in the middle of the view, and its place on the paper.
     middle: [f64; 2],
     at: [f64; 2],
-    /// How large the arm is, m.
+    /// The size of the arm, m.
     reach: f64,
 }
 
@@ -72,7 +72,7 @@ impl View {
         ]
     }
 
-    /// How large the arm is, m.
+    /// The size of the arm, m.
     pub(super) fn reach(&self) -> f64 {
         self.reach
     }
@@ -101,7 +101,7 @@ impl View {
         page.text([x, from[1] - 5.0], &format!("{bar} m"));
     }
 
-    /// How much of a vector comes towards who looks: right × up points there.
+    /// Returns how much of a vector comes towards who looks: right × up points there.
     fn toward_the_eye(&self, vector: &Vector<f64>) -> f64 {
         let [right, up] = self.coordinates;
         let depth = 3 - right - up;

@@ -94,7 +94,7 @@ pub fn of_program(
     scalars.iter().map(errors).collect()
 }
 
-/// How many states take seconds at most, whatever the robot: the reference's
+/// Returns how many states take seconds at most, whatever the robot: the reference's
 /// work grows with the cube of the number of joints where it returns D.
 pub fn affordable_states(joints: usize) -> usize {
     const STATES: usize = 100;

@@ -19,7 +19,7 @@ pub struct Merged {
 }
 
 impl Merged {
-    /// Of a graph; `None` if a constant has no place in the field.
+    /// Counts in a graph; `None` if a constant has no place in the field.
     pub fn of(graph: &Graph) -> Option<Merged> {
         let prints = prints(graph)?;
         let mut merged = Merged::default();

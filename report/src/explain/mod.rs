@@ -31,18 +31,18 @@ use steps::Row;
 /// with n⁴ to n⁵.
 pub const MAX_WRITTEN: usize = 8;
 
-/// What was found about one function of a robot.
+/// All that was found about one function of a robot.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// Of which robot, in which scene.
+    /// The robot, in its scene.
     pub scene_robot: SceneRobot,
     /// Which function.
     pub function: Function,
     /// The steps, in their order; the last is what is generated.
     pub rows: Vec<Row>,
-    /// What the fingerprints found in each formulation as folded.
+    /// The findings of the fingerprints in each formulation as folded.
     pub merged: Vec<(Formulation, Merged)>,
-    /// What became of the parameters.
+    /// The fate of the parameters.
     pub parameters: Parameters,
     /// Which coefficients of the whole robot vanish or repeat, unless there are
     /// too many.

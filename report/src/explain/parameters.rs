@@ -75,7 +75,7 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// What became of a parameter.
+/// The fate of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterStatus {
     /// It is zero: it always was, or all of it moved to the link before.
@@ -86,7 +86,7 @@ pub enum ParameterStatus {
     Stays,
 }
 
-/// How two parameters count as one.
+/// The way in which two parameters count as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Together {
     /// Their sum.
@@ -100,25 +100,25 @@ pub enum Together {
 pub struct LinkParameters {
     /// Its joint, zero-based.
     pub joint: usize,
-    /// How that moves.
+    /// The kind of that joint.
     pub kind: JointKind,
-    /// What left it for the link before, or for the base if it is the first:
+    /// The parameters that left it for the link before, or for the base if it is the first:
     /// in kg, m and s, about its own origin.
     pub moved: Vec<(Parameter, f64)>,
-    /// What is left, with its value, and whether the function needs it.
+    /// The parameters that are left, with their values, and whether the function needs them.
     pub left: Vec<(Parameter, f64, ParameterStatus)>,
-    /// Whether only one combination of Σ_xx and Σ_yy counts.
+    /// The combination of Σ_xx and Σ_yy that alone counts, if there is one.
     pub together: Option<Together>,
     /// Where its origin lies, from the end of the step before the joint, m.
     pub origin: [f64; 3],
-    /// Whether q_n drops out because the link is symmetric about its axis.
+    /// True if q_n drops out because the link is symmetric about its axis.
     pub spins_freely: bool,
     /// By how many joints its frame turns more than the link (less if
     /// negative).
     pub axes: i32,
 }
 
-/// What became of the parameters of a robot.
+/// The fate of all parameters of a robot.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     /// From the base to the hand.
@@ -128,7 +128,7 @@ pub struct Parameters {
 }
 
 impl LinkParameters {
-    /// How many of the ten the function needs.
+    /// Returns how many of the ten the function needs.
     pub fn needed(&self) -> usize {
         let stays =
             |(_, _, fate): &&(Parameter, f64, ParameterStatus)| *fate == ParameterStatus::Stays;
@@ -137,7 +137,7 @@ impl LinkParameters {
 }
 
 impl Parameters {
-    /// In a tuned regrouping; `chain` is in it.
+    /// Follows them through a tuned regrouping; `chain` is in it.
     pub(super) fn of(
         scene_robot: &SceneRobot,
         function: Function,

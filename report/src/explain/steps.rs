@@ -50,9 +50,9 @@ pub enum SearchStep {
     EGraph,
     /// Discovery and extraction in turns.
     Search,
-    /// What the plan beside the robot file keeps.
+    /// The program that the plan beside the robot file keeps.
     Plan,
-    /// What the scene's tolerance admits.
+    /// The program that the scene's tolerance admits.
     Tolerance,
 }
 
@@ -100,7 +100,7 @@ impl SearchStep {
     }
 }
 
-/// What a row runs.
+/// The code that a row runs.
 #[derive(Clone, Debug)]
 pub enum Code {
     /// A formulation over floats, as written.
@@ -116,9 +116,9 @@ pub enum Code {
 pub struct Row {
     /// Which.
     pub step: SearchStep,
-    /// What it costs.
+    /// Its operation counts.
     pub counts: Counts,
-    /// What runs.
+    /// The code.
     pub code: Code,
 }
 
@@ -239,7 +239,7 @@ pub(super) fn search(
     search::search(scene_robot, function, &anew(request))
 }
 
-/// What the search made of all forms, and what the plan keeps; and the last of
+/// Returns what the search made of all forms, and what the plan keeps; and the last of
 /// them: what is generated, or what a tolerance is applied to.
 pub(super) fn searched(
     scene_robot: &SceneRobot,
@@ -259,7 +259,7 @@ pub(super) fn searched(
     Ok((rows, last))
 }
 
-/// What a tolerance admits of a function: a row a scalar, as it is emitted.
+/// Returns what a tolerance admits of a function: a row a scalar, as it is emitted.
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);

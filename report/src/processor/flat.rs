@@ -23,7 +23,7 @@ pub enum Home {
     Array,
 }
 
-/// What is done at a place of the text.
+/// An action at a place of the text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Deed {
     /// Arithmetic.
@@ -45,11 +45,11 @@ pub enum Deed {
 /// A place of the text. Values are named by their number.
 #[derive(Clone, Debug)]
 pub struct Item {
-    /// What is done.
+    /// The action.
     pub deed: Deed,
-    /// What it reads, left before right.
+    /// The values that it reads, left before right.
     pub reads: Vec<usize>,
-    /// What it writes.
+    /// The values that it writes.
     pub writes: Vec<usize>,
 }
 
@@ -58,12 +58,12 @@ pub struct Item {
 pub struct Flat {
     /// Every value's home.
     pub values: Vec<Home>,
-    /// What is done with them, in the printed order.
+    /// The actions on them, in the printed order.
     pub items: Vec<Item>,
 }
 
 impl Flat {
-    /// Of the printed text.
+    /// Reads the printed text.
     pub fn of(text: &Lowered) -> Flat {
         let mut writer = Writer::default();
         writer.sines(text);
@@ -85,20 +85,9 @@ impl Flat {
         }
         uses
     }
-
-    /// Its operations, sums of angles and polynomials of sines included.
-    pub fn operations(&self) -> usize {
-        let is = |item: &&Item| matches!(item.deed, Deed::Operation(_) | Deed::Fused);
-        self.items.iter().filter(is).count()
-    }
-
-    /// So many items are of a kind.
-    pub fn count(&self, deed: Deed) -> usize {
-        self.items.iter().filter(|item| item.deed == deed).count()
-    }
 }
 
-/// What is read of the arguments is one value each, and so is a constant.
+/// Writes a function item by item. An entry of an argument is one value, and so is a constant.
 #[derive(Default)]
 struct Writer {
     flat: Flat,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use dalembert_codegen::workspace::backend::parts::{LONG, PART};
+use dalembert_codegen::workspace::language::parts::{LONG, PART};
 use dalembert_codegen::workspace::program::{Library, Lowered, LoweredTrig, ScalarType};
 
 use super::target::Target;
@@ -12,28 +12,28 @@ use super::target::Target;
 pub struct Call {
     /// Its name, as the text has it.
     pub name: String,
-    /// How often it is called.
+    /// Number of calls.
     pub times: usize,
 }
 
-/// What a function meets in every run. The text of the function itself has no
+/// The calls and the slow paths of a function. The text of the function itself has no
 /// branch and no loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HotPath {
     /// The scalar.
     pub scalar: ScalarType,
-    /// What is called.
+    /// The functions that are called.
     pub calls: Vec<Call>,
     /// Whose sines, if any are called.
     pub library: Option<Library>,
-    /// Whether libm's square roots are called, for Coulomb friction.
+    /// True if libm's square roots are called, for Coulomb friction.
     pub roots: bool,
-    /// Whether products are fused with sums.
+    /// True if products are fused with sums.
     pub fuses: bool,
 }
 
 impl HotPath {
-    /// Of the printed text.
+    /// Reads the printed text.
     pub fn of(text: &Lowered) -> HotPath {
         let called: Vec<&LoweredTrig> = text.trig.iter().filter(|t| t.kernel.is_none()).collect();
         let library = (!called.is_empty()).then_some(text.library);
@@ -100,16 +100,29 @@ impl HotPath {
         }
     }
 
-    /// What is slow on a processor, and the way around.
+    /// Returns what is slow on a processor, and the way around.
     pub fn warnings(&self, target: &Target) -> Vec<String> {
-        let all = [self.of_sines(target), self.of_fused(target)];
+        let all = [
+            self.of_f64(target),
+            self.of_sines(target),
+            self.of_fused(target),
+        ];
         all.into_iter().flatten().collect()
+    }
+
+    /// It has no f64.
+    fn of_f64(&self, target: &Target) -> Option<String> {
+        (!target.has(self.scalar)).then(|| {
+            format!(
+                "{} has no {}: every operation calls software",
+                target.name, self.scalar
+            )
+        })
     }
 
     /// It has no instruction for `mul_add`.
     fn of_fused(&self, target: &Target) -> Option<String> {
-        let unit = target.unit(self.scalar)?;
-        (self.fuses && unit.cycles.fma.is_none()).then(|| {
+        (self.fuses && !target.fma).then(|| {
             format!(
                 "`mul_add` of {} calls a function on {}, slower by far than two operations: build \
                  for a processor that has it (`-C target-feature=+fma`), or leave `--fma` out",
@@ -120,7 +133,7 @@ impl HotPath {
 
     /// It has no f64, which libm's sines compute in.
     fn of_sines(&self, target: &Target) -> Option<String> {
-        let software = target.f64.is_none() && self.library == Some(Library::Libm);
+        let software = !target.f64 && self.library == Some(Library::Libm);
         (software && self.scalar == ScalarType::F32).then(|| {
             format!(
                 "libm's f32 sines compute in f64, which is software on {}: `--sincos together` \

@@ -50,8 +50,3 @@ pub fn merged_products(flat: &Flat) -> Vec<Option<usize>> {
         });
     items.collect()
 }
-
-/// Changes of sign, which counts of operations leave out.
-pub fn negations(flat: &Flat) -> usize {
-    flat.count(Deed::Negation)
-}

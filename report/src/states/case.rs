@@ -10,16 +10,16 @@ use super::{GivenState, float, worst};
 /// The most that the condition of D excuses.
 const MAX_CONDITION: f64 = 1e4;
 
-/// What is compared on trial.
+/// A comparison on trial.
 #[derive(Clone)]
 pub(super) struct Case {
     pub robot: Robot,
     pub states: Vec<GivenState>,
-    /// What the file's h has besides the Coriolis and centripetal load.
+    /// The loads in the file's h besides the Coriolis and centripetal load.
     pub load: Load,
 }
 
-/// What a load may include.
+/// The parts that a load may include.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Load {
     pub gravity: bool,
@@ -85,7 +85,7 @@ fn by_its_function(runtime: &Runtime, quantity: Quantity, state: &JointState) ->
     Some(values.get(start..start + quantity.len(sizes))?.to_vec())
 }
 
-/// How many times more than others a quantity may be off at a state. A change on trial
+/// Returns how many times more than others a quantity may be off at a state. A change on trial
 /// that makes D singular must not excuse everything.
 fn granted(runtime: &Runtime, quantity: Quantity, state: &JointState) -> f64 {
     let condition = runtime.granted(quantity.function(), state).to(quantity);

@@ -14,7 +14,7 @@ use super::float;
 pub(super) struct Cause {
     /// Completes "every state agrees if …".
     pub text: String,
-    /// Whether it concerns the whole robot, or a single joint.
+    /// True if it concerns the whole robot, or a single joint.
     pub of_all: bool,
     pub change: Box<dyn Fn(&mut Case)>,
 }

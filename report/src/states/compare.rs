@@ -16,7 +16,7 @@ pub struct Compared {
     pub function: Function,
     /// The quantity as it is given: h where the function returns its symbols.
     pub quantity: Quantity,
-    /// How many states give it.
+    /// Number of states that give it.
     pub states: usize,
     /// At how many of them it is further off than [`BOUND`].
     pub disagreeing: usize,
@@ -31,9 +31,9 @@ pub struct Difference {
     pub state: usize,
     /// Which entry, zero-based; of a matrix row by row.
     pub entry: usize,
-    /// What the states give.
+    /// The value that the states give.
     pub given: f64,
-    /// What the code returns.
+    /// The value that the code returns.
     pub found: f64,
     /// The error relative to the largest entry given at that state, over the
     /// condition of D there where the quantity inverts it.
@@ -41,7 +41,7 @@ pub struct Difference {
 }
 
 impl Compared {
-    /// Whether every state agrees.
+    /// Returns whether every state agrees.
     pub fn agrees(&self) -> bool {
         self.disagreeing == 0
     }

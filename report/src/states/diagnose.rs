@@ -14,10 +14,10 @@ const TRIAL: usize = 8;
 /// named.
 const NEAR: f64 = 1e-4;
 
-/// What trying the usual mistakes showed.
+/// The outcome of trying the usual mistakes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
-    /// How many mistakes were tried, pairs included.
+    /// Number of mistakes that were tried, pairs included.
     pub tried: usize,
     /// Those that explain the disagreement: every state agrees with the change
     /// that each names. Several only if they mean the same for this robot.
@@ -32,7 +32,7 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// What to look at, a line or several.
+    /// Returns what to look at, a line or several.
     pub fn help(&self) -> String {
         let digits = |error: f64| -error.log10();
         if self.agrees {

@@ -12,7 +12,7 @@ pub const NORMWISE: f64 = 100.0;
 /// Errors of a joint above this, in u of what the joint meets, fail.
 pub const PER_JOINT: f64 = 50.0;
 
-/// What a category is held to.
+/// The criterion of a category.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
     /// [`NORMWISE`] and [`PER_JOINT`].
@@ -25,7 +25,7 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    /// Whether an error meets it.
+    /// Returns whether an error meets it.
     pub fn met(self, deviation: &Deviation) -> bool {
         self.excess(deviation) <= 1.0
     }
@@ -57,7 +57,7 @@ type Draw = fn(&Robot, usize, u64) -> Vec<JointState>;
 pub struct Category {
     /// Its name in reports.
     pub name: &'static str,
-    /// What it is held to.
+    /// The criterion that it is held to.
     pub criterion: Criterion,
     /// The robot, if another.
     robot: Option<Change>,
@@ -76,7 +76,7 @@ impl Category {
         }
     }
 
-    /// Whether it is the user's robot itself.
+    /// Returns whether it is the user's robot itself.
     pub fn same_robot(&self) -> bool {
         self.robot.is_none()
     }

@@ -18,14 +18,14 @@ pub struct Deviation {
     pub joint: usize,
 }
 
-/// How results are measured.
+/// The measure of results.
 #[derive(Clone, Debug)]
 pub struct Measure {
     /// The unit.
     pub scalar: ScalarType,
     /// T_i: empty if there are none.
     pub scales: Vec<f64>,
-    /// What underflow may add, absolutely.
+    /// The largest absolute error that underflow may add.
     pub underflow: f64,
 }
 

@@ -8,9 +8,9 @@ use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robo
 use super::deviation::Measure;
 use super::subject::Code;
 use super::truth::Truth;
-use dalembert_codegen::workspace::backend::MathPath;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::states::seeded;
@@ -18,12 +18,12 @@ use dalembert_codegen::workspace::states::seeded;
 /// The lengths of chain that are measured.
 pub const JOINTS: [usize; 10] = [1, 2, 3, 4, 6, 8, 12, 20, 30, 60];
 
-/// What one length of chain costs.
+/// The cost of one length of chain.
 #[derive(Clone, Debug)]
 pub struct Growth {
     /// n
     pub joints: usize,
-    /// Of inverse dynamics.
+    /// The operation counts of inverse dynamics.
     pub counts: Counts,
     /// Generation, proof and printing.
     pub time: Duration,
@@ -34,7 +34,10 @@ pub struct Growth {
     pub error: f64,
 }
 
-/// Inverse dynamics of a chain of n joints in f64.
+/// Measures inverse dynamics of a chain of n joints in f64.
+///
+/// # Errors
+/// Those of generating the code that is run.
 pub fn measure(n: usize, request: &Request) -> Result<Growth, GenerateError> {
     let robot = chain(n, n as u64);
     let request = Request {

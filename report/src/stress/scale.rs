@@ -8,7 +8,7 @@ use nalgebra::DVector;
 use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::states::JointState;
 
-/// How many states the torque scales are taken over.
+/// Number of states that the torque scales are taken over.
 pub const STATES: usize = 1000;
 
 /// The seed of the torque scales.
@@ -49,7 +49,7 @@ pub fn draw(bounds: &JointState, count: usize, seed: u64) -> Vec<JointState> {
 /// T_i: the largest |τ_i| over states, [`STATES`] of them as a rule.
 ///
 /// An arm that stands still may load a joint with nothing at all, whatever its
-/// position: a vertical axis depends_on no gravity. What is computed there is the
+/// position: a vertical axis feels no gravity. What is computed there is the
 /// dust of a cancellation, and so would be its scale. Such a joint is measured
 /// against what it meets at unit rates.
 pub fn torques(robot: &Robot, states: &[JointState]) -> Vec<f64> {

@@ -30,7 +30,7 @@ use super::truth::Truth;
 /// Positions drawn before the best of them are improved.
 const DRAWN: usize = 1000;
 
-/// How many of them are.
+/// Number of them that are improved.
 const IMPROVED: usize = 8;
 
 /// Steps are halved so often: the last are far below what a condition changes over.
@@ -41,7 +41,7 @@ const HALVINGS: usize = 20;
 pub struct Nearest {
     /// q
     pub q: Vec<f64>,
-    /// Of D there, each entry the nearest double.
+    /// The condition of D there, each entry the nearest double.
     pub condition: Condition,
 }
 
@@ -60,7 +60,7 @@ pub struct Row {
     pub normwise: f64,
     /// Where it is.
     pub state: JointState,
-    /// Of D there.
+    /// The condition of D there.
     pub condition: Condition,
     /// Pass or fail.
     pub verdict: Verdict,
@@ -68,7 +68,7 @@ pub struct Row {
     pub reason: Option<RangeFault>,
 }
 
-/// What was measured of a robot.
+/// The measurements of a robot.
 #[derive(Clone, Debug)]
 pub struct Divided {
     /// Where D is nearest to singular.
@@ -87,6 +87,9 @@ pub fn functions() -> Vec<Function> {
 }
 
 /// Measures every function that divides.
+///
+/// # Errors
+/// Those of generating the code that is run.
 pub fn run(robot: &Robot, options: &Options) -> Result<Divided, GenerateError> {
     let truth = Truth::new(robot);
     let nearest = nearest(robot, &truth);
@@ -282,7 +285,7 @@ impl<'a> Cases<'a> {
         quantities.map(part).collect()
     }
 
-    /// What an error of each quantity is relative to at least: ∂q̈/∂q̇ of an arm that is
+    /// Returns what an error of each quantity is relative to at least: ∂q̈/∂q̇ of an arm that is
     /// stretched out all but vanishes, and what is left of it says nothing about the code.
     fn least(&self, function: Function, truths: &[Option<Vec<Big>>]) -> Vec<f64> {
         let most = |range: Range<usize>| {

@@ -55,8 +55,11 @@ impl Code {
         }
     }
 
-    /// The functions that a request gives, read back from the text, in the
-    /// order of the request's scalars.
+    /// Generates the functions of a request, read back from the text, in the order of the
+    /// request's scalars.
+    ///
+    /// # Errors
+    /// Those of generating.
     pub fn emitted(robot: &Robot, request: &Request) -> Result<Vec<Code>, GenerateError> {
         let generated = generate(robot, request)?;
         let of = |scalar: &ScalarType| {
@@ -97,7 +100,7 @@ fn run<T: Float>(
     let at = JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))));
     let mut results = Vec::new();
     for quantity in function.quantities() {
-        results.extend(quantity.runtime(runtime, &at)?);
+        results.extend(runtime.entries(*quantity, &at)?);
     }
     Ok(results.into_iter().map(widen).collect())
 }

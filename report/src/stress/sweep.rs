@@ -12,7 +12,7 @@ use dalembert_codegen::workspace::generate::{GenerateError, Request};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
 
-/// What is varied.
+/// The quantity that is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// The bound of |q| of revolute joints, rad.
@@ -40,7 +40,7 @@ impl Axis {
 /// Worst normwise errors of one code along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What is varied.
+    /// The quantity that is varied.
     pub axis: Axis,
     /// The scalar.
     pub scalar: ScalarType,
@@ -53,7 +53,10 @@ pub struct Curve {
 /// States of each point.
 const STATES: usize = 20;
 
-/// The curves of every axis, scalar and code.
+/// Measures the curves of every axis, scalar and code.
+///
+/// # Errors
+/// Those of generating the code that is run.
 pub fn run(robot: &Robot, options: &Options) -> Result<Vec<Curve>, GenerateError> {
     let own = Codes::new(robot, options)?;
     let mut curves = Vec::new();

@@ -29,12 +29,12 @@ pub struct Truth {
 const MAX_SINES: usize = 1 << 14;
 
 impl Truth {
-    /// Of a robot, nothing snapped, each parameter rounded to 448 bits.
+    /// Takes a robot, nothing snapped, each parameter rounded to 448 bits.
     pub fn new(robot: &Robot) -> Truth {
         Truth::in_scene(&SceneRobot::whole(robot))
     }
 
-    /// Of a robot in a scene: whatever a state says, locked joints are exactly
+    /// Takes a robot in a scene: whatever a state says, locked joints are exactly
     /// where they are locked.
     pub fn in_scene(scene_robot: &SceneRobot) -> Truth {
         Truth {

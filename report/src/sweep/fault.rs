@@ -13,19 +13,19 @@ pub enum RungError {
     Kept {
         /// Where it is.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         fault: RungFault,
     },
     /// It cannot be written.
     Unwritten {
         /// Where to.
         path: PathBuf,
-        /// What the system says.
+        /// The message of the system.
         error: String,
     },
 }
 
-/// What is wrong with a rung that was kept.
+/// A fault of a rung that was kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RungFault {
     /// It cannot be read: what the system says.
@@ -38,7 +38,7 @@ pub enum RungFault {
     Damaged(Damage),
 }
 
-/// How a rung is not as it was written.
+/// A difference of a rung from what was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Damage {
     /// It is no JSON: what the parser says.
@@ -90,7 +90,7 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Damage::Json(error) => f.write_str(error),
-            Damage::Version => f.write_str("this version reads rungs of version 1"),
+            Damage::Version => f.write_str("this version reads rungs of version 2"),
             Damage::Hash => f.write_str("its hash is not that of what it says"),
             Damage::Tolerance => f.write_str("it is of another tolerance"),
             Damage::Missing(key) => write!(f, "`{key}` is missing"),

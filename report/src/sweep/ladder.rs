@@ -1,7 +1,8 @@
 //! The variants, tolerance by tolerance.
 //!
-//! From the largest tolerance down: where nothing more can be left out, less
-//! tolerance leaves out nothing either, and no search is needed.
+//! From the smallest tolerance up: each search also starts from the program of the one
+//! before, which its tolerance admits as well. So none is dearer than one before it, and
+//! none is dearer than what its tolerance finds alone.
 
 use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
@@ -9,20 +10,20 @@ use dalembert_codegen::workspace::approximate::prune::PruneSettings;
 use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::program::{Program, ScalarType};
 use dalembert_codegen::workspace::simplify::Effort;
 
 use super::rungs::{Rung, Rungs};
 use super::{Point, SweepError};
 
-/// How a sweep is done.
+/// The options of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// States at which each variant is run.
     pub samples: usize,
     /// Climbs from there to the largest error of each output.
     pub climbs: usize,
-    /// How long to search.
+    /// The effort of the search.
     pub effort: Effort,
 }
 
@@ -74,26 +75,24 @@ impl<'a> Ladder<'a> {
         tolerances: &[f64],
         rungs: Option<&Rungs>,
     ) -> Result<Vec<Point>, SweepError> {
-        let descending = tolerances.iter().rev().copied().chain([0.0]);
+        let all = tolerances.iter().copied().chain([0.0]);
         let mut kept = Vec::new();
         // Before the work: what cannot be used is no news an hour later.
-        for tolerance in descending {
+        for tolerance in all {
             let rung = rungs.map(|rungs| rungs.kept(tolerance)).transpose()?;
             kept.push((tolerance, rung.flatten()));
         }
         let mut points = Vec::new();
-        let mut fruitful = true;
         for (tolerance, kept) in kept {
             let resumed = kept.is_some();
             let rung = match kept {
                 Some(rung) => rung,
-                None => self.rung(tolerance, fruitful)?,
+                None => self.rung(tolerance, points.last())?,
             };
             if let (false, Some(rungs)) = (resumed, rungs) {
                 rungs.keep(&rung)?;
             }
             self.waiting.done(&rung, resumed);
-            fruitful = rung.fruitful;
             points.extend(rung.points);
         }
         points.sort_by(|a, b| {
@@ -103,14 +102,13 @@ impl<'a> Ladder<'a> {
         Ok(points)
     }
 
-    fn rung(&self, tolerance: f64, fruitful: bool) -> Result<Rung, SweepError> {
+    fn rung(&self, tolerance: f64, before: Option<&Point>) -> Result<Rung, SweepError> {
         self.waiting.begin(&format!("tolerance {tolerance:e}"));
         let exact = tolerance == 0.0;
         let variants = match exact {
             true => vec![self.exact.clone()],
-            false => self.variants(tolerance, fruitful),
+            false => self.variants(tolerance, before),
         };
-        let fruitful = variants.iter().any(|variant| !variant.stages.is_empty());
         let tolerances = vec![tolerance; self.frame.scales.len()];
         self.waiting
             .begin(&format!("attempts to refute {tolerance:e}"));
@@ -126,16 +124,12 @@ impl<'a> Ladder<'a> {
                 points.push(self.point(tolerance, certificate)?);
             }
         }
-        Ok(Rung {
-            tolerance,
-            fruitful,
-            points,
-        })
+        Ok(Rung { tolerance, points })
     }
 
     /// The cheapest variants that a tolerance admits, in each scalar that can
-    /// be that exact at all.
-    fn variants(&self, tolerance: f64, fruitful: bool) -> Vec<Admitted> {
+    /// be that exact at all; `before` is one that a smaller tolerance admits.
+    fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Admitted> {
         let tolerances = vec![tolerance; self.frame.scales.len()];
         let worst = |certificate: &Certificate| {
             let totals = certificate.bounds.iter().map(|bound| bound.total());
@@ -149,16 +143,19 @@ impl<'a> Ladder<'a> {
             false => able.iter().map(|c| vec![c.scalar]).collect(),
         };
         let groups = groups.into_iter().filter(|scalars| !scalars.is_empty());
+        let from = before.map(|point| point.certificate.emitted.clone());
+        let from = from.filter(|program| program != self.frame.exact);
+        let from: Vec<Program> = from.into_iter().collect();
         groups
             .map(|scalars| {
-                let found = fruitful.then(|| {
-                    self.frame
-                        .choose(&tolerances, &scalars, &self.settings, BoundEffort::CERTIFY)
-                });
-                match found {
-                    Some(Ok(found)) => found,
-                    _ => self.exact_in(&scalars),
-                }
+                let found = self.frame.choose_from(
+                    &from,
+                    &tolerances,
+                    &scalars,
+                    &self.settings,
+                    BoundEffort::CERTIFY,
+                );
+                found.unwrap_or_else(|_| self.exact_in(&scalars))
             })
             .collect()
     }

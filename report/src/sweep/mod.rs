@@ -12,8 +12,8 @@ pub mod rungs;
 
 use std::fmt;
 
-use dalembert_codegen::workspace::backend::read::TextError;
 use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::language::read::TextError;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::sincos;
 use fault::RungError;
@@ -22,29 +22,29 @@ use fault::RungError;
 pub struct Point {
     /// Zero for the exact program.
     pub tolerance: f64,
-    /// What is claimed of it.
+    /// The claim about it.
     pub certificate: Certificate,
     /// The largest E of an output.
     pub certified: f64,
     /// The largest error that was seen, if it was run at any state.
     pub observed: Option<f64>,
-    /// What operations and sines cost by themselves, the same way: the code
+    /// The error of operations and sines by themselves, in the same measure: the code
     /// against its own program in double precision. Nothing in double.
     pub rounding: f64,
     /// The largest such error that was seen.
     pub rounding_observed: Option<f64>,
     /// Time of a call, and as a ratio to the exact f64 variant's.
     pub time: Option<Time>,
-    /// Whether another one is neither dearer nor worse.
+    /// True if another one is neither dearer nor worse.
     pub dominated: bool,
     /// An error above E, in words: never, unless this program is wrong.
     pub violation: Option<String>,
 }
 
-/// How long a call takes.
+/// The time of a call.
 #[derive(Clone, Copy)]
 pub struct Time {
-    /// Of the machine that it was measured on.
+    /// Nanoseconds on the machine that it was measured on.
     pub nanoseconds: f64,
     /// To the exact f64 variant in the same run.
     pub ratio: f64,
@@ -87,7 +87,7 @@ impl Point {
             }
     }
 
-    /// What it costs, with the operations of its sines.
+    /// Returns what it costs, with the operations of its sines.
     pub fn counts(&self) -> Counts {
         let (trig_mul, trig_add) = sincos::counts(&self.certificate.sines);
         Counts {
@@ -97,13 +97,13 @@ impl Point {
         }
     }
 
-    /// How many values were replaced.
+    /// Returns how many values were replaced.
     pub fn edits(&self) -> usize {
         let stages = self.certificate.stages.iter();
         stages.map(|stage| stage.edits.len()).sum()
     }
 
-    /// What it costs, dimension by dimension: a narrower scalar is one too.
+    /// Returns what it costs, dimension by dimension: a narrower scalar is one too.
     fn cost(&self) -> [usize; 3] {
         let counts = self.counts();
         let bits = match self.certificate.scalar {

@@ -16,7 +16,7 @@ use super::fault::{Damage, RungError, RungFault};
 use super::{Point, SweepError};
 
 /// The version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The largest file that is read.
 const MAX_BYTES: u64 = 256 << 20;
@@ -25,9 +25,6 @@ const MAX_BYTES: u64 = 256 << 20;
 pub struct Rung {
     /// Zero for the exact program.
     pub tolerance: f64,
-    /// Whether anything was left out: if not, less tolerance leaves out
-    /// nothing either.
-    pub fruitful: bool,
     /// The variants.
     pub points: Vec<Point>,
 }
@@ -96,7 +93,6 @@ impl Rungs {
         if body.get("tolerance").and_then(Value::as_f64) != Some(tolerance) {
             return Err(Damage::Tolerance);
         }
-        let fruitful = body.get("fruitful").and_then(Value::as_bool);
         let points = body.get("points").and_then(Value::as_array);
         let point = |json: &Value| {
             let text = json.get("certificate").and_then(Value::as_str);
@@ -114,7 +110,6 @@ impl Rungs {
         let points = points.ok_or(Damage::Missing("points"))?.iter().map(point);
         Ok(Rung {
             tolerance,
-            fruitful: fruitful.ok_or(Damage::Missing("fruitful"))?,
             points: points.collect::<Result<_, Damage>>()?,
         })
     }
@@ -137,7 +132,6 @@ impl Rungs {
         });
         let body = json!({
             "tolerance": rung.tolerance,
-            "fruitful": rung.fruitful,
             "points": points.collect::<Vec<_>>(),
         });
         let hash = text_hash(&body.to_string());

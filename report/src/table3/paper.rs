@@ -4,7 +4,7 @@ use dalembert_model::equations::Formulation;
 
 use super::Pair;
 
-/// What the paper counts for n joints.
+/// Returns what the paper counts for n joints.
 pub fn counts(formulation: Formulation, n: u64) -> Pair {
     let powers = |[n4, n3, n2, n1, n0]: [u64; 5], denominator: u64| {
         ((((n4 * n + n3) * n + n2) * n + n1) * n + n0) / denominator

@@ -1,53 +1,12 @@
 //! What the formulas cost as they are written: run with the counting scalar.
 
-use dalembert_model::equations::friction::Friction;
-use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::number::Exact;
-use dalembert_model::robot::{Convention, Inertia, JointKind, Robot};
+use dalembert_model::robot::{JointKind, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::count::{Count, Counter};
 
 use super::Pair;
-
-/// For n revolute joints of which nothing is known, standard DH, θ_i given.
-pub fn generic(formulation: Formulation, n: usize) -> Pair {
-    let counter = Counter::new();
-    let value = || counter.value();
-    let link = || Link {
-        kind: JointKind::Revolute,
-        alpha: SinCosPair {
-            sin: value(),
-            cos: value(),
-        },
-        beta: None,
-        theta: SinCosPair {
-            sin: Count::Zero,
-            cos: Count::One,
-        },
-        a: value(),
-        d: value(),
-        mass: value(),
-        com: [value(), value(), value()],
-        inertia: Inertia {
-            xx: value(),
-            yy: value(),
-            zz: value(),
-            xy: value(),
-            yz: value(),
-            xz: value(),
-        },
-        friction: Friction::none(),
-        armature: Count::Zero,
-    };
-    let arm = Arm {
-        convention: Convention::Standard,
-        gravity: [value(), value(), value()],
-        base: None,
-        tool: None,
-        links: (0..n).map(|_| link()).collect(),
-    };
-    count(formulation, &arm, &counter)
-}
 
 /// For a robot: its numbers are known, zeros and ones cost nothing.
 pub fn robot(formulation: Formulation, robot: &Robot) -> Pair {

@@ -14,7 +14,7 @@ mod robots {
         outputs: gravity;
     }
 
-    /// What a private module is for.
+    /// A function of a private module.
     pub fn load(q: f64) -> f64 {
         private::gravity(&[q, 0.0])[0]
     }

@@ -12,7 +12,6 @@
 //! - `search`: guesses, each certified
 //! - `greedy`: the ranking
 //! - `columns`: programs at many states
-//! - `motions`: errors at a position, at the worst rates
 //! - `fit`: constants corrected for what is left out
 //! - `price`: operations that stay
 //! - `omissions`: what was left out, for reports; `tally`: rounds, for who watches
@@ -20,23 +19,25 @@
 mod columns;
 mod fit;
 mod greedy;
-mod motions;
 mod omissions;
 mod price;
 mod search;
 mod tally;
 
+use super::motions::{self, Motions};
 use crate::bound::input_box::InputBox;
-use crate::bound::magnitude::BoxEffort;
-use crate::edits::{Stage, has_edits};
+use crate::bound::magnitude::{BoxEffort, magnitudes_within};
+use crate::edits::{Stage, deviation, has_edits};
+use crate::parallel;
 use crate::program::Program;
 use crate::random::Random;
 use crate::simplify::Effort;
+use crate::verify::exact::prove_same;
 use crate::watch::FunctionWatch;
-use motions::Motions;
 pub(crate) use omissions::Omission;
 pub use omissions::omissions;
 use search::Search;
+pub(crate) use search::cost;
 use tally::Tally;
 
 /// Of the samples and of what is taken back.
@@ -65,6 +66,9 @@ pub struct PruneSettings {
     pub effort: Effort,
     /// Whether constants are corrected for what is left out.
     pub refit: bool,
+    /// Smaller models to start from as well; none where work is limited, of which a
+    /// thread counts its own.
+    pub models: usize,
     /// Units of work at most, if there is a limit: what was found by then counts.
     pub work: Option<u64>,
 }
@@ -81,6 +85,7 @@ impl Default for PruneSettings {
             budget: BoxEffort::QUICK,
             effort: Effort::Quick,
             refit: true,
+            models: 2,
             work: None,
         }
     }
@@ -98,6 +103,21 @@ pub struct Pruned {
 }
 
 impl PruneSettings {
+    /// For who waits: seconds for a six-joint arm.
+    pub const QUICK: PruneSettings = PruneSettings {
+        samples: 24,
+        guesses: 4,
+        retries: 0,
+        stages: 3,
+        alike: 2,
+        sweeps: 0,
+        budget: BoxEffort::QUICK,
+        effort: Effort::Quick,
+        refit: true,
+        models: 0,
+        work: None,
+    };
+
     /// The most that a search may take: minutes for a six-joint arm.
     pub const THOROUGH: PruneSettings = PruneSettings {
         samples: 40,
@@ -109,6 +129,7 @@ impl PruneSettings {
         budget: BoxEffort::QUICK,
         effort: Effort::Thorough,
         refit: true,
+        models: 5,
         work: None,
     };
 
@@ -185,8 +206,9 @@ pub fn prune(
 }
 
 /// [`prune`] under a watch: where it is over, the search ends with its best.
-/// `start` is an equal program to edit in its place: then the first stage has
-/// no edits and leads there.
+/// `start` is another program to edit in its place. If it is equal, the first stage has no
+/// edits and leads there; if not, the result is bounded against `program` directly, and
+/// has no stages but that one.
 pub(crate) fn watched(
     program: &Program,
     start: Option<&Program>,
@@ -195,6 +217,7 @@ pub(crate) fn watched(
     settings: &PruneSettings,
     watch: Option<FunctionWatch<'_>>,
 ) -> Pruned {
+    let is_direct = start.is_some_and(|start| prove_same(start, program).is_err());
     let tally = Tally::new(settings, program.steps.len(), watch);
     let nothing = Pruned {
         stages: Vec::new(),
@@ -212,13 +235,19 @@ pub(crate) fn watched(
     let mut random = Random::new(SEED);
     let motions = Motions::new(program, limits);
     let mut positions = motions::positions(limits, settings.samples, &mut random);
-    let mut share = search::SHARE;
+    // What a model errs is no guess.
+    let mut share = if is_direct {
+        search::CLOSE
+    } else {
+        search::SHARE
+    };
     for stage in 0..settings.stages + MAX_MORE {
         // What is left of the allowances may do for one more.
         if stage >= settings.stages && !leaves(&best, allowances) {
             break;
         }
-        let part = settings.part(stage);
+        // What a smaller model left may be used at once.
+        let part = if is_direct { 1.0 } else { settings.part(stage) };
         let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
         let search = Search {
             full: program,
@@ -230,6 +259,7 @@ pub(crate) fn watched(
             tally: &tally,
             guesses: settings.guesses(stage, program.steps.len()),
             retries: settings.retries(stage),
+            is_direct,
         };
         match search.run(&mut positions, &mut share, &mut random) {
             Some(found) => best = found,
@@ -237,25 +267,66 @@ pub(crate) fn watched(
             None => break,
         }
     }
+    if is_direct {
+        return direct(program, best, limits, allowances, settings).unwrap_or(nothing);
+    }
     match has_edits(&best.stages) && search::cost(&best.program) < search::cost(program) {
         true => best,
         false => nothing,
     }
 }
 
+/// Returns a program that is no edit of the exact one, if it is cheaper and certified to be
+/// within the allowances.
+fn direct(
+    program: &Program,
+    mut best: Pruned,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &PruneSettings,
+) -> Option<Pruned> {
+    if search::cost(&best.program) >= search::cost(program) {
+        return None;
+    }
+    if !has_edits(&best.stages) {
+        let error = deviation(program, &best.program);
+        best.errors = magnitudes_within(&error, limits, allowances, settings.budget)?;
+    }
+    best.stages.truncate(1);
+    Some(best)
+}
+
+/// Selects the programs to start from of which pruning is about to leave least: as many as
+/// the settings say.
+pub(crate) fn promising<'p>(
+    full: &Program,
+    starts: &'p [Program],
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &PruneSettings,
+) -> Vec<&'p Program> {
+    let price = |start: &Program| appraise(full, start, limits, allowances, settings);
+    let prices = parallel::each(starts, price);
+    let mut all: Vec<(u32, &Program)> = prices.into_iter().zip(starts).collect();
+    all.sort_by_key(|(price, _)| *price);
+    all.truncate(settings.models);
+    all.into_iter().map(|(_, start)| start).collect()
+}
+
 /// About what [`prune`] would leave of a program: operations, sines and
 /// cosines weighed. Errors at so many samples decide, nothing is certified.
 pub(crate) fn appraise(
+    full: &Program,
     program: &Program,
     limits: &InputBox,
     allowances: &[f64],
     settings: &PruneSettings,
 ) -> u32 {
     let mut random = Random::new(SEED);
-    let motions = Motions::new(program, limits);
+    let motions = Motions::new(full, limits);
     let positions = motions::positions(limits, settings.samples, &mut random);
     let search = Search {
-        full: program,
+        full,
         base: Pruned {
             stages: Vec::new(),
             program: program.clone(),
@@ -268,6 +339,7 @@ pub(crate) fn appraise(
         tally: &Tally::new(settings, program.steps.len(), None),
         guesses: 1,
         retries: 0,
+        is_direct: false,
     };
     search.appraise(&positions, 1.0, &mut random)
 }

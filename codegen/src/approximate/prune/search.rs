@@ -2,14 +2,14 @@
 
 use super::columns::Nodes;
 use super::greedy::{Greedy, State};
-use super::motions::Motions;
 use super::price::SINCOS;
 use super::tally::Tally;
 use super::{PruneSettings, Pruned};
+use crate::approximate::motions::Motions;
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 use crate::bound::{magnitude, sample};
-use crate::edits::{Stage, difference, has_edits};
+use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
 use crate::program::columns::Columns;
@@ -23,6 +23,9 @@ const POLISH: usize = 12;
 
 /// How much of the allowance sampled errors may use at first.
 pub(super) const SHARE: f64 = 0.8;
+
+/// The same where most of the error is a model's, which was fitted.
+pub(super) const CLOSE: f64 = 0.95;
 
 /// An output whose certified error is less than this part of its allowance
 /// may use more of it; the bound is not tight there.
@@ -54,6 +57,8 @@ pub(super) struct Search<'a> {
     pub guesses: usize,
     /// Times that a part is taken back and chosen anew.
     pub retries: usize,
+    /// Whether the first program to edit is no equal of the full one.
+    pub is_direct: bool,
 }
 
 /// A certified variant and how it was found.
@@ -297,9 +302,13 @@ impl Search<'_> {
             program: self.base.program.clone(),
             edits: greedy.edits(original, state),
         });
-        let error = difference(&stages);
+        let program = finish(&stages, Effort::Quick, false);
+        let error = match self.is_direct {
+            true => deviation(self.full, &program),
+            false => difference(&stages),
+        };
         let pruned = Pruned {
-            program: finish(&stages, Effort::Quick, false),
+            program,
             stages,
             errors: Vec::new(),
         };
@@ -367,7 +376,7 @@ fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
 
 /// Operations, and a few more for each sine and cosine: what
 /// `price` gives, of a program that is built.
-pub(super) fn cost(program: &Program) -> usize {
+pub(crate) fn cost(program: &Program) -> usize {
     let counts = program.counts();
     counts.operations() + SINCOS as usize * counts.sincos
 }

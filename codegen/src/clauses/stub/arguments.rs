@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use dalembert_model::outputs::RuntimeParameter;
 
-use crate::backend::function::{LOAD, PAYLOAD};
 use crate::function::{Argument, Function, Sizes};
+use crate::language::function::{LOAD, PAYLOAD};
 use crate::program::ScalarType;
 
 /// The arguments of a function that takes these parameters.

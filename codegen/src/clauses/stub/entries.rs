@@ -5,13 +5,13 @@ use std::fmt::Write;
 use dalembert_model::outputs::Axis;
 
 use super::arguments;
-use crate::backend::Entries;
 use crate::clauses::module::{BATCH, TRAITS};
 use crate::emit::interface::{ROBOT, answer, question};
 use crate::function::{Argument, Columns, Function, Quantity};
+use crate::language::Entries;
 use crate::program::ScalarType;
 
-/// What a module has of a function beside itself. Lengths that are not known are
+/// Returns what a module has of a function beside itself. Lengths that are not known are
 /// whatever the caller has.
 pub(super) fn write(
     function: Function,
@@ -88,7 +88,7 @@ impl Stub<'_> {
         self.joints.map_or("J".to_owned(), |n| n.to_string())
     }
 
-    /// What generic parameters there are, with that of the joints if nobody
+    /// Returns what generic parameters there are, with that of the joints if nobody
     /// knows how many they are.
     fn generic(&self, others: &[&str]) -> String {
         let joints = self.joints.is_none().then_some("J");
@@ -128,7 +128,7 @@ impl Stub<'_> {
         })
     }
 
-    /// What it returns, with such entries; a struct has `lanes` in its name and
+    /// Returns what it returns, with such entries; a struct has `lanes` in its name and
     /// its parameters.
     fn result(&self, entry: &str, lanes: &str, parameters: &[&str]) -> String {
         match self.function.structure() {

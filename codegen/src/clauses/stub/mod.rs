@@ -12,10 +12,10 @@ use dalembert_model::outputs::{Axis, RuntimeParameter};
 mod arguments;
 mod entries;
 
-use crate::backend::Entries;
 use crate::clauses::invocation::Invocation;
 use crate::emit::{Interface, module};
 use crate::function::{Argument, Function, Quantity};
+use crate::language::Entries;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
 

@@ -1,4 +1,4 @@
-//! What is wrong with a step, a result or an operand.
+//! Errors in a step, a result or an operand.
 
 use std::fmt;
 
@@ -22,9 +22,9 @@ pub enum LineFault {
     Operand(String),
     /// There are not as many results as the function has.
     Results {
-        /// How many it has.
+        /// The expected number.
         expected: usize,
-        /// How many there are.
+        /// The number found.
         found: usize,
     },
 }

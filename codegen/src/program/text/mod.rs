@@ -12,7 +12,7 @@ use super::{AngleSum, Input, Operand, Operation, Output, Program, Step};
 use crate::function::Argument;
 pub(crate) use fault::LineFault;
 
-/// How emitted code names an input.
+/// Returns the name of an input in emitted code.
 pub(crate) fn input_name(input: Input) -> String {
     match input {
         Input::Sin(angle) => format!("s{angle}"),

@@ -1,5 +1,4 @@
-//! Which columns are independent modulo 2⁶¹ − 1, and how the others depend on
-//! them.
+//! Finds independent columns modulo 2⁶¹ − 1, and how the others depend on them.
 
 use dalembert_model::number::Rational;
 use dalembert_model::scalar::Scalar;

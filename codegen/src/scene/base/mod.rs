@@ -41,7 +41,7 @@ use moments::{MAX_TERMS, Moment, kept, parts};
 /// A parameter of the robot file, about the origin of the link's DH frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Parameter {
-    /// Of a link.
+    /// A parameter of a link.
     Link(usize, LinkParameter),
     /// The rotor's inertia of a joint.
     Armature(usize),
@@ -62,7 +62,7 @@ impl fmt::Display for Parameter {
 /// The base parameters of a robot in its scene.
 #[derive(Clone, Debug)]
 pub struct BaseParameters {
-    /// What each is a unit of: the columns of the regressor.
+    /// The parameters that each base parameter combines: the columns of the regressor.
     pub columns: Vec<Column<Exact>>,
     /// Each as a combination of the robot file's parameters.
     pub combinations: Vec<Vec<(Parameter, Exact)>>,
@@ -116,7 +116,7 @@ impl fmt::Display for NoBase {
 }
 
 impl BaseParameters {
-    /// Of a robot in its scene, for a quantity that is over them.
+    /// Returns the base parameters of a robot in its scene, for a quantity over them.
     pub(super) fn of(
         scene_robot: &SceneRobot,
         quantity: Quantity,

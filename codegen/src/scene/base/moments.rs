@@ -49,7 +49,7 @@ impl Moment {
     }
 }
 
-/// What a link keeps where everything moves that can.
+/// Returns the moments that a link keeps where everything moves that can.
 pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
     match kind {
         JointKind::Revolute => &[
@@ -70,7 +70,8 @@ pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
     }
 }
 
-/// What each link keeps of a body of one; `None` where a constant grows too large.
+/// Returns the part of a unit body that each link keeps; `None` where a constant grows too
+/// large.
 pub(super) fn parts(
     chain: &Chain<Exact>,
     link: usize,

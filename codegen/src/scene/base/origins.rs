@@ -46,7 +46,7 @@ pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     empty
 }
 
-/// Where the joint's step begins and where the next one does.
+/// Returns the points where the joint's step and the next one begin.
 fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
     let segment = &skeleton.links[link];
     let next = skeleton.links.get(link + 1).map(|next| next.offset.clone());

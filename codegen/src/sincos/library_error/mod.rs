@@ -17,7 +17,7 @@ mod reduction;
 mod rest;
 #[cfg(test)]
 mod tests;
-mod trace;
+pub(crate) mod trace;
 
 use std::sync::OnceLock;
 

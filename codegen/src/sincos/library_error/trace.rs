@@ -18,7 +18,7 @@ struct Traced<'t> {
 
 /// What sine and cosine are computed by from an angle, before they trade places or
 /// change their signs.
-pub(super) fn trace(scalar: ScalarType) -> Kernel {
+pub(crate) fn trace(scalar: ScalarType) -> Kernel {
     let tape = RefCell::new(Vec::new());
     let angle = Traced {
         tape: Some(&tape),

@@ -17,7 +17,7 @@ pub use ticks::Scale;
 /// A chart.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// What it shows.
+    /// The title.
     pub title: &'static str,
     /// Below each other.
     pub panels: Vec<Panel>,
@@ -28,7 +28,7 @@ pub struct Chart {
 pub struct Panel {
     /// The quantity and its unit.
     pub title: &'static str,
-    /// How it goes upward.
+    /// The scale of the vertical axis.
     pub scale: Scale,
     /// The lines, three at most: there are so many colours.
     pub lines: Vec<Line>,
@@ -37,7 +37,7 @@ pub struct Panel {
 /// A line.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What it is.
+    /// The label of the line.
     pub name: &'static str,
     /// Seconds, and the quantity.
     pub points: Vec<[f64; 2]>,
@@ -51,7 +51,7 @@ const HEAD: f64 = 26.0;
 const TITLE: f64 = 26.0;
 const FOOT: f64 = 38.0;
 const PANEL: f64 = 150.0;
-/// What a line is drawn of at most.
+/// The most points that a line is drawn of.
 const POINTS: usize = 320;
 
 impl Chart {

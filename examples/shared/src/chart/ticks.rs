@@ -1,6 +1,6 @@
 //! Round numbers along an axis.
 
-/// How values go along an axis.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// In equal steps.
@@ -23,7 +23,7 @@ pub struct Axis {
     to: f64,
 }
 
-/// As many steps as an axis has at most.
+/// The most steps of an axis.
 const STEPS: f64 = 6.0;
 
 impl Axis {
@@ -58,12 +58,12 @@ impl Axis {
         }
     }
 
-    /// The same between two places on paper.
+    /// Returns the axis between two places on paper.
     pub fn between(self, from: f64, to: f64) -> Axis {
         Axis { from, to, ..self }
     }
 
-    /// Where a value is on paper; values beyond the ends are at the ends.
+    /// Returns the place of a value on paper; values beyond the ends are at the ends.
     pub fn place(&self, value: f64) -> f64 {
         let at = (along(self.scale, value) / self.step - self.first) / self.steps as f64;
         self.from + (self.to - self.from) * at.clamp(0.0, 1.0)

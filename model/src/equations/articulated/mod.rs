@@ -23,11 +23,11 @@ use crate::scalar::Divide;
 use body::{Articulated, Motion, add, by, no_wrench, power};
 use step::Step;
 
-/// What the way out leaves for the way back.
+/// The values that the way out leaves for the way back.
 struct Joint<S> {
     /// I S: what an acceleration along the joint takes.
     push: Wrench<S>,
-    /// What is left of the torque.
+    /// The rest of the torque.
     rest: S,
     /// 1/d; zero of a joint that is held.
     inverse: S,

@@ -44,7 +44,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// The part of a wrench in the joint's frame that the joint depends_on.
+    /// The part of a wrench in the joint's frame that the joint feels.
     pub(super) fn depends_on(&self, wrench: &Wrench<S>) -> S {
         match self.link.kind {
             JointKind::Revolute => wrench.moment[2].clone(),

@@ -76,7 +76,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Whether turning it about z changes nothing, by structure.
+    /// Returns whether turning it about z changes nothing, by structure.
     pub fn is_axisymmetric(&self) -> bool {
         let second = &self.second;
         [
@@ -102,7 +102,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// The same body with the opposite sign.
+    /// Returns the same body with the opposite sign.
     pub fn negated(&self) -> Self {
         Body {
             mass: negative(&self.mass),

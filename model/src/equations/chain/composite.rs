@@ -138,7 +138,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             Ordering::Greater => outer[m][k][i].clone(),
             // h_iki = 0: a joint does not feel its own Coriolis term.
             Ordering::Equal => S::zero(),
-            // h_ikm = −h_mki: joint i depends_on what joint m does not.
+            // h_ikm = −h_mki: joint i feels what joint m does not.
             Ordering::Less => negative(&outer[i][k][m]),
         };
         (0..n)
@@ -274,7 +274,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// What joint i depends_on of a wrench about the origin of frame m.
+    /// Returns what joint i feels of a wrench about the origin of frame m.
     fn project(&self, i: usize, m: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         self.in_metres(i, self.twist(i, m).power(force, moment))
     }
@@ -287,7 +287,8 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// The same for a matrix over the joints, whose rows and columns both have a unit.
+    /// Converts a matrix over the joints, whose rows and columns both have
+    /// a unit.
     pub(super) fn matrix_in_metres(&self, matrix: &mut [Vec<S>]) {
         for (i, row) in matrix.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {

@@ -14,9 +14,9 @@ use crate::equations::matrix::{dot, plus};
 use crate::equations::newton_euler::Wrench;
 use crate::scalar::Scalar;
 
-/// What one joint and its composite body contribute.
+/// The contribution of one joint and its composite body.
 struct Joint<S> {
-    /// How the joint's twist changes.
+    /// The rate of the joint's twist.
     rate: Twist<S>,
     /// The wrench of a unit acceleration.
     push: Wrench<S>,
@@ -68,7 +68,7 @@ impl<S: Scalar> Composite<'_, S> {
         }
     }
 
-    /// What each joint contributes by itself, from the hand inward.
+    /// Returns what each joint contributes by itself, from the hand inward.
     fn velocity_parts(&self, qd: &[S]) -> Vec<Joint<S>> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);

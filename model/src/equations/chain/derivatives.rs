@@ -37,18 +37,18 @@ pub(super) struct Flow<S> {
     moment: Rotation<S>,
 }
 
-/// What one joint and its composite body contribute.
+/// The contribution of one joint and its composite body.
 struct Joint<S> {
-    /// How the joint's twist changes, and how that changes.
+    /// The first and second rate of the joint's twist.
     drift: [Twist<S>; 2],
     /// The wrench of a unit acceleration.
     push: Wrench<S>,
-    /// What the rate of the composite gives along the joint for each turn of
+    /// The part of the composite's rate along the joint for each turn of
     /// all that it is part of.
     swing: Vector<S>,
     /// ∂τ_i/∂q_i, and the wrench that the joints before feel.
     position: (S, Wrench<S>),
-    /// The same for q̇_i.
+    /// ∂τ_i/∂q̇_i, and the wrench that the joints before feel.
     velocity: (S, Wrench<S>),
 }
 
@@ -114,7 +114,7 @@ impl<S: Scalar> Composite<'_, S> {
         }
     }
 
-    /// What each joint contributes by itself, from the hand inward.
+    /// Returns what each joint contributes by itself, from the hand inward.
     fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
@@ -303,7 +303,8 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// What [`Flow::of_turn`] gives along the joint, as a form in the turn.
+    /// Returns what [`Flow::of_turn`] gives along the joint, as a form in the
+    /// turn.
     fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
         self.half_swing(link).each_ref().map(twice)
     }

@@ -8,15 +8,15 @@ use super::recursion::{AccelerationForm, MomentForm};
 /// One association of the chain formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form {
-    /// How U is formed.
+    /// The form of U.
     pub spin: AccelerationForm,
-    /// How a link's own moment is formed.
+    /// The form of a link's own moment.
     pub couple: MomentForm,
     /// Which way D and c travel.
     pub travel: CompositeOrder,
-    /// Whether h comes from composite bodies, or from the recursion.
+    /// True if h comes from composite bodies, or from the recursion.
     pub composite_h: bool,
-    /// Whether C comes from composite momenta, or from the h_ikm.
+    /// True if C comes from composite momenta, or from the h_ikm.
     pub flows: bool,
 }
 
@@ -46,7 +46,8 @@ impl Form {
         forms
     }
 
-    /// Whether it has a choice that nothing reads, made otherwise than the first.
+    /// Returns whether it has a choice that nothing reads, made otherwise than
+    /// the first.
     fn is_idle(self, recursion: bool, travels: bool) -> bool {
         let rates = self.spin == AccelerationForm::Rates;
         let euler = self.couple == MomentForm::Euler;

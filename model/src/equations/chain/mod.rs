@@ -69,7 +69,7 @@ pub struct Chain<S> {
     pub links: Vec<ChainLink<S>>,
     /// 1 / the unit of length.
     pub per_unit: S,
-    /// How many columns of a regressor the links' probes are.
+    /// The number of columns of a regressor that the links' probes are.
     pub columns: usize,
 }
 
@@ -89,16 +89,16 @@ pub struct ChainLink<S> {
     pub theta: SinCosPair<S>,
     /// The link, about the origin and in the axes of its frame.
     pub body: Body<S>,
-    /// What else is fixed to it, a column of a regressor each; not regrouped.
+    /// The probes that are fixed to it, a column of a regressor each; not regrouped.
     pub probes: Vec<Probe<S>>,
     /// Mass, first and second moment along the axis that the link could keep
     /// (revolute): its own and what arrived from the links after it.
     pub free: [S; 3],
     /// Rotor inertia felt at the joint.
     pub armature: S,
-    /// What the drive takes while the joint moves.
+    /// The friction of the joint.
     pub friction: Friction<S>,
-    /// Whether the frame may stay behind while the link turns: for a last
+    /// True if the frame may stay behind while the link turns: for a last
     /// link that is symmetric about its axis.
     pub spins_freely: bool,
     /// By how many joints the frame turns more than its link, where it can.
@@ -156,7 +156,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// The same chain without friction.
+    /// Returns the same chain without friction.
     #[must_use]
     pub fn without_friction(mut self) -> Chain<S> {
         for link in &mut self.links {
@@ -210,8 +210,8 @@ impl<S> Chain<S> {
 }
 
 impl<S: Clone> Chain<S> {
-    /// The same chain at velocities of which each r_i is this, where a joint has
-    /// Coulomb friction.
+    /// Returns the same chain at velocities of which each r_i is this, where a
+    /// joint has Coulomb friction.
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Chain<S> {
         for (link, per_speed) in self.links.iter_mut().zip(per_speed) {

@@ -23,7 +23,7 @@ use crate::scalar::{Divide, Scalar};
 struct Pair {
     before: usize,
     after: usize,
-    /// Whether they turn opposite ways.
+    /// True if they turn opposite ways.
     opposite: bool,
 }
 
@@ -66,7 +66,7 @@ fn solved_in_pairs<S: Divide>(
     accelerations
 }
 
-/// What D q̈ = τ − h − c is solved for.
+/// The unknowns that D q̈ = τ − h − c is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknowns {
     /// q̈, with factors of D that D⁻¹ has too.

@@ -98,8 +98,8 @@ impl<S: Scalar> Chain<S> {
         self.torques(at, &motions, MomentForm::SecondMoments, &exerted, drive)
     }
 
-    /// How the links move with both velocities at once: U and v̇, bilinear in
-    /// them. Wrenches are linear in these, whatever the body.
+    /// Computes how the links move with both velocities at once: U and v̇,
+    /// bilinear in them. Wrenches are linear in these, whatever the body.
     pub(super) fn mixed_motions(
         &self,
         at: &[Displacement<S>],

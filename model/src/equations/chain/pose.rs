@@ -30,11 +30,11 @@ pub enum Displacement<S> {
 struct FramePlacement {
     /// The first link of the group and the last that turns.
     group: [usize; 2],
-    /// Whether the axis points against that of the first.
+    /// True if the axis points against that of the first.
     opposite: bool,
     /// The group's revolute links up to and with this one.
     index: usize,
-    /// How many revolute links the group has.
+    /// The number of revolute links of the group.
     count: usize,
 }
 
@@ -203,8 +203,8 @@ impl<S: Scalar> ChainLink<S> {
     }
 }
 
-/// Whether an axis points against the one before; `None` if they are not
-/// parallel. R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π)
+/// Returns whether an axis points against the one before; `None` if they are
+/// not parallel. R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π)
 /// it turns the other way.
 fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
     let along = &rotation[2][2];

@@ -7,7 +7,7 @@ use super::{Body, Rotation};
 use crate::equations::matrix::Vector;
 use crate::scalar::Scalar;
 
-/// What a column of a regressor is the torque of.
+/// The cause of a column of a regressor: the column is its torque.
 #[derive(Clone, Debug)]
 pub enum Column<S> {
     /// A body that is fixed to a link.
@@ -17,7 +17,7 @@ pub enum Column<S> {
         /// About the origin and in the axes of the link's DH frame.
         body: Body<S>,
     },
-    /// A unit of the rotor's inertia that a joint depends_on.
+    /// A unit of the rotor's inertia that a joint feels.
     Armature(usize),
     /// A unit of a joint's viscous friction.
     Viscous(usize),
@@ -37,16 +37,16 @@ impl<S> Column<S> {
     }
 }
 
-/// What is fixed to a link beside its body.
+/// A cause of torque that is fixed to a link beside its body.
 #[derive(Clone, Debug)]
 pub struct Probe<S> {
     /// The column of the regressor.
     pub column: usize,
-    /// What it is.
+    /// The value itself.
     pub of: Probed<S>,
 }
 
-/// What a column of a regressor is of.
+/// The cause of a column of a regressor.
 #[derive(Clone, Debug)]
 pub enum Probed<S> {
     /// A body, about the origin and in the axes of the link's frame.

@@ -13,7 +13,7 @@ use crate::equations::matrix::{
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// How a link's U is formed; the values are the same.
+/// The form of a link's U; the values are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AccelerationForm {
     /// The column along a revolute axis is the one before, turned: it does
@@ -23,7 +23,7 @@ pub enum AccelerationForm {
     Rates,
 }
 
-/// How the moment of a link's own motion is formed; the values are the same.
+/// The form of the moment of a link's own motion; the values are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MomentForm {
     /// The antisymmetric part of U Σ.
@@ -275,7 +275,7 @@ impl<S: Scalar> Chain<S> {
         motions
     }
 
-    /// The part of a wrench on link i that the joint depends_on.
+    /// The part of a wrench on link i that the joint feels.
     pub(super) fn load(&self, i: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         match self.links[i].kind {
             JointKind::Revolute => moment[2].clone(),

@@ -44,7 +44,7 @@ impl<S: Scalar> Chain<S> {
         self.powers(at, &motions, [qd, qdd], travel)
     }
 
-    /// The same of D a + C v + c + b∘v.
+    /// Computes the regressor of D a + C v + c + b∘v.
     pub fn passivity_regressor(
         &self,
         at: &[Displacement<S>],

@@ -27,7 +27,7 @@ pub struct LinkRegrouping<S> {
     pub first: S,
     /// The second moment along the axis, Σzz, that it keeps.
     pub second: S,
-    /// Whether a prismatic link keeps its second moments.
+    /// True if a prismatic link keeps its second moments.
     pub keep_seconds: bool,
     /// By how many joints with parallel axes the frame turns more than its
     /// link (less if negative), as far as it can ([`Chain::freedoms`]): no
@@ -106,7 +106,7 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// What of a body of the link moves to the link before.
+    /// Returns what of a body of the link moves to the link before.
     fn moving(&self, body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
         match self.kind {
             JointKind::Revolute => on_axis(body, keep),
@@ -114,7 +114,7 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// What has moved, in the frame of the link before.
+    /// Returns what has moved, in the frame of the link before.
     fn arriving(&self, moving: &Body<S>) -> Body<S> {
         match self.kind {
             JointKind::Revolute => moving.carried(&self.rotation, &self.offset),
@@ -124,8 +124,8 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// What the link keeps of a body where all moves that can, and what arrives
-    /// at the link before, in its frame.
+    /// Returns what the link keeps of a body where all moves that can, and what
+    /// arrives at the link before, in its frame.
     pub fn split_base(&self, body: &Body<S>) -> (Body<S>, Body<S>) {
         let nothing = LinkRegrouping {
             origin: zero_vector(),

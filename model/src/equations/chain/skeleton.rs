@@ -2,7 +2,7 @@
 //!
 //! A locked joint is a constant step like any other. It contributes a
 //! rotation and an offset, its body joins the link before it (or the base,
-//! which depends_on nothing), and regrouping works through it.
+//! which feels nothing), and regrouping works through it.
 
 use alloc::vec::Vec;
 
@@ -14,14 +14,14 @@ use crate::equations::{Arm, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
-/// What moves, and what is constant between.
+/// The bodies that move, and what is constant between them.
 #[derive(Clone, Debug)]
 pub struct Skeleton<S> {
     /// Acceleration of gravity in base axes.
     pub gravity: Vector<S>,
     /// The joints that move, from the base to the hand.
     pub links: Vec<Segment<S>>,
-    /// How many columns of a regressor the links' probes are.
+    /// The number of columns of a regressor that the links' probes are.
     pub columns: usize,
 }
 
@@ -43,26 +43,26 @@ pub struct Segment<S> {
     pub theta: SinCosPair<S>,
     /// The constant step along the axis of a revolute joint.
     pub d: S,
-    /// What moves with it, about the origin and in the axes of the frame.
+    /// The body that moves with it, about the origin and in the axes of the frame.
     pub body: Body<S>,
-    /// What else does, a column of a regressor each.
+    /// The probes that move with it, a column of a regressor each.
     pub probes: Vec<Probe<S>>,
     /// The axes and the origin of the joint's own DH frame, in the frame.
     pub dh: (Rotation<S>, Vector<S>),
     /// Rotor inertia felt at the joint.
     pub armature: S,
-    /// What the drive takes while the joint moves.
+    /// The friction of the joint.
     pub friction: Friction<S>,
 }
 
 impl<S: Scalar> Skeleton<S> {
-    /// Of an arm; a joint with a lock stays where the lock says. Missing
+    /// Returns the skeleton of an arm; a joint with a lock stays where the lock says. Missing
     /// locks are none.
     pub fn new(arm: &Arm<S>, locks: &[Option<JointPosition<S>>]) -> Skeleton<S> {
         Skeleton::with_columns(arm, locks, &[])
     }
 
-    /// Of an arm, with the columns of a regressor fixed to its links.
+    /// Returns the skeleton of an arm, with the columns of a regressor fixed to its links.
     pub fn with_columns(
         arm: &Arm<S>,
         locks: &[Option<JointPosition<S>>],
@@ -101,7 +101,7 @@ impl<S: Scalar> Skeleton<S> {
                 turned = product(&turned, &rest);
                 if let Some(carrier) = links.last_mut() {
                     carrier.body = carrier.body.with(&body.carried(&turned, &moved));
-                    // A drive that is locked depends_on nothing.
+                    // A drive that is locked feels nothing.
                     let own = probes(columns, joint, &turned, &moved);
                     carrier.probes.extend(own.filter(Probe::is_body));
                 }

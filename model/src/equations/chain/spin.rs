@@ -53,7 +53,7 @@ pub struct EliminatedTip<'a, S> {
 }
 
 impl<'a, S: Divide> EliminatedTip<'a, S> {
-    /// Of a chain at its position, if its last joint moves, is not the only one and
+    /// Eliminates the tip of a chain at its position, if its last joint moves, is not the only one and
     /// turns about a principal axis. J + A is the last joint's entry of D, a constant
     /// that is above zero where D has an inverse.
     pub fn new(whole: &'a Composite<'a, S>, moves: &[bool]) -> Option<Self> {
@@ -105,16 +105,17 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         &self.whole.at[..self.chain.links.len()]
     }
 
-    /// What a unit acceleration of each joint before adds to the last one's.
+    /// Returns what a unit acceleration of each joint before adds to the last
+    /// one's.
     fn brought(&self) -> Vec<S> {
         let last = self.chain.links.len();
         let along = |i: usize| self.whole.twist(i, last).turn[2].clone();
         (0..last).map(along).collect()
     }
 
-    /// What the joint before exerts besides on the last link, in the axes that this turns
-    /// from, and e: of the frame before ω′, of the joint its rate and what of its torque
-    /// friction leaves.
+    /// Returns what the joint before exerts besides on the last link, in the axes that
+    /// this turns from, and e: of the frame before ω′, of the joint its rate and what of
+    /// its torque friction leaves.
     fn couple(&self, [x, y, z]: &Vector<S>, rate: &S, left: &S) -> (Vector<S>, S) {
         let second = &self.link.second;
         // I_δ ω′: of Σ half the difference, and Σ_xy.
@@ -204,8 +205,8 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// Whether, by structure, it turns about an axis through its centre of mass that is
-    /// a principal one.
+    /// Returns whether, by structure, it turns about an axis through its centre of mass
+    /// that is a principal one.
     fn turns_about_principal_axis(&self) -> bool {
         let (body, second) = (&self.body, &self.body.second);
         let across = [&body.first[0], &body.first[1], &second.xz, &second.yz];

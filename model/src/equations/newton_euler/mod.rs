@@ -13,7 +13,7 @@ use super::Link;
 use super::matrix::{Vector, plus, scaled, times};
 use crate::scalar::Scalar;
 
-/// What the hand exerts on its environment, about the origin of frame n:
+/// The force and the moment that the hand exerts on its environment, about the origin of frame n:
 /// base axes in Table 1, axes of frame n in Table 2.
 #[derive(Clone, Debug)]
 pub struct Wrench<S> {
@@ -28,8 +28,8 @@ fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
     scaled(&link.mass, acceleration)
 }
 
-/// What the drive adds to the torque of the chain: friction and the armature's
-/// inertia.
+/// Returns what the drive adds to the torque of the chain: friction and the
+/// armature's inertia.
 fn with_drive<S: Scalar>(link: &Link<S>, torque: &S, qd: &S, qdd: &S) -> S {
     let damped = plus(torque, &link.friction.torque(qd));
     plus(&damped, &times(&link.armature, qdd))

@@ -12,7 +12,7 @@ use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::Scalar;
 
-/// How the moment of the next link's force is taken about frame i
+/// The form of the moment of the next link's force about frame i
 /// (standard DH; modified DH has only the second form).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Moment {
@@ -200,8 +200,8 @@ fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) 
     }
 }
 
-/// The same for modified DH: the joint moves along z_i, after the rotation X,
-/// and the lever P_i belongs to the previous link.
+/// Returns the same for modified DH: the joint moves along z_i, after the
+/// rotation X, and the lever P_i belongs to the previous link.
 fn modified<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.lever_before();
     let of_lever = sum(

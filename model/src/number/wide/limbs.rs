@@ -4,16 +4,16 @@ use core::cmp::Ordering;
 
 use num_bigint::{BigInt, BigUint, Sign};
 
-/// Of a significand.
+/// The limbs of a significand.
 pub(super) const LIMBS: usize = 4;
 
 /// A significand.
 pub(super) type Limbs = [u64; LIMBS];
 
-/// Of a limb.
+/// The bits of a limb.
 const BITS: u32 = u64::BITS;
 
-/// Of a product, or of a significand with as many bits again below it.
+/// The limbs of a product, or of a significand with as many bits again below it.
 type Double = [u64; 2 * LIMBS];
 
 /// The top of a × b, the highest bit of both being one, and whether that of the product
@@ -84,7 +84,7 @@ fn wide(a: &Limbs) -> Double {
     all
 }
 
-/// The same, lowered by at most as many bits.
+/// Returns the same, lowered by at most as many bits.
 fn lowered(a: &Limbs, by: u32) -> Double {
     let (whole, part) = ((by / BITS) as usize, by % BITS);
     let mut all = [0; 2 * LIMBS];

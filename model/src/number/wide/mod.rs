@@ -74,7 +74,7 @@ impl Wide {
         }
     }
 
-    /// The same number, exactly.
+    /// Returns the same number, exactly.
     pub fn to_rational(&self) -> Rational {
         let power = self.exponent.unsigned_abs();
         let whole = self.whole();
@@ -111,7 +111,7 @@ impl Wide {
         ))
     }
 
-    /// Whether it is below zero.
+    /// Returns whether it is below zero.
     pub fn is_negative(&self) -> bool {
         self.negative
     }

@@ -31,13 +31,13 @@ pub enum BundleError {
     Few(Option<Function>),
     /// Two parts return the same.
     Twice(Quantity, [Function; 2]),
-    /// What two parts return would have one field.
+    /// Results of two parts would have one field.
     SameField(&'static str, [Function; 2]),
 }
 
 impl BundleError {
-    /// The same where these functions are known beside the outputs: a word that is
-    /// the name of a bundle among them is that.
+    /// Returns the same where these functions are known beside the outputs: a word
+    /// that is the name of a bundle among them is that.
     #[must_use]
     pub fn among(self, functions: &[Function]) -> BundleError {
         match self {
@@ -52,7 +52,7 @@ impl BundleError {
         }
     }
 
-    /// What is wrong.
+    /// Returns what is wrong.
     pub fn message(&self) -> String {
         match self {
             BundleError::Name(name) => format!("`{name}` is no name of a function"),

@@ -36,10 +36,10 @@ impl Bundle {
     }
 }
 
-/// What stands between the parts of a bundle.
+/// The sign between the parts of a bundle.
 const PLUS: char = '+';
 
-/// What stands between its name and them.
+/// The sign between its name and them.
 const IS: char = '=';
 
 impl Function {
@@ -156,8 +156,8 @@ impl Function {
         ordered
     }
 
-    /// Whether one module cannot have both: a name or a struct would be there
-    /// twice.
+    /// Returns whether one module cannot have both: a name or a struct would be
+    /// there twice.
     pub fn is_namesake(self, other: Function) -> bool {
         let same_structure = self.structure().is_some() && self.structure() == other.structure();
         self.name() == other.name() || same_structure
@@ -188,8 +188,9 @@ fn kept(text: String) -> &'static str {
 mod tests {
     use super::*;
 
-    /// What the registry bundles it could as well have left to a user: but for
-    /// its name and its line of documentation, nothing is special about it.
+    /// What the registry bundles it could as well have left to a user:
+    /// but for its name and its line of documentation, nothing is special about
+    /// it.
     #[test]
     fn the_registrys_bundles_are_like_any_other() {
         let is_bundle = |function: &Function| !function.definition().parts.is_empty();

@@ -9,7 +9,7 @@ use crate::outputs::Function;
 /// The longest name.
 const MAX_BYTES: usize = 64;
 
-/// What modules call other things; with it the struct of a name is taken too.
+/// Names that modules use otherwise; with each the struct of the name is taken too.
 const OWN: [&str; 7] = [
     "angles",
     "in_box",
@@ -20,7 +20,7 @@ const OWN: [&str; 7] = [
     "state_box",
 ];
 
-/// How the other ways to call a function end.
+/// The endings of the other ways to call a function.
 const ENDINGS: [&str; 4] = ["_with_sincos", "_lanes", "_batch", "_columns"];
 
 /// No function can have these names.
@@ -32,7 +32,7 @@ const WORDS: [&str; 51] = [
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Whether a bundle may have this name.
+/// Returns whether a bundle may have this name.
 pub(super) fn check(name: &str) -> Result<(), BundleError> {
     let own = || name.to_string();
     let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';

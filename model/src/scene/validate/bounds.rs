@@ -12,7 +12,7 @@ use num_traits::Signed;
 use super::{Check, Part, compare, decimal, of_kind, shown};
 use crate::robot::{Field, Position, RobotWarning};
 
-/// What to do about a box beyond the limits.
+/// The help for a box beyond the limits.
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 
 impl Check<'_> {
@@ -80,7 +80,7 @@ impl Check<'_> {
         }
     }
 
-    /// Of velocities or accelerations. Zero is a range too: at rest.
+    /// Checks the ranges of velocities or accelerations. Zero is a range too: at rest.
     fn rates(&mut self, field: Field) {
         let bounds = &self.scene.bounds;
         let values = match field {

@@ -48,21 +48,21 @@ impl Check<'_> {
         self.needs(tolerance.relative_to);
     }
 
-    /// Whether the scene asks for a function that reads this, or leaves its
-    /// outputs to the request.
+    /// Returns whether the scene asks for a function that reads this, or leaves
+    /// its outputs to the request.
     fn reads(&self, argument: Argument) -> bool {
         let outputs = &self.scene.outputs;
         outputs.is_empty() || outputs.iter().any(|f| f.arguments().contains(&argument))
     }
 
-    /// Whether the scene asks by name for a function with such a scale.
+    /// Returns whether the scene asks by name for a function with such a scale.
     fn is_scaled(&self, by: ErrorScale) -> bool {
         let scaled = |f: &Function| f.quantities().iter().any(|q| q.scale() == by);
         self.scene.outputs.iter().any(scaled)
     }
 
-    /// What a bound needs and nobody says, and what T is made of: limits above
-    /// zero, of every joint with a result.
+    /// Reports what a bound needs and nobody says, and what T is made of:
+    /// limits above zero, of every joint with a result.
     fn needs(&mut self, scale: Scale) {
         let scene = self.scene;
         // With the box as its limits.

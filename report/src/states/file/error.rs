@@ -9,7 +9,7 @@ use super::words::{TORQUE, results};
 pub enum FileError {
     /// It is no JSON.
     Syntax {
-        /// What the parser says.
+        /// The message of the parser.
         message: String,
         /// From one.
         line: usize,
@@ -31,7 +31,7 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {}
 
-/// What is wrong with a file of states.
+/// A fault of a file of states.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ContentFault {
@@ -61,13 +61,13 @@ impl fmt::Display for ContentFault {
 
 impl std::error::Error for ContentFault {}
 
-/// What is wrong with a state.
+/// A fault of a state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StateFault {
     /// It is no object.
     NoObject,
-    /// What a state says of itself must be a number.
+    /// A key of a state about itself must be a number.
     Remark(String),
     /// It has a key that no state has.
     Unknown {
@@ -80,14 +80,14 @@ pub enum StateFault {
     Missing(&'static str),
     /// It lacks a key that a result depends on.
     MissingFor {
-        /// What it lacks.
+        /// The missing key.
         missing: &'static str,
         /// The result.
         result: &'static str,
     },
     /// It has torques that drive the arm, and no result that depends on them.
     IdleTorque,
-    /// What must be a list is none.
+    /// This key must be a list.
     NoList(&'static str),
     /// A list has an entry that is no number.
     NoNumber(&'static str),
@@ -95,9 +95,9 @@ pub enum StateFault {
     Length {
         /// Its key.
         key: &'static str,
-        /// How many it must have.
+        /// The number that it must have.
         expected: usize,
-        /// How many it has.
+        /// The number that it has.
         found: usize,
     },
 }

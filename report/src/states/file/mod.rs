@@ -16,7 +16,7 @@ use super::GivenState;
 pub use error::{ContentFault, FileError, StateFault};
 use words::{TORQUE, likely};
 
-/// What a state may say of itself, a number each: the condition of D, by which its
+/// Keys that a state may have about itself, a number each: the condition of D, by which its
 /// source judged the results that need D⁻¹. No function returns it.
 const REMARKS: [&str; 1] = ["condition"];
 

@@ -24,7 +24,7 @@ pub(super) fn results() -> String {
 /// The torques that drive an arm, unlike those that a motion takes.
 pub(super) const TORQUE: &str = "torque";
 
-/// What other libraries call the same thing.
+/// The names of other libraries for the same thing.
 const OTHER_WORDS: [(&str, &str); 33] = [
     ("torques", "tau"),
     ("effort", "tau"),

@@ -14,7 +14,7 @@ mod adjoints;
 mod products;
 
 use super::columns::{Nodes, Value};
-use super::motions::Motions;
+use crate::approximate::motions::Motions;
 use crate::program::Operand;
 use adjoints::adjoints;
 use products::{Columns, gram};

@@ -1,8 +1,8 @@
 //! What may stand in a value's place.
 
+use crate::approximate::motions::Motions;
 use crate::approximate::prune::columns::{Nodes, Value};
 use crate::approximate::prune::fit::dot;
-use crate::approximate::prune::motions::Motions;
 use crate::program::Operation;
 
 /// Zero, the middle of its values, and for a sum one of its operands.

@@ -12,8 +12,8 @@ mod rank;
 use super::PruneSettings;
 use super::columns::{Nodes, Value};
 use super::fit::LANES;
-use super::motions::Motions;
 use super::price::{Scratch, price};
+use crate::approximate::motions::Motions;
 use crate::edits::Edit;
 use crate::random::Random;
 

@@ -1,9 +1,0 @@
-//! The tests of the second checker, as one program.
-
-mod attacks;
-mod certificates;
-mod golden;
-mod intervals;
-mod mutations;
-mod refusals;
-mod support;

@@ -1,0 +1,138 @@
+//! What is taken from a certificate: the text, and what is claimed of it. The programs,
+//! the edits and the parts of the bounds in it are not looked at.
+
+use serde::Deserialize;
+
+use crate::fault::Fault;
+use crate::quantity::{FUNCTIONS, Function};
+use crate::scene::Setting;
+
+/// The longest file, and the most certificates in it.
+const MOST_BYTES: usize = 16 << 20;
+const MOST_CLAIMS: usize = 16;
+
+/// A claim: at every state of the box, each output of the text is within E·T of the
+/// function. Other fields of the file are not read.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Claim {
+    /// The version of the format.
+    certificate: u32,
+    /// The scene, if there is one.
+    #[serde(default)]
+    pub scene: Option<String>,
+    /// The name of the function.
+    pub function: String,
+    /// The joints, from one, that results are over.
+    pub rows: Vec<usize>,
+    /// `f64` or `f32`
+    pub scalar: String,
+    /// The ranges of q, rad or m.
+    pub position: Vec<[f64; 2]>,
+    /// The ranges of q̇, rad/s or m/s.
+    pub velocity: Vec<[f64; 2]>,
+    /// The ranges of q̈, rad/s² or m/s².
+    pub acceleration: Vec<[f64; 2]>,
+    /// T, one an output, in the output's unit.
+    pub scale: Vec<f64>,
+    /// What T is: `actuator` or `range`.
+    #[serde(default)]
+    pub relative_to: Option<String>,
+    /// E, one an output; null where nothing is claimed.
+    pub total: Vec<Option<f64>>,
+    /// The text of the function.
+    pub text: String,
+}
+
+impl Claim {
+    /// The claim that nothing was left out of a text; E is for the checker to find.
+    pub(crate) fn exact(
+        name: &str,
+        is_single: bool,
+        rows: Vec<usize>,
+        setting: &Setting,
+        text: &str,
+    ) -> Claim {
+        let [position, velocity, acceleration] = setting.ranges.clone();
+        Claim {
+            certificate: 2,
+            scene: None,
+            function: name.to_owned(),
+            rows,
+            scalar: if is_single { "f32" } else { "f64" }.to_owned(),
+            position,
+            velocity,
+            acceleration,
+            scale: Vec::new(),
+            relative_to: None,
+            total: Vec::new(),
+            text: text.to_owned(),
+        }
+    }
+
+    /// The function.
+    ///
+    /// # Errors
+    /// It is none of those that are checked.
+    pub fn function(&self) -> Result<&'static Function, Fault> {
+        let names = FUNCTIONS.each_ref().map(|function| function.name);
+        let missing = || format!("`function`: expected one of {}", names.join(", "));
+        Function::named(&self.function).ok_or_else(|| Fault::certificate(missing()))
+    }
+
+    /// The rows, from zero.
+    pub(crate) fn rows(&self) -> Vec<usize> {
+        self.rows.iter().map(|row| row - 1).collect()
+    }
+
+    /// Whether the fields are of one claim.
+    ///
+    /// # Errors
+    /// The first that is not, with what was expected.
+    pub(crate) fn whole(&self) -> Result<(), Fault> {
+        let count = self.rows.len();
+        let outputs = self.function()?.places(count.min(64)).len();
+        let is_bound = |total: &Option<f64>| total.is_some_and(|e| e.is_finite() && e >= 0.0);
+        let known = ["f64", "f32"].contains(&self.scalar.as_str());
+        for (good, why) in [
+            (self.certificate == 2, "`certificate`: expected format 2"),
+            (known, "`scalar`: expected f64 or f32"),
+            (
+                count < 64 && !self.rows.contains(&0),
+                "`rows`: expected joints, from 1",
+            ),
+            (
+                self.scale.len() == outputs,
+                "`scale`: expected one an output",
+            ),
+            (
+                self.total.len() == outputs && self.total.iter().all(is_bound),
+                "`total`: expected E, zero or above, one an output",
+            ),
+        ] {
+            if !good {
+                return Err(Fault::certificate(why));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads a certificate, or a list of them.
+///
+/// # Errors
+/// What has not a certificate's fields; what they say is for [`crate::audit`] to judge.
+pub fn read(text: &str) -> Result<Vec<Claim>, Fault> {
+    if text.len() > MOST_BYTES {
+        return Err(Fault::certificate(format!("more than {MOST_BYTES} bytes")));
+    }
+    let read: Result<Vec<Claim>, serde_json::Error> = match text.trim_start().starts_with('[') {
+        true => serde_json::from_str(text),
+        false => serde_json::from_str(text).map(|one| vec![one]),
+    };
+    let claims = read.map_err(|error| Fault::certificate(error.to_string()))?;
+    if !(1..=MOST_CLAIMS).contains(&claims.len()) {
+        let why = format!("1 to {MOST_CLAIMS} in a file, not {}", claims.len());
+        return Err(Fault::certificate(why));
+    }
+    Ok(claims)
+}

@@ -1,0 +1,188 @@
+//! A generated file without a certificate: how far each of its functions can be from the
+//! dynamics of the robot.
+
+use std::fmt;
+
+use crate::certificate::Claim;
+use crate::fault::Fault;
+use crate::file::{self, Found};
+use crate::interval::UNIT;
+use crate::quantity::{Function, Quantity};
+use crate::scene::{self, Setting};
+use crate::verdict::measure;
+
+/// The largest rates where the robot file has no limit, per second and per second
+/// squared.
+const RATE: f64 = 10.0;
+/// What an exact program may be off, in units of half an ulp of the largest output: above
+/// this something was left out, or rounding can cost that much.
+const MOST_UNITS: f64 = 65_536.0;
+
+/// What was found of one function.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Its module.
+    pub module: String,
+    /// Its name.
+    pub name: String,
+    /// What was shown, or why nothing was.
+    pub result: Result<Distance, Fault>,
+}
+
+/// How far a function can be from the dynamics, each number relative to the largest
+/// entry, of all that are seen, of what it is an entry of.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Distance {
+    /// In real numbers, with constants as they are printed.
+    pub edits: f64,
+    /// By rounding and library sines.
+    pub rounding: f64,
+    /// What is seen at states.
+    pub seen: f64,
+    /// Half an ulp, relative.
+    pub unit: f64,
+}
+
+impl Distance {
+    /// The bound of both, in units of half an ulp.
+    pub fn units(&self) -> f64 {
+        (self.edits + self.rounding) / self.unit
+    }
+
+    /// Whether that is what an exact program costs.
+    pub fn is_shown(&self) -> bool {
+        self.units() <= MOST_UNITS
+    }
+}
+
+/// What was found of a file.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// One a function, in the file's order.
+    pub lines: Vec<Line>,
+    /// Whether rates are without a limit in the robot file.
+    pub is_unlimited: bool,
+}
+
+impl Report {
+    /// Whether every function is shown.
+    pub fn is_shown(&self) -> bool {
+        let shown = |line: &Line| line.result.as_ref().is_ok_and(Distance::is_shown);
+        !self.lines.is_empty() && self.lines.iter().all(shown)
+    }
+}
+
+/// Checks every function of a file against a robot, or one of its scenes.
+///
+/// # Errors
+/// A robot file or a file that this checker does not know; what is wrong with a function
+/// is in its line.
+pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, Fault> {
+    let mut setting = scene::read(robot, scene)?;
+    let mut is_unlimited = false;
+    for range in setting.ranges.iter_mut().flatten() {
+        if range.iter().any(|end| end.is_nan()) {
+            (*range, is_unlimited) = ([-RATE, RATE], true);
+        }
+    }
+    let line = |found: &Found| Line {
+        module: found.module.to_owned(),
+        name: found.name.to_owned(),
+        result: distance(found, &setting),
+    };
+    // These compute no dynamics: one says where a box is, one which angles there are.
+    let is_other = |found: &&Found| !["in_box", "angles"].contains(&found.name);
+    Ok(Report {
+        lines: file::functions(source)?
+            .iter()
+            .filter(is_other)
+            .map(line)
+            .collect(),
+        is_unlimited,
+    })
+}
+
+fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
+    let Some(function) = Function::named(found.name) else {
+        return Err(Fault::Text(
+            found.line,
+            format!("`{}` is not checked", found.name),
+        ));
+    };
+    let head = found.text.lines().next().unwrap_or("");
+    let is_single = head.contains("[f32; ");
+    let rows: Vec<usize> = setting.rows.iter().map(|row| row + 1).collect();
+    let claim = Claim::exact(function.name, is_single, rows, setting, &found.text);
+    let places = function.places(claim.rows.len());
+    let all = measure(&claim, setting, |_| f64::INFINITY).map_err(|fault| match fault {
+        Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
+        other => other,
+    })?;
+    let unit = if is_single {
+        f64::from(f32::EPSILON) / 2.0
+    } else {
+        UNIT
+    };
+    let mut distance = Distance {
+        unit,
+        ..Distance::default()
+    };
+    let quantities: Vec<Quantity> = places.into_iter().map(|(quantity, _)| quantity).collect();
+    for (own, found) in quantities.iter().zip(&all) {
+        let same = quantities
+            .iter()
+            .zip(&all)
+            .filter(|(other, _)| *other == own);
+        let size = same.map(|(_, found)| found.seen.size).fold(0.0, f64::max);
+        let of = |x: f64| if x == 0.0 { 0.0 } else { x / size };
+        let worse = |before: f64, x: f64| if x > before || x.is_nan() { x } else { before };
+        distance.edits = worse(distance.edits, of(found.edits));
+        distance.rounding = worse(distance.rounding, of(found.rounding));
+        distance.seen = worse(distance.seen, of(found.seen.off));
+    }
+    Ok(distance)
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "How far each function can be from the dynamics over the box of the robot file,"
+        )?;
+        writeln!(
+            f,
+            "relative to the largest entry seen of its kind; u is half an ulp of that."
+        )?;
+        if self.is_unlimited {
+            writeln!(
+                f,
+                "Where the file has no limit, rates go up to {RATE} in SI units."
+            )?;
+        }
+        let mut module = "";
+        for line in &self.lines {
+            if line.module != module {
+                module = &line.module;
+                writeln!(f, "{module}")?;
+            }
+            match &line.result {
+                Ok(found) => writeln!(
+                    f,
+                    "  {:<22} in real numbers {:>9.2e}  rounding {:>9.2e}  both {:>7.0} u  seen {:>7.1} u  {}",
+                    line.name,
+                    found.edits,
+                    found.rounding,
+                    found.units(),
+                    found.seen / found.unit,
+                    if found.is_shown() {
+                        "shown"
+                    } else {
+                        "not shown"
+                    },
+                )?,
+                Err(fault) => writeln!(f, "  {:<22} not shown: {fault}", line.name)?,
+            }
+        }
+        Ok(())
+    }
+}

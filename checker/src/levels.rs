@@ -1,0 +1,166 @@
+//! F of `maximum` as lists of coefficients, one a level: behind each, one angle more is
+//! put in.
+
+use std::collections::BTreeMap;
+
+use crate::interval::sin_cos;
+use crate::polynomial::{ANGLES, Key, Polynomial, Variable, exponent, key};
+use crate::ring::Ring;
+
+/// One angle's turn: what its powers are multiplied with, and where that is added to.
+pub(crate) struct Level {
+    pub(crate) degree: f64,
+    pub(crate) range: Option<[f64; 2]>,
+    /// Powers of sin and cos that occur.
+    powers: Vec<(u32, u32)>,
+    /// Of each coefficient its power and its place among those of the next level.
+    moves: Vec<(u32, u32)>,
+}
+
+/// F, and the coefficients that are left at each level.
+pub(crate) struct Search {
+    pub(crate) levels: Vec<Level>,
+    pub(crate) values: Vec<Vec<f64>>,
+    /// The sum of the magnitudes of all terms, before they were added up.
+    pub(crate) mass: f64,
+    /// Multiplications that may still be done.
+    pub(crate) steps: u64,
+}
+
+impl Search {
+    /// The coefficients of a polynomial's F, and the order of its angles.
+    pub(crate) fn new(polynomial: &Polynomial, ring: &Ring, steps: u64) -> Search {
+        // Groups by rates and errors; the first one is the sum of all at the middle.
+        let mut groups: BTreeMap<(Key, Key), f64> = BTreeMap::new();
+        let mut mass = 0.0;
+        for &(key, coefficient) in &polynomial.terms {
+            let (angles, others) = (key & ANGLES, key & !ANGLES);
+            let (middle, radius) = ring.factor(others);
+            mass += (middle.abs() + radius) * coefficient.abs();
+            if middle != 0.0 {
+                *groups.entry((0, angles)).or_default() += middle * coefficient;
+            }
+            if radius > 0.0 {
+                // No key has this bit.
+                *groups.entry((others | 1 << 127, angles)).or_default() += radius * coefficient;
+            }
+        }
+        let mut keys: Vec<(Key, Key)> = groups.keys().copied().collect();
+        let mut search = Search {
+            levels: Vec::new(),
+            values: Vec::new(),
+            mass,
+            steps,
+        };
+        search.values.push(groups.into_values().collect());
+        let power = |key: Key, joint: usize| {
+            (
+                exponent(key, Variable::Sin, joint),
+                exponent(key, Variable::Cos, joint),
+            )
+        };
+        let degree = |joint: usize, keys: &[(Key, Key)]| {
+            let powers = keys.iter().map(|key| power(key.1, joint));
+            powers.map(|(sin, cos)| sin + cos).max().unwrap_or(0)
+        };
+        let mut left: Vec<usize> = (0..ring.angles.len()).collect();
+        left.retain(|&joint| degree(joint, &keys) > 0);
+        // The last one is the first to be put in: of short ranges, so that the others are
+        // not bounded over whole turns of it, then of the highest powers.
+        let length = |joint: usize| ring.angles[joint].map_or(f64::MAX, |[low, high]| high - low);
+        left.sort_by(|&a, &b| {
+            let powers = || degree(a, &keys).cmp(&degree(b, &keys));
+            length(b).total_cmp(&length(a)).then_with(powers)
+        });
+        while let Some(joint) = left.pop() {
+            let without = |&(group, angles): &(Key, Key)| {
+                let (sin, cos) = power(angles, joint);
+                let (sin, cos) = (Key::from(sin), Key::from(cos));
+                let taken = key(Variable::Sin, joint) * sin + key(Variable::Cos, joint) * cos;
+                (group, angles - taken)
+            };
+            let mut next: Vec<(Key, Key)> = keys.iter().map(without).collect();
+            let targets = next.clone();
+            next.sort_unstable();
+            next.dedup();
+            let mut powers: Vec<(u32, u32)> = keys.iter().map(|key| power(key.1, joint)).collect();
+            let each = powers.clone();
+            powers.sort_unstable();
+            powers.dedup();
+            let place = |found: Result<usize, usize>| found.unwrap_or_default() as u32;
+            let moves = each.iter().zip(&targets);
+            let moves = moves.map(|(own, target)| {
+                (
+                    place(powers.binary_search(own)),
+                    place(next.binary_search(target)),
+                )
+            });
+            search.levels.push(Level {
+                degree: f64::from(degree(joint, &keys)),
+                range: ring.angles[joint],
+                moves: moves.collect(),
+                powers,
+            });
+            search.values.push(vec![0.0; next.len()]);
+            keys = next;
+        }
+        search
+    }
+
+    /// Puts an angle in.
+    pub(crate) fn fix(&mut self, level: usize, angle: f64) {
+        let (sin, cos) = sin_cos(angle);
+        let Level { powers, moves, .. } = &self.levels[level];
+        let table: Vec<f64> = powers
+            .iter()
+            .map(|&(s, c)| sin.powi(s as i32) * cos.powi(c as i32))
+            .collect();
+        let (before, behind) = self.values.split_at_mut(level + 1);
+        let (from, to) = (&before[level], &mut behind[0]);
+        to.fill(0.0);
+        for (value, &(power, target)) in from.iter().zip(moves) {
+            to[target as usize] += value * table[power as usize];
+        }
+        self.steps = self.steps.saturating_sub(from.len() as u64 + 20);
+    }
+
+    pub(crate) fn norm(&self, level: usize) -> f64 {
+        self.values[level].iter().map(|value| value.abs()).sum()
+    }
+
+    /// A bound of F by amplitudes in the next angle: each coefficient of the level behind
+    /// it is a constant and harmonics, of which sine and cosine go together.
+    pub(crate) fn amplitudes(&self, level: usize) -> f64 {
+        let Some(Level { powers, moves, .. }) = self.levels.get(level) else {
+            return f64::INFINITY;
+        };
+        let mut waves = vec![[0.0f64; 8]; self.values[level + 1].len()];
+        for (value, &(power, target)) in self.values[level].iter().zip(moves) {
+            let [constant, sin, cos, sin2, cos2, sin3, cos3, other] = &mut waves[target as usize];
+            match powers[power as usize] {
+                (0, 0) => *constant += value,
+                (1, 0) => *sin += value,
+                (0, 1) => *cos += value,
+                (1, 1) => *sin2 += 0.5 * value,
+                (0, 2) => (*constant, *cos2) = (*constant + 0.5 * value, *cos2 + 0.5 * value),
+                (1, 2) => (*sin, *sin3) = (*sin + 0.25 * value, *sin3 + 0.25 * value),
+                (0, 3) => (*cos, *cos3) = (*cos + 0.75 * value, *cos3 + 0.25 * value),
+                _ => *other += value.abs(),
+            }
+        }
+        let size = |&[constant, sin, cos, sin2, cos2, sin3, cos3, other]: &[f64; 8]| {
+            let pairs = [(sin, cos), (sin2, cos2), (sin3, cos3)];
+            let pairs = pairs.map(|(a, b)| (a * a + b * b).sqrt());
+            constant.abs() + pairs.iter().sum::<f64>() + other
+        };
+        waves.iter().map(size).sum()
+    }
+
+    /// F at a place.
+    pub(crate) fn value(&mut self, at: &[f64]) -> f64 {
+        for (level, &angle) in at.iter().enumerate() {
+            self.fix(level, angle);
+        }
+        self.norm(at.len())
+    }
+}

@@ -1,0 +1,52 @@
+//! The checker of generated code, small enough to be read in a day.
+//!
+//! A certificate says that a generated function differs from the dynamics of a robot, at
+//! every state of a box, by at most E·T; a generated file without one says that nothing
+//! was left out. This crate uses none of the project's others. It takes the text, the
+//! box, T and E, reads the robot file itself, and shows the claim with its own means, or
+//! says how far its own bound is from it:
+//!
+//! 1. `literal`, `robot`, `scene`: the robot file, every number as an interval about a double
+//! 2. `file`, `program`, `text`: the text, by a small strict grammar
+//! 3. `dynamics`, `quantity`: the recursion of Newton and Euler, and what follows from it
+//! 4. `polynomial`, `ring`, `values`, `sines`: text and recursion as polynomials in
+//!    sines, cosines and rates; all that was not edited cancels in their difference
+//! 5. `levels`, `maximum`: the largest magnitude of that difference over the box
+//! 6. `values`, again: what rounding costs, by one pass over the text
+//! 7. `sample`: the text run at some states, which must not contradict the bounds;
+//!    `witness`: states at which T is reached
+//! 8. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
+//!
+//! What is believed: that every operation is rounded to nearest and none is contracted,
+//! that the library's sines are within one ulp, this crate, the compiler, and the parsers
+//! of TOML and JSON.
+#![forbid(unsafe_code)]
+#![allow(clippy::neg_cmp_op_on_partial_ord)] // So that NaN counts as too large.
+
+mod certificate;
+pub mod command;
+pub mod dynamics;
+pub mod exact;
+mod fault;
+pub mod file;
+pub mod interval;
+mod levels;
+pub mod literal;
+mod maximum;
+pub mod number;
+pub mod polynomial;
+pub mod program;
+pub mod quantity;
+mod ring;
+pub mod robot;
+mod sample;
+pub mod scene;
+mod sines;
+pub mod text;
+mod values;
+mod verdict;
+mod witness;
+
+pub use certificate::{Claim, read};
+pub use fault::Fault;
+pub use verdict::{Found, Output, Verdict, audit, measure};

@@ -1,0 +1,78 @@
+//! What the recursion computes with: polynomials for bounds, doubles to look for states.
+
+use crate::fault::Fault;
+use crate::polynomial::{Polynomial, Work};
+
+/// A number of the robot file: within `radius` of a double.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Real {
+    /// The nearest double.
+    pub value: f64,
+    /// How far the number is from it at most.
+    pub radius: f64,
+}
+
+/// A commutative ring with the numbers of a robot file in it. The default is zero.
+pub trait Number: Clone + Default {
+    /// A number of the robot file.
+    fn constant(real: Real) -> Self;
+
+    /// The sum of two.
+    #[must_use]
+    fn plus(&self, other: &Self) -> Self;
+
+    /// The opposite.
+    #[must_use]
+    fn negated(&self) -> Self;
+
+    /// The product of two.
+    ///
+    /// # Errors
+    /// More than is written out, or more work than is done.
+    fn times(&self, other: &Self, work: &mut Work) -> Result<Self, Fault>;
+
+    /// One.
+    fn one() -> Self {
+        Self::constant(Real {
+            value: 1.0,
+            radius: 0.0,
+        })
+    }
+}
+
+impl Number for Polynomial {
+    fn constant(real: Real) -> Polynomial {
+        Polynomial::constant(real.value, real.radius)
+    }
+
+    fn plus(&self, other: &Polynomial) -> Polynomial {
+        Polynomial::plus(self, other)
+    }
+
+    fn negated(&self) -> Polynomial {
+        Polynomial::negated(self)
+    }
+
+    fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+        Polynomial::times(self, other, work)
+    }
+}
+
+/// Rounded, and without a bound of that.
+impl Number for f64 {
+    fn constant(real: Real) -> f64 {
+        real.value
+    }
+
+    fn plus(&self, other: &f64) -> f64 {
+        self + other
+    }
+
+    fn negated(&self) -> f64 {
+        -self
+    }
+
+    fn times(&self, other: &f64, _: &mut Work) -> Result<f64, Fault> {
+        Ok(self * other)
+    }
+}

@@ -1,0 +1,250 @@
+//! Polynomials in sines, cosines, rates and errors, with a bound of what was left out.
+//!
+//! Every variable is at most one in magnitude over the box: cos φ and sin φ of a joint
+//! that turns, where sin² is replaced by 1 − cos²; of a joint that slides, its position
+//! as the cosine of an angle that goes round; q̇ and q̈ in units of a power of two; and
+//! errors of sines in units of their largest. So a monomial is at most one, and whatever
+//! is not written down — what rounding a coefficient costs, terms that all but cancelled,
+//! products of two errors — adds its magnitude to `rest`.
+
+use crate::fault::Fault;
+use crate::interval::UNIT;
+
+/// The exponents of a monomial: `WIDTH` bits a joint.
+pub type Key = u128;
+/// The most joints that a key has room for.
+pub const MAX_JOINTS: usize = 9;
+const WIDTH: usize = 13;
+/// Where the exponents of a joint start, and how many bits they have, the highest of
+/// which must stay zero (but for sin, whose square is replaced).
+const FIELDS: [(usize, usize); 6] = [(0, 2), (2, 4), (6, 3), (9, 2), (11, 1), (12, 1)];
+/// The most terms of one polynomial.
+const MOST_TERMS: usize = 1 << 18;
+/// The most products of terms for all polynomials of one certificate.
+pub const MOST_WORK: u64 = 400_000_000;
+/// What summing up `rest` in floating point may cost, as a factor: far fewer than 2³⁰
+/// additions, each rounded by at most one part in 2⁵³.
+const SLACK: f64 = 1.000_001;
+/// The least double, at least what a product is off where it underflows.
+const LEAST: f64 = f64::from_bits(1);
+const SMALL: f64 = 1e-290;
+
+/// The variables of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// sin φ
+    Sin,
+    /// cos φ, or the position of a joint that slides.
+    Cos,
+    /// q̇
+    Velocity,
+    /// q̈
+    Acceleration,
+    /// The error of a sine or cosine, even.
+    EvenError,
+    /// The same, odd.
+    OddError,
+}
+
+/// The monomial that is a variable of a joint.
+pub fn key(variable: Variable, joint: usize) -> Key {
+    1 << (joint * WIDTH + FIELDS[variable as usize].0)
+}
+
+/// The exponent of a variable of a joint in a monomial.
+pub fn exponent(key: Key, variable: Variable, joint: usize) -> u32 {
+    let (start, bits) = FIELDS[variable as usize];
+    (key >> (joint * WIDTH + start)) as u32 & ((1 << bits) - 1)
+}
+
+/// These bits of every joint.
+const fn each(bits: Key) -> Key {
+    let (mut all, mut joint) = (0, 0);
+    while joint < MAX_JOINTS {
+        all |= bits << (joint * WIDTH);
+        joint += 1;
+    }
+    all
+}
+/// Bits that are only set by a power that there is no room for.
+const GUARD: Key = each(1 << 5 | 1 << 8 | 1 << 10);
+const ERRORS: Key = each(3 << 11);
+const SINE_SQUARED: Key = each(1 << 1);
+/// The exponents that angles have, sin and cos.
+pub const ANGLES: Key = each((1 << 6) - 1);
+
+/// Counts products of terms, so that the work for one certificate is bounded.
+#[derive(Debug, Default)]
+pub struct Work(u64);
+
+impl Work {
+    fn spend(&mut self, products: usize) -> Result<(), Fault> {
+        self.0 = self.0.saturating_add(products as u64);
+        (self.0 <= MOST_WORK).then_some(()).ok_or(Fault::Work)
+    }
+}
+
+/// A function of the state: the sum of its terms, and at most `rest` more or less.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polynomial {
+    /// In the order of their keys, each key once.
+    pub terms: Vec<(Key, f64)>,
+    /// What is left out, at most.
+    pub rest: f64,
+}
+
+impl Polynomial {
+    /// A number known to be at most so far from a double.
+    pub fn constant(value: f64, radius: f64) -> Polynomial {
+        let terms = if value == 0.0 {
+            vec![]
+        } else {
+            vec![(0, value)]
+        };
+        Polynomial {
+            terms,
+            rest: radius,
+        }
+    }
+
+    /// A variable times a power of two, or any double.
+    pub fn variable(variable: Variable, joint: usize, factor: f64) -> Polynomial {
+        let terms = match factor == 0.0 {
+            true => vec![],
+            false => vec![(key(variable, joint), factor)],
+        };
+        Polynomial { terms, rest: 0.0 }
+    }
+
+    /// More than its magnitude anywhere in the box.
+    pub fn norm(&self) -> f64 {
+        let sum: f64 = self.terms.iter().map(|(_, c)| c.abs()).sum();
+        (sum + self.rest) * SLACK
+    }
+
+    /// With the opposite sign.
+    #[must_use]
+    pub fn negated(&self) -> Polynomial {
+        let terms = self.terms.iter().map(|&(key, c)| (key, -c)).collect();
+        Polynomial {
+            terms,
+            rest: self.rest,
+        }
+    }
+
+    /// The sum of two.
+    #[must_use]
+    pub fn plus(&self, other: &Polynomial) -> Polynomial {
+        let (mut a, mut b) = (self.terms.as_slice(), other.terms.as_slice());
+        let mut terms = Vec::with_capacity(a.len() + b.len());
+        while let (Some(x), Some(y)) = (a.first(), b.first()) {
+            if x.0 <= y.0 {
+                terms.push(*x);
+                a = &a[1..];
+            } else {
+                terms.push(*y);
+                b = &b[1..];
+            }
+        }
+        terms.extend_from_slice(a);
+        terms.extend_from_slice(b);
+        merged(terms, self.rest + other.rest)
+    }
+
+    /// The product of two.
+    ///
+    /// # Errors
+    /// Too high a power, too many terms or too much work.
+    pub fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+        let zero = Polynomial::default();
+        if *self == zero || *other == zero {
+            return Ok(zero);
+        }
+        work.spend(self.terms.len() * other.terms.len())?;
+        let mut rest = 0.0;
+        // So that NaN, of numbers that overflowed, stays in the rest.
+        if self.rest + other.rest != 0.0 {
+            rest = (self.rest * other.norm() + other.rest * self.norm()) * SLACK + LEAST;
+        }
+        let mut terms = Vec::new();
+        for (left, a) in &self.terms {
+            for (right, b) in &other.terms {
+                let product = a * b;
+                if left & ERRORS != 0 && right & ERRORS != 0 {
+                    rest += product.abs() * SLACK + LEAST;
+                    continue;
+                }
+                let exact = a.abs() == 1.0 || b.abs() == 1.0;
+                rest += if exact { 0.0 } else { product.abs() * UNIT };
+                rest += if product.abs() < SMALL { LEAST } else { 0.0 };
+                reduce(left + right, product, &mut terms)?;
+            }
+            if terms.len() > 8 * MOST_TERMS {
+                sort(&mut terms);
+                let compact = merged(terms, rest);
+                (terms, rest) = (compact.terms, compact.rest);
+                if terms.len() > MOST_TERMS {
+                    return Err(Fault::Terms(MOST_TERMS));
+                }
+            }
+        }
+        sort(&mut terms);
+        let product = merged(terms, rest);
+        match product.terms.len() <= MOST_TERMS {
+            true => Ok(product),
+            false => Err(Fault::Terms(MOST_TERMS)),
+        }
+    }
+}
+
+fn sort(terms: &mut [(Key, f64)]) {
+    // Stable: sums are taken in the order of the products on every machine.
+    terms.sort_by_key(|(key, _)| *key);
+}
+
+/// Pushes a term, every sin² in it replaced by 1 − cos².
+fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(), Fault> {
+    if key & GUARD != 0 {
+        return Err(Fault::Degree);
+    }
+    let squares = key & SINE_SQUARED;
+    let first = squares & squares.wrapping_neg();
+    if first == 0 {
+        terms.push((key, coefficient));
+        return Ok(());
+    }
+    // The bit of sin² is two below that of cos².
+    reduce(key & !first, coefficient, terms)?;
+    reduce((key & !first) + (first << 2), -coefficient, terms)
+}
+
+/// Sums up terms of the same key; what all but cancelled goes into the rest.
+fn merged(terms: Vec<(Key, f64)>, mut rest: f64) -> Polynomial {
+    if terms.len() < 2 {
+        return Polynomial {
+            terms,
+            rest: rest * SLACK,
+        };
+    }
+    let mut sums: Vec<(Key, f64)> = Vec::with_capacity(terms.len());
+    let mut largest = 0.0f64;
+    for (key, coefficient) in terms {
+        match sums.last_mut() {
+            Some((last, sum)) if *last == key => {
+                let exact = *sum == -coefficient;
+                *sum += coefficient;
+                rest += if exact { 0.0 } else { sum.abs() * UNIT };
+            }
+            _ => sums.push((key, coefficient)),
+        }
+        largest = largest.max(coefficient.abs());
+    }
+    let least = 4.0 * largest * UNIT;
+    sums.retain(|(_, c)| {
+        let kept = c.abs() > least;
+        rest += if kept { 0.0 } else { c.abs() };
+        kept
+    });
+    let rest = if rest == 0.0 { 0.0 } else { rest * SLACK };
+    Polynomial { terms: sums, rest }
+}

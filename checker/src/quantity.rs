@@ -1,0 +1,306 @@
+//! What functions return, each by the recursion.
+//!
+//! The recursion is quadratic in q̇: h(v + w) − h(v) − h(w) is twice the load that two
+//! velocities give together, C(v) w. So the Christoffel symbols, the Coriolis matrix and
+//! what follows from them are loads at sums of velocities.
+
+use crate::dynamics::{State, torques};
+use crate::fault::Fault;
+use crate::number::{Number, Real};
+use crate::polynomial::Work;
+use crate::scene::Setting;
+
+/// A part of what a function returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// τ = D q̈ + h + c + b∘q̇
+    Torque,
+    /// c
+    Gravity,
+    /// D, row by row
+    Inertia,
+    /// h
+    Coriolis,
+    /// h_ikm, symmetric in k and m
+    Christoffel,
+    /// C_ik = Σ_m h_ikm q̇_m
+    CoriolisMatrix,
+    /// p = D q̇
+    Momentum,
+    /// Cᵀq̇
+    MomentumSlope,
+    /// ½ q̇ᵀ D q̇
+    KineticEnergy,
+}
+
+impl Quantity {
+    /// How many axes its array has, each over the rows.
+    pub fn axes(self) -> usize {
+        match self {
+            Quantity::KineticEnergy => 0,
+            Quantity::Torque | Quantity::Gravity | Quantity::Coriolis => 1,
+            Quantity::Momentum | Quantity::MomentumSlope => 1,
+            Quantity::Inertia | Quantity::CoriolisMatrix => 2,
+            Quantity::Christoffel => 3,
+        }
+    }
+
+    /// How many of q, q̇ and q̈ it is a function of.
+    fn arguments(self) -> usize {
+        match self {
+            Quantity::Gravity | Quantity::Inertia | Quantity::Christoffel => 1,
+            Quantity::Torque => 3,
+            _ => 2,
+        }
+    }
+}
+
+/// A generated function.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Function {
+    /// Its name.
+    pub name: &'static str,
+    /// The struct that it returns, if it does.
+    pub structure: Option<&'static str>,
+    /// What it returns, by the names of fields.
+    pub fields: &'static [(&'static str, Quantity)],
+}
+
+const fn alone(name: &'static str, fields: &'static [(&'static str, Quantity)]) -> Function {
+    Function {
+        name,
+        structure: None,
+        fields,
+    }
+}
+
+/// The functions that are checked.
+pub const FUNCTIONS: [Function; 9] = [
+    alone("inverse_dynamics", &[("tau", Quantity::Torque)]),
+    alone("gravity", &[("c", Quantity::Gravity)]),
+    alone("inertia", &[("d", Quantity::Inertia)]),
+    alone("coriolis", &[("h", Quantity::Coriolis)]),
+    Function {
+        name: "manipulator_equation",
+        structure: Some("ManipulatorEquation"),
+        fields: &[
+            ("d", Quantity::Inertia),
+            ("h", Quantity::Coriolis),
+            ("c", Quantity::Gravity),
+        ],
+    },
+    Function {
+        name: "dynamic_coefficients",
+        structure: Some("DynamicCoefficients"),
+        fields: &[
+            ("d", Quantity::Inertia),
+            ("h", Quantity::Christoffel),
+            ("c", Quantity::Gravity),
+        ],
+    },
+    alone("kinetic_energy", &[("kinetic", Quantity::KineticEnergy)]),
+    Function {
+        name: "momentum",
+        structure: Some("Momentum"),
+        fields: &[
+            ("p", Quantity::Momentum),
+            ("ct_qd", Quantity::MomentumSlope),
+        ],
+    },
+    alone("coriolis_matrix", &[("c_matrix", Quantity::CoriolisMatrix)]),
+];
+
+impl Function {
+    /// The function of a name.
+    pub fn named(name: &str) -> Option<&'static Function> {
+        FUNCTIONS.iter().find(|function| function.name == name)
+    }
+
+    /// How many of q, q̇ and q̈ it is a function of.
+    pub fn arguments(&self) -> usize {
+        let each = self.fields.iter().map(|(_, field)| field.arguments());
+        each.max().unwrap_or(0)
+    }
+
+    /// Of each output its quantity and the places of its joints among so many rows.
+    pub fn places(&self, rows: usize) -> Vec<(Quantity, Vec<usize>)> {
+        let mut places = Vec::new();
+        for &(_, quantity) in self.fields {
+            let axes = quantity.axes() as u32;
+            let digit = |index: usize, axis: u32| index / rows.pow(axes - 1 - axis) % rows;
+            let place = |index: usize| (0..axes).map(|axis| digit(index, axis)).collect();
+            places.extend((0..rows.pow(axes)).map(|index| (quantity, place(index))));
+        }
+        places
+    }
+
+    /// Its outputs at a state, over these rows, from zero.
+    ///
+    /// # Errors
+    /// As of [`torques`].
+    pub fn outputs<N: Number>(
+        &self,
+        setting: &Setting,
+        states: &[State<N>],
+        rows: &[usize],
+        work: &mut Work,
+    ) -> Result<Vec<N>, Fault> {
+        let mut at = At {
+            setting,
+            states,
+            rows,
+            work,
+        };
+        let mut outputs = Vec::new();
+        for &(_, quantity) in self.fields {
+            outputs.extend(at.quantity(quantity)?);
+        }
+        Ok(outputs)
+    }
+}
+
+/// A state, and what is asked of it.
+struct At<'a, N> {
+    setting: &'a Setting,
+    states: &'a [State<N>],
+    rows: &'a [usize],
+    work: &'a mut Work,
+}
+
+impl<N: Number> At<'_, N> {
+    /// The loads of all joints at other rates.
+    fn loads(&mut self, qd: &[N], qdd: &[N], with: (bool, bool)) -> Result<Vec<N>, Fault> {
+        let states = self.states.iter().zip(qd).zip(qdd);
+        let states = states.map(|((state, qd), qdd)| State {
+            velocity: qd.clone(),
+            acceleration: qdd.clone(),
+            ..state.clone()
+        });
+        let states: Vec<State<N>> = states.collect();
+        torques(self.setting, &states, with, self.work)
+    }
+
+    fn zeros(&self) -> Vec<N> {
+        vec![N::default(); self.states.len()]
+    }
+
+    /// One for a joint, zero for all others.
+    fn unit(&self, joint: usize) -> Vec<N> {
+        let mut unit = self.zeros();
+        unit[joint] = N::one();
+        unit
+    }
+
+    fn velocities(&self) -> Vec<N> {
+        self.states.iter().map(|s| s.velocity.clone()).collect()
+    }
+
+    fn coriolis(&mut self, qd: &[N]) -> Result<Vec<N>, Fault> {
+        let zeros = self.zeros();
+        self.loads(qd, &zeros, (false, false))
+    }
+
+    /// C(v) e_k, the load that a velocity and a joint's give together.
+    fn together(&mut self, v: &[N], own: &[N], joint: usize) -> Result<Vec<N>, Fault> {
+        let unit = self.unit(joint);
+        let sum: Vec<N> = v.iter().zip(&unit).map(|(a, b)| a.plus(b)).collect();
+        let (both, alone) = (self.coriolis(&sum)?, self.coriolis(&unit)?);
+        let half = N::constant(Real {
+            value: 0.5,
+            radius: 0.0,
+        });
+        let each = both.iter().zip(own).zip(&alone);
+        each.map(|((both, own), alone)| {
+            let rest = both.plus(&own.negated()).plus(&alone.negated());
+            rest.times(&half, self.work)
+        })
+        .collect()
+    }
+
+    fn dot(&mut self, a: &[N], b: &[N]) -> Result<N, Fault> {
+        let mut sum = N::default();
+        for (a, b) in a.iter().zip(b) {
+            sum = sum.plus(&a.times(b, self.work)?);
+        }
+        Ok(sum)
+    }
+
+    /// The entries over the rows of columns of all joints, row by row.
+    fn matrix(&self, columns: &[Vec<N>]) -> Vec<N> {
+        let row = |&row: &usize| columns.iter().map(move |column| column[row].clone());
+        self.rows.iter().flat_map(row).collect()
+    }
+
+    fn quantity(&mut self, quantity: Quantity) -> Result<Vec<N>, Fault> {
+        let (rows, zeros, v) = (self.rows, self.zeros(), self.velocities());
+        let select = |all: Vec<N>| rows.iter().map(|&row| all[row].clone()).collect();
+        Ok(match quantity {
+            Quantity::Torque => {
+                let qdd = self.states.iter().map(|s| s.acceleration.clone());
+                let qdd: Vec<N> = qdd.collect();
+                select(self.loads(&v, &qdd, (true, true))?)
+            }
+            Quantity::Gravity => select(self.loads(&zeros, &zeros, (true, false))?),
+            Quantity::Coriolis => select(self.coriolis(&v)?),
+            Quantity::Inertia => {
+                let mut columns = Vec::new();
+                for &row in rows {
+                    let unit = self.unit(row);
+                    columns.push(self.loads(&zeros, &unit, (false, false))?);
+                }
+                self.matrix(&columns)
+            }
+            Quantity::Christoffel => self.christoffel()?,
+            Quantity::CoriolisMatrix => {
+                let own = self.coriolis(&v)?;
+                let columns = rows.iter().map(|&k| self.together(&v, &own, k));
+                let columns: Vec<Vec<N>> = columns.collect::<Result<_, Fault>>()?;
+                self.matrix(&columns)
+            }
+            Quantity::Momentum => select(self.loads(&zeros, &v, (false, false))?),
+            Quantity::MomentumSlope => {
+                let own = self.coriolis(&v)?;
+                let mut slopes = Vec::new();
+                for &k in rows {
+                    let column = self.together(&v, &own, k)?;
+                    slopes.push(self.dot(&v, &column)?);
+                }
+                slopes
+            }
+            Quantity::KineticEnergy => {
+                let p = self.loads(&zeros, &v, (false, false))?;
+                let half = N::constant(Real {
+                    value: 0.5,
+                    radius: 0.0,
+                });
+                vec![self.dot(&v, &p)?.times(&half, self.work)?]
+            }
+        })
+    }
+
+    fn christoffel(&mut self) -> Result<Vec<N>, Fault> {
+        let (rows, count) = (self.rows, self.rows.len());
+        let mut own = Vec::new();
+        for &k in rows {
+            let unit = self.unit(k);
+            own.push(self.coriolis(&unit)?);
+        }
+        let mut symbols = vec![N::default(); count.pow(3)];
+        for k in 0..count {
+            for m in 0..=k {
+                let loads = match k == m {
+                    true => own[k].clone(),
+                    false => {
+                        let unit = self.unit(rows[k]);
+                        self.together(&unit, &own[k], rows[m])?
+                    }
+                };
+                for (i, &row) in rows.iter().enumerate() {
+                    symbols[(i * count + k) * count + m] = loads[row].clone();
+                    symbols[(i * count + m) * count + k] = loads[row].clone();
+                }
+            }
+        }
+        Ok(symbols)
+    }
+}

@@ -1,0 +1,282 @@
+//! A scene of a robot file: what stands still, what is carried, the box of states, the
+//! results that are asked for and how far they may be off.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use crate::fault::Fault;
+use crate::literal::{Angle, Literal};
+use crate::number::Real;
+use crate::polynomial::MAX_JOINTS;
+use crate::robot::{Body, Convention, File, Joint, Row, not_negative};
+
+/// The longest robot file.
+const MOST_BYTES: usize = 1 << 18;
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Scene {
+    #[serde(rename = "outputs")]
+    _outputs: Option<IgnoredAny>,
+    #[serde(rename = "scalar")]
+    _scalar: Option<IgnoredAny>,
+    joints: Option<Vec<Literal>>,
+    lock: BTreeMap<String, Literal>,
+    gravity: Option<[Literal; 3]>,
+    velocity: Option<Zero>,
+    acceleration: Option<Zero>,
+    payload: Option<Payload>,
+    r#box: Bounds,
+    tolerance: Option<Tolerance>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Zero {
+    Zero,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Payload {
+    mass: Literal,
+    com: [Literal; 3],
+    inertia: Option<[Literal; 6]>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Bounds {
+    position: Option<Vec<[Literal; 2]>>,
+    velocity: Option<Vec<Literal>>,
+    acceleration: Option<Vec<Literal>>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tolerance {
+    value: OneOrEach,
+    relative_to: String,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+enum OneOrEach {
+    One(Literal),
+    Each(Vec<Literal>),
+}
+
+/// A robot in a scene, or by itself.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Whether rows are of the modified (Craig) convention.
+    pub modified: bool,
+    /// The acceleration of gravity in base axes, m/s².
+    pub gravity: [Real; 3],
+    /// From the base to the hand; the last one carries the payload.
+    pub joints: Vec<Joint>,
+    /// Of each joint whether it is locked: its angle, if it turns, and its position, m.
+    pub locks: Vec<Option<(Angle, Real)>>,
+    /// Whether q̇ is zero, and q̈.
+    pub still: [bool; 2],
+    /// The ranges of q, q̇ and q̈ that the file speaks of, NaN where it does not.
+    pub ranges: [Vec<[f64; 2]>; 3],
+    /// The limits of force or torque, N or N·m, NaN where there are none.
+    pub torques: Vec<f64>,
+    /// The joints, from zero, that results are over.
+    pub rows: Vec<usize>,
+    /// The largest error of each joint that the user accepts, relative to a scale.
+    pub tolerance: Option<Vec<f64>>,
+    /// What that scale is: `actuator` or `range`.
+    pub relative_to: Option<String>,
+}
+
+/// Reads a robot file and one of its scenes.
+///
+/// # Errors
+/// What is no TOML, or what this checker does not know, by its key.
+pub fn read(source: &str, name: Option<&str>) -> Result<Setting, Fault> {
+    if source.len() > MOST_BYTES {
+        return Err(Fault::robot(
+            "file",
+            format!("more than {MOST_BYTES} bytes"),
+        ));
+    }
+    let file: File<Scene> =
+        toml::from_str(source).map_err(|e| Fault::robot("file", e.to_string()))?;
+    let none = Scene::default();
+    let missing = |name: &str| Fault::robot(format!("scene.{name}"), "there is no such scene");
+    let scene = name.map_or(Ok(&none), |name| file.scene.get(name).ok_or(missing(name)))?;
+    setting(&file, scene)
+}
+
+fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
+    let (rows, count) = (&file.joint, file.joint.len());
+    if !(1..=MAX_JOINTS).contains(&count) {
+        let why = format!("1 to {MAX_JOINTS} joints are audited, not {count}");
+        return Err(Fault::robot("joint", why));
+    }
+    rows.iter().try_for_each(Row::in_order)?;
+    let mut scenes = file.scene.values();
+    scenes.try_for_each(|scene| in_order(rows, &scene.r#box))?;
+    let mut joints = rows
+        .iter()
+        .map(Row::joint)
+        .collect::<Result<Vec<Joint>, Fault>>()?;
+    if let (Some(Payload { mass, com, inertia }), Some(last)) = (&scene.payload, joints.last_mut())
+    {
+        last.bodies.push(Body::read(
+            mass,
+            com,
+            inertia.as_ref().unwrap_or(&Default::default()),
+        )?);
+    }
+    let [x, y, z] = scene.gravity.as_ref().unwrap_or(&file.gravity);
+    let gravity = [x.real("gravity")?, y.real("gravity")?, z.real("gravity")?];
+    let mut at: Vec<Option<&Literal>> = vec![None; count];
+    for (word, position) in &scene.lock {
+        at[joint(rows, word)?] = Some(position);
+    }
+    let mut locks = Vec::new();
+    for (joint, at) in joints.iter().zip(&at) {
+        let (angle, zero) = (Literal::default(), Real::default());
+        locks.push(match at {
+            Some(at) if joint.turns => Some((at.angle("lock")?, zero)),
+            Some(at) => Some((angle.angle("lock")?, at.real("lock")?)),
+            None => None,
+        });
+    }
+    let asked = scene.joints.as_ref().map(|list| {
+        list.iter().map(|word| match word {
+            Literal::Text(name) => joint(rows, name),
+            Literal::Whole(number) => joint(rows, &number.to_string()),
+            Literal::Decimal(_) => Err(Fault::robot("joints", "expected numbers or names")),
+        })
+    });
+    let moving = (0..count).filter(|&joint| locks[joint].is_none());
+    let asked = asked
+        .map(Iterator::collect::<Result<Vec<usize>, Fault>>)
+        .transpose()?;
+    let still = [scene.velocity.is_some(), scene.acceleration.is_some()];
+    let torque = |row: &Row| {
+        row.limits
+            .torque
+            .as_ref()
+            .map_or(Ok(f64::NAN), |x| x.double("torque"))
+    };
+    let tolerance = scene.tolerance.as_ref().map(|tolerance| {
+        let each = match &tolerance.value {
+            OneOrEach::One(one) => vec![one.clone(); count],
+            OneOrEach::Each(each) => each.clone(),
+        };
+        // Down, so that nothing is allowed that the decimal does not allow.
+        let read = each
+            .iter()
+            .map(|x| x.double("tolerance").map(f64::next_down));
+        let read: Vec<f64> = read.collect::<Result<_, Fault>>()?;
+        match read.len() == count {
+            true => Ok(read),
+            false => Err(Fault::robot(
+                "tolerance",
+                "expected a value, or one a joint",
+            )),
+        }
+    });
+    Ok(Setting {
+        modified: file.convention == Convention::Modified,
+        gravity,
+        joints,
+        rows: asked.unwrap_or(moving.collect()),
+        still,
+        ranges: ranges(rows, &scene.r#box, &at, still)?,
+        torques: rows.iter().map(torque).collect::<Result<_, Fault>>()?,
+        locks,
+        tolerance: tolerance.transpose()?,
+        relative_to: scene
+            .tolerance
+            .as_ref()
+            .map(|tolerance| tolerance.relative_to.clone()),
+    })
+}
+
+/// A joint by its number, from one, or by its name.
+fn joint(rows: &[Row], word: &str) -> Result<usize, Fault> {
+    let found = match word.parse::<usize>() {
+        Ok(number) => number.checked_sub(1).filter(|&joint| joint < rows.len()),
+        Err(_) => rows
+            .iter()
+            .position(|row| row.name.as_deref() == Some(word)),
+    };
+    found.ok_or_else(|| Fault::robot(word, "there is no such joint"))
+}
+
+/// Refuses a box between whose ends nothing is, or that is not of this robot.
+fn in_order(rows: &[Row], given: &Bounds) -> Result<(), Fault> {
+    let entries = |key: &str, count: usize| match count == rows.len() {
+        true => Ok(()),
+        false => {
+            let why = format!("{count} entries, but the robot has {} joints", rows.len());
+            Err(Fault::robot(key, why))
+        }
+    };
+    if let Some(ranges) = &given.position {
+        entries("position", ranges.len())?;
+        let why = "the range is empty: its lowest position is not below its highest";
+        for (row, range) in rows.iter().zip(ranges) {
+            row.range(range, why)?;
+        }
+    }
+    for (key, sizes) in [
+        ("velocity", &given.velocity),
+        ("acceleration", &given.acceleration),
+    ] {
+        let Some(sizes) = sizes else { continue };
+        entries(key, sizes.len())?;
+        for size in sizes {
+            let why = format!("the range is empty: the {key} is negative");
+            not_negative(key, size.double(key)?, why)?;
+        }
+    }
+    Ok(())
+}
+
+/// The box: the scene's, else the joints' limits, and a whole turn where a joint that
+/// turns has none. What is locked has one position; what stands still has no rates.
+fn ranges(
+    rows: &[Row],
+    given: &Bounds,
+    locks: &[Option<&Literal>],
+    still: [bool; 2],
+) -> Result<[Vec<[f64; 2]>; 3], Fault> {
+    let mut ranges = [vec![], vec![], vec![]];
+    for (index, row) in rows.iter().enumerate() {
+        let own = given.position.as_ref().and_then(|list| list.get(index));
+        ranges[0].push(match (locks[index], own.or(row.limits.position.as_ref())) {
+            (Some(at), _) => [row.position(at)?; 2],
+            (None, Some([low, high])) => [row.position(low)?, row.position(high)?],
+            (None, None) if row.turns()? => [-PI, PI],
+            (None, None) => [f64::NAN; 2],
+        });
+        let rates = [
+            (&given.velocity, &row.limits.velocity),
+            (&given.acceleration, &row.limits.acceleration),
+        ];
+        for (which, (given, limit)) in rates.into_iter().enumerate() {
+            let most = given
+                .as_ref()
+                .and_then(|list| list.get(index))
+                .or(limit.as_ref());
+            let most = most.map_or(Ok(f64::NAN), |most| most.double("limits"))?;
+            let most = if locks[index].is_some() || still[which] {
+                0.0
+            } else {
+                most
+            };
+            ranges[which + 1].push([-most, most]);
+        }
+    }
+    Ok(ranges)
+}

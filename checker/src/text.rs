@@ -1,0 +1,355 @@
+//! The text of a function, read into straight-line code, a line at a time. The grammar is
+//! what the generator prints; what is not in it is refused with its line, however harmless.
+//!
+//! ```text
+//! #[must_use]
+//! pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
+//!     let (s1, c1) = libm::sincos(q[0]);
+//!     let t1 = qd[0] * 0.5;
+//!     [-t1, 0.0]
+//! }
+//! ```
+
+use std::collections::{HashMap, HashSet};
+
+use crate::fault::Fault;
+use crate::program::{Node, Program, Source};
+use crate::quantity::Function;
+
+/// The most values of a function.
+const MOST_NODES: usize = 20_000;
+
+/// What a text must be.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind<'k> {
+    /// The function.
+    pub function: &'k Function,
+    /// Its scalar, `f64` or `f32`.
+    pub scalar: &'k str,
+    /// The joints of the arm.
+    pub joints: usize,
+    /// How many joints results are over.
+    pub rows: usize,
+}
+
+struct Parser<'t> {
+    kind: Kind<'t>,
+    lines: std::iter::Enumerate<std::str::Split<'t, char>>,
+    line: usize,
+    program: Program,
+    names: HashMap<&'t str, usize>,
+    /// Which of q, qd and qdd the head names.
+    arguments: HashMap<&'t str, usize>,
+    /// Whether a block is read, and how it spells its angle, once it has.
+    is_inside: bool,
+    /// Whether a part of a long function is read.
+    is_part: bool,
+    angle: Option<&'t str>,
+}
+
+/// Reads a function.
+///
+/// # Errors
+/// The first thing that is not of the grammar or not of this kind, with its line.
+pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
+    let mut parser = Parser {
+        kind,
+        lines: text.split('\n').enumerate(),
+        line: 0,
+        program: Program::default(),
+        names: HashMap::new(),
+        arguments: HashMap::new(),
+        is_inside: false,
+        is_part: false,
+        angle: None,
+    };
+    if parser.function().is_some() {
+        return Ok(parser.program);
+    }
+    let line = text.split('\n').nth(parser.line).unwrap_or("").trim();
+    Err(Fault::Text(
+        parser.line + 1,
+        format!("not of the grammar or the claim: `{line}`"),
+    ))
+}
+
+impl<'t> Parser<'t> {
+    fn next(&mut self) -> Option<&'t str> {
+        let (number, line) = self.lines.next()?;
+        self.line = number;
+        let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
+        is_plain.then(|| line.trim_matches(' '))
+    }
+
+    fn function(&mut self) -> Option<()> {
+        let Kind {
+            function,
+            scalar,
+            joints,
+            rows,
+        } = self.kind;
+        let mut line = self.next()?;
+        if line == "#[must_use]" {
+            line = self.next()?;
+        }
+        let fields = function.fields;
+        let array =
+            |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
+        let returned = match function.structure {
+            Some(name) => name.to_owned(),
+            None => array(fields.first()?.1.axes()),
+        };
+        let list = line
+            .strip_prefix("pub fn ")?
+            .strip_prefix(function.name)?
+            .strip_prefix('(')?;
+        for part in list
+            .strip_suffix(&format!(") -> {returned} {{"))?
+            .split(", ")
+        {
+            let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
+            let known = argument.strip_prefix('_').unwrap_or(argument);
+            let place = ["q", "qd", "qdd"].iter().position(|word| *word == known)?;
+            if self.arguments.values().any(|&before| before >= place) {
+                return None;
+            }
+            self.arguments.insert(argument, place);
+        }
+        line = self.statements()?;
+        match function.structure {
+            None => self.array(line, fields.first()?.1.axes())?,
+            Some(name) => {
+                (line.strip_suffix(" {")? == name).then_some(())?;
+                for (field, quantity) in fields {
+                    let line = self.next()?.strip_prefix(field)?.strip_prefix(": ")?;
+                    self.array_before(line, quantity.axes(), ",")?;
+                }
+                (self.next()? == "}").then_some(())?;
+            }
+        }
+        let is_end = self.next()? == "}" && self.lines.all(|(_, line)| line.is_empty());
+        is_end.then_some(())
+    }
+
+    fn array(&mut self, line: &'t str, axes: usize) -> Option<()> {
+        self.array_before(line, axes, "")
+    }
+
+    /// Adds the entries of an array that begins in a line and ends before some text.
+    fn array_before(&mut self, line: &'t str, axes: usize, end: &str) -> Option<()> {
+        match axes {
+            0 => {
+                let value = self.operand(line.strip_suffix(end)?)?;
+                self.program.outputs.push(value);
+            }
+            1 => {
+                let list = line
+                    .strip_prefix('[')?
+                    .strip_suffix(end)?
+                    .strip_suffix(']')?;
+                let mut count = 0;
+                for word in list.split(", ") {
+                    let value = self.operand(word)?;
+                    self.program.outputs.push(value);
+                    count += 1;
+                }
+                (count == self.kind.rows).then_some(())?;
+            }
+            _ => {
+                (line == "[").then_some(())?;
+                for _ in 0..self.kind.rows {
+                    let line = self.next()?;
+                    self.array_before(line, axes - 1, ",")?;
+                }
+                (self.next()?.strip_suffix(end)? == "]").then_some(())?;
+            }
+        }
+        Some(())
+    }
+
+    /// All statements; returns the line behind them.
+    fn statements(&mut self) -> Option<&'t str> {
+        let mut line = self.next()?;
+        while let Some((names, value)) = line.strip_prefix("let ").and_then(|s| s.split_once(" = "))
+        {
+            match value.strip_suffix(';') {
+                None if value == "{" && names.ends_with(",)") => self.long(names)?,
+                None if value == "{" && !self.is_inside => self.block(names)?,
+                value => self.statement(names, value?)?,
+            }
+            line = self.next()?;
+        }
+        Some(line)
+    }
+
+    fn statement(&mut self, names: &'t str, value: &'t str) -> Option<()> {
+        let words: Vec<&str> = value.split(' ').collect();
+        if let &[left, operation, right] = words.as_slice()
+            && !value.contains("::")
+        {
+            let (left, right) = (self.operand(left)?, self.operand(right)?);
+            return self.name(
+                names,
+                match operation {
+                    "+" => Node::Add(left, right),
+                    "-" => Node::Sub(left, right),
+                    "*" => Node::Mul(left, right),
+                    _ => return None,
+                },
+            );
+        }
+        if let Some((left, rest)) = value.split_once(".mul_add(") {
+            let left = left
+                .strip_prefix('(')
+                .map_or(Some(left), |left| left.strip_suffix(')'))?;
+            let (right, addend) = rest.strip_suffix(')')?.split_once(", ")?;
+            let [left, right] = [self.operand(left)?, self.operand(right)?];
+            let addend = self.operand(addend)?;
+            return self.name(names, Node::Fused(left, right, addend));
+        }
+        let (call, angles) = value.strip_suffix(')')?.split_once('(')?;
+        let suffix = if self.kind.scalar == "f32" { "f" } else { "" };
+        let call = call.strip_suffix(suffix)?;
+        // Of one angle, or the lists of all.
+        let lists = names
+            .strip_prefix("([")
+            .and_then(|names| names.strip_suffix("])"));
+        let (sines, cosines, angles) = match (call, lists, pair(names)) {
+            ("dalembert_sines::sincos", Some(lists), _) => {
+                let (sines, cosines) = lists.split_once("], [")?;
+                (
+                    sines,
+                    cosines,
+                    angles.strip_prefix("&[")?.strip_suffix(']')?,
+                )
+            }
+            ("libm::sincos", None, Some([sin, cos])) => (sin, cos, angles),
+            ("libm::sin", None, None) => (names, "_", angles),
+            ("libm::cos", None, None) => ("_", names, angles),
+            _ => return None,
+        };
+        let [sines, cosines, angles] = [sines, cosines, angles].map(|list| list.split(", "));
+        let mut both = [sines, cosines];
+        for word in angles {
+            let angle = self.operand(word)?;
+            for (names, is_sine) in both.iter_mut().zip([true, false]) {
+                let name = names.next()?;
+                if name != "_" {
+                    self.name(name, Node::Sine(angle, is_sine, Source::Library))?;
+                }
+            }
+        }
+        both.iter_mut()
+            .all(|names| names.next().is_none())
+            .then_some(())
+    }
+
+    fn push(&mut self, node: Node) -> Option<usize> {
+        self.program.nodes.push(node);
+        let count = self.program.nodes.len();
+        (count <= MOST_NODES && !(self.is_inside && matches!(node, Node::Sine(..))))
+            .then(|| count - 1)
+    }
+
+    /// Adds a value of a new name: a letter for its kind, then joints or its number.
+    fn name(&mut self, name: &'t str, node: Node) -> Option<()> {
+        let behind = name.strip_prefix(['a', 'c', 's', 't', 'x'])?;
+        let is_plain = behind.starts_with(|c: char| c.is_ascii_digit() || c == 'm')
+            && behind
+                .chars()
+                .all(|c| c.is_ascii_digit() || c == 'p' || c == 'm');
+        let value = self.push(node)?;
+        (is_plain && self.names.insert(name, value).is_none()).then_some(())
+    }
+
+    fn operand(&mut self, word: &'t str) -> Option<usize> {
+        if let Some(word) = word.strip_prefix('-') {
+            let value = self.unsigned(word)?;
+            return self.push(Node::Neg(value));
+        }
+        self.unsigned(word)
+    }
+
+    /// A name, a literal, or an entry of an argument; what a block reads beside its own
+    /// is its angle, always the same.
+    fn unsigned(&mut self, word: &'t str) -> Option<usize> {
+        if let Some(&value) = self.names.get(word) {
+            return Some(value);
+        }
+        if word.starts_with(|c: char| c.is_ascii_digit()) {
+            let (value, printed) = match self.kind.scalar {
+                "f32" => {
+                    let value = word.parse::<f32>().ok()?;
+                    (f64::from(value), format!("{value:?}"))
+                }
+                _ => {
+                    let value = word.parse::<f64>().ok()?;
+                    (value, format!("{value:?}"))
+                }
+            };
+            (value.is_finite() && printed == word).then_some(())?;
+            return self.push(Node::Constant(value));
+        }
+        if self.is_inside {
+            return (*self.angle.get_or_insert(word) == word).then_some(0);
+        }
+        let (argument, index) = word.strip_suffix(']')?.split_once('[')?;
+        let (argument, joint) = (*self.arguments.get(argument)?, index.parse::<usize>().ok()?);
+        let is_entry = joint < self.kind.joints && index == joint.to_string();
+        self.push(Node::Input(argument, joint)).filter(|_| is_entry)
+    }
+
+    /// A part of a long function: it hands on values by their names, and the others are
+    /// no more.
+    fn long(&mut self, names: &'t str) -> Option<()> {
+        if self.is_inside || std::mem::replace(&mut self.is_part, true) {
+            return None;
+        }
+        let before: HashSet<&str> = self.names.keys().copied().collect();
+        (self.statements()? == names && self.next()? == "};").then_some(())?;
+        let handed: HashSet<&str> = names
+            .strip_prefix('(')?
+            .strip_suffix(",)")?
+            .split(", ")
+            .collect();
+        let is_new = |name: &&str| self.names.contains_key(name) && !before.contains(name);
+        handed.iter().all(is_new).then_some(())?;
+        self.names
+            .retain(|name, _| before.contains(name) || handed.contains(name));
+        self.is_part = false;
+        Some(())
+    }
+
+    /// A block: arithmetic on one angle, with names of its own.
+    fn block(&mut self, names: &'t str) -> Option<()> {
+        let outside = std::mem::take(&mut self.names);
+        let nodes = std::mem::replace(&mut self.program.nodes, vec![Node::Constant(0.0)]);
+        self.is_inside = true;
+        let line = self.statements()?;
+        let results = pair(line).map_or(vec![line], Vec::from);
+        let values = results.into_iter().map(|word| self.operand(word));
+        let values = values.collect::<Option<Vec<usize>>>()?;
+        self.program
+            .blocks
+            .push(std::mem::replace(&mut self.program.nodes, nodes));
+        (self.names, self.is_inside) = (outside, false);
+        let word = self.angle.take()?;
+        let angle = self.operand(word)?;
+        let names = pair(names).map_or(vec![names], Vec::from);
+        (names.len() == values.len() && self.next()? == "};").then_some(())?;
+        for (name, value) in names.into_iter().zip(values) {
+            let source = Source::Block(self.program.blocks.len() - 1, value);
+            self.name(name, Node::Sine(angle, name.starts_with('s'), source))?;
+        }
+        Some(())
+    }
+}
+
+/// Both parts of `(one, other)`.
+fn pair(text: &str) -> Option<[&str; 2]> {
+    let (one, other) = text
+        .strip_prefix('(')?
+        .strip_suffix(')')?
+        .split_once(", ")?;
+    Some([one, other])
+}

@@ -1,0 +1,260 @@
+//! What a text computes, as polynomials: exactly as real numbers, and at most how far
+//! the floating-point values are from that.
+
+use crate::certificate::Claim;
+use crate::dynamics::State;
+use crate::fault::Fault;
+use crate::interval::Interval;
+use crate::polynomial::{MAX_JOINTS, Polynomial, Variable, Work};
+use crate::program::{Node, Program, Source};
+use crate::ring::Ring;
+use crate::scene::Setting;
+use crate::sines::{self, Scalar};
+
+/// For sums of positive doubles that are rounded themselves.
+const SLACK: f64 = 1.000_001;
+
+/// A value of the text.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// The real number that it stands for, with the error of sines by polynomials as
+    /// variables.
+    pub exact: Polynomial,
+    /// The largest magnitude of that.
+    pub size: f64,
+    /// How far the computed number is from it at most.
+    pub error: f64,
+}
+
+/// What a node stands for: a number, or an angle that only sines may read.
+enum Meaning {
+    /// Joints that turn, and whether their angles are subtracted.
+    Angle(Vec<(usize, bool)>),
+    Number(Value),
+}
+
+struct Values<'a> {
+    ring: &'a Ring,
+    setting: &'a Setting,
+    claim: &'a Claim,
+    program: &'a Program,
+    scalar: Scalar,
+    /// How many of q, q̇ and q̈ are arguments.
+    arguments: usize,
+    /// How many errors of sines have a variable of their own.
+    errors: usize,
+}
+
+/// The outputs of a text over a box.
+///
+/// # Errors
+/// A text that reads what it may not, or polynomials that are too long.
+pub fn outputs(
+    program: &Program,
+    setting: &Setting,
+    claim: &Claim,
+    ring: &Ring,
+    work: &mut Work,
+) -> Result<Vec<Value>, Fault> {
+    let scalar = Scalar::of(&claim.scalar);
+    let mut values = Values {
+        ring,
+        setting,
+        claim,
+        program,
+        scalar,
+        arguments: claim.function()?.arguments(),
+        errors: 0,
+    };
+    let mut all = Vec::with_capacity(program.nodes.len());
+    for &node in &program.nodes {
+        let meaning = values.meaning(node, &all, work)?;
+        all.push(meaning);
+    }
+    let output = |&node: &usize| number(&all, node).cloned();
+    program.outputs.iter().map(output).collect()
+}
+
+fn number(all: &[Meaning], node: usize) -> Result<&Value, Fault> {
+    match all.get(node) {
+        Some(Meaning::Number(value)) => Ok(value),
+        _ => Err(Fault::certificate(
+            "the text uses the angle of a joint as a number",
+        )),
+    }
+}
+
+impl Values<'_> {
+    fn meaning(&mut self, node: Node, all: &[Meaning], work: &mut Work) -> Result<Meaning, Fault> {
+        let angle = |node: usize| match &all[node] {
+            Meaning::Angle(joints) => Some(joints),
+            Meaning::Number(_) => None,
+        };
+        let value = match node {
+            Node::Constant(value) => exact(Polynomial::constant(value, 0.0), value.abs()),
+            Node::Input(argument, joint) => match self.input(argument, joint)? {
+                None => return Ok(Meaning::Angle(vec![(joint, false)])),
+                Some(value) => exact(value.clone(), self.ring.size(value)),
+            },
+            Node::Neg(a) => {
+                if let Some(joints) = angle(a) {
+                    return Ok(Meaning::Angle(
+                        joints.iter().map(|&(j, n)| (j, !n)).collect(),
+                    ));
+                }
+                let a = number(all, a)?;
+                Value {
+                    exact: a.exact.negated(),
+                    ..*a
+                }
+            }
+            Node::Add(a, b) | Node::Sub(a, b) => {
+                let minus = matches!(node, Node::Sub(..));
+                if let (Some(a), Some(b)) = (angle(a), angle(b)) {
+                    let behind = b
+                        .iter()
+                        .map(|&(joint, negative)| (joint, negative != minus));
+                    let sum: Vec<(usize, bool)> = a.iter().copied().chain(behind).collect();
+                    if sum.len() > MAX_JOINTS {
+                        return Err(Fault::certificate("an angle is the sum of too many"));
+                    }
+                    return Ok(Meaning::Angle(sum));
+                }
+                let (a, b) = (number(all, a)?, number(all, b)?);
+                let negated = minus.then(|| b.exact.negated());
+                let sum = a.exact.plus(negated.as_ref().unwrap_or(&b.exact));
+                let size = self.ring.size(&sum).min((a.size + b.size) * SLACK);
+                let error = self.scalar.rounded(size, a.error + b.error);
+                Value {
+                    exact: sum,
+                    size,
+                    error,
+                }
+            }
+            Node::Mul(a, b) => {
+                let (a, b) = (number(all, a)?, number(all, b)?);
+                let product = a.exact.times(&b.exact, work)?;
+                let size = self.ring.size(&product).min(a.size * b.size * SLACK);
+                let inherited = a.error * b.size + b.error * a.size + a.error * b.error;
+                let error = self.scalar.rounded(size, inherited * SLACK);
+                Value {
+                    exact: product,
+                    size,
+                    error,
+                }
+            }
+            Node::Fused(a, b, c) => {
+                let [a, b, c] = [number(all, a)?, number(all, b)?, number(all, c)?];
+                let sum = a.exact.times(&b.exact, work)?.plus(&c.exact);
+                let size = (a.size * b.size + c.size) * SLACK;
+                let size = self.ring.size(&sum).min(size);
+                let inherited = a.error * b.size + b.error * a.size + a.error * b.error;
+                let error = self.scalar.rounded(size, (inherited + c.error) * SLACK);
+                Value {
+                    exact: sum,
+                    size,
+                    error,
+                }
+            }
+            Node::Sine(a, is_sine, source) => {
+                let Some(joints) = angle(a) else {
+                    return Err(Fault::certificate("a sine of something that is no angle"));
+                };
+                self.sine(joints, is_sine, source, work)?
+            }
+        };
+        Ok(Meaning::Number(value))
+    }
+
+    /// An entry of an argument; `None` of an angle.
+    fn input(&self, argument: usize, joint: usize) -> Result<Option<&Polynomial>, Fault> {
+        let State {
+            position,
+            velocity,
+            acceleration,
+            ..
+        } = &self.ring.states[joint];
+        let is_still = argument > 0 && self.setting.still[argument - 1];
+        let is_read = argument < self.arguments && !is_still;
+        if !is_read || self.setting.locks[joint].is_some() {
+            let why = match is_read {
+                true => format!(
+                    "the text reads the state of joint {}, which is locked",
+                    joint + 1
+                ),
+                false => "the text reads rates that the function, or the scene, has not".into(),
+            };
+            return Err(Fault::certificate(why));
+        }
+        let is_angle = argument == 0 && self.setting.joints[joint].turns;
+        Ok([position, velocity, acceleration]
+            .get(argument)
+            .copied()
+            .filter(|_| !is_angle))
+    }
+
+    /// A sine or cosine of a sum of angles, with what it is off.
+    fn sine(
+        &mut self,
+        joints: &[(usize, bool)],
+        is_sine: bool,
+        source: Source,
+        work: &mut Work,
+    ) -> Result<Value, Fault> {
+        let (mut sin, mut cos) = (Polynomial::default(), Polynomial::constant(1.0, 0.0));
+        let mut range = Interval::point(0.0);
+        for &(joint, negative) in joints {
+            let State {
+                sin: own,
+                cos: own_cos,
+                ..
+            } = &self.ring.states[joint];
+            let [low, high] = self.claim.position[joint];
+            let own_range = Interval::new(low, high);
+            range = range + if negative { -own_range } else { own_range };
+            let own = if negative { own.negated() } else { own.clone() };
+            let turned = sin.times(own_cos, work)?.plus(&cos.times(&own, work)?);
+            cos = cos
+                .times(own_cos, work)?
+                .plus(&sin.times(&own, work)?.negated());
+            sin = turned;
+        }
+        // Each sum of angles is rounded, and a sine changes by no more than its angle.
+        let sums = (joints.len() - 1) as f64;
+        let rounded = 2.0 * sums * sums * self.scalar.unit * range.magnitude();
+        let mut exact = if is_sine { sin } else { cos };
+        let (error, mut size) = match source {
+            // An ulp of a number up to one is at most two units.
+            Source::Library => (2.0 * self.scalar.unit + rounded, 1.0),
+            Source::Block(block, result) => {
+                let (low, high) = (range.low - 2.0 * rounded, range.high + 2.0 * rounded);
+                let wider = Interval::new(low, high);
+                let block = &self.program.blocks[block];
+                let most = sines::error(block, result, is_sine, wider, self.scalar) + rounded;
+                let (index, joint) = (self.errors % 2, self.errors / 2);
+                if joint < MAX_JOINTS {
+                    self.errors += 1;
+                    let variable = [Variable::EvenError, Variable::OddError][index];
+                    exact = exact.plus(&Polynomial::variable(variable, joint, most));
+                } else {
+                    exact.rest += most;
+                }
+                (0.0, 1.0 + most)
+            }
+        };
+        size *= SLACK;
+        Ok(Value {
+            exact,
+            size,
+            error: error * SLACK,
+        })
+    }
+}
+
+fn exact(exact: Polynomial, size: f64) -> Value {
+    Value {
+        exact,
+        size: size * SLACK,
+        error: 0.0,
+    }
+}

@@ -1,0 +1,307 @@
+//! The audit of one claim, and what it found.
+
+use std::fmt;
+
+use crate::certificate::Claim;
+use crate::fault::Fault;
+use crate::maximum;
+use crate::polynomial::Work;
+use crate::quantity::Quantity;
+use crate::ring::Ring;
+use crate::sample::{self, Seen};
+use crate::scene::{self, Setting};
+use crate::text;
+use crate::values;
+use crate::witness;
+
+/// At how many states the text is run.
+const STATES: usize = 1000;
+/// By how much a box may be smaller than the file's: decimals were rounded to doubles.
+const BOX_SLACK: f64 = 1e-9;
+/// By how much T may be above the largest value that was found. What is tolerated is
+/// relative to what was found.
+const SCALE_SLACK: f64 = 1e-4;
+
+/// What was found of one output; all in its own unit.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Its joints, from zero: of an entry of D its row and its column.
+    pub joints: Vec<usize>,
+    /// T
+    pub scale: f64,
+    /// Bound of what the text differs from the function in real numbers.
+    pub edits: f64,
+    /// Bound of what rounding and library sines cost.
+    pub rounding: f64,
+    /// The claim, E·T.
+    pub claimed: f64,
+    /// The user's tolerance times T, if the scene has one.
+    pub tolerated: Option<f64>,
+    /// The largest difference at the states that were run.
+    pub seen: f64,
+}
+
+impl Output {
+    /// The own bound.
+    pub fn bound(&self) -> f64 {
+        let sum = self.edits + self.rounding;
+        if sum == 0.0 { 0.0 } else { sum.next_up() }
+    }
+
+    /// Whether E is shown, but for one part in 10⁹ of it.
+    pub fn holds(&self) -> bool {
+        self.bound() <= self.claimed * (1.0 + 1e-9)
+    }
+
+    /// Whether the user's tolerance is shown; of a scene without one, whether E is.
+    pub fn is_shown(&self) -> bool {
+        let is_none = self.claimed == 0.0 && !self.holds();
+        !is_none
+            && self
+                .tolerated
+                .map_or(self.holds(), |tolerated| self.bound() <= tolerated)
+    }
+}
+
+/// What was found of a claim.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// The name of the function.
+    pub name: String,
+    /// `f64` or `f32`
+    pub scalar: String,
+    /// One an output.
+    pub outputs: Vec<Output>,
+}
+
+impl Verdict {
+    /// Whether every output is shown to be within the user's tolerance, and of a scene
+    /// that has none within its E.
+    pub fn is_shown(&self) -> bool {
+        self.outputs.iter().all(Output::is_shown)
+    }
+}
+
+/// Audits one claim about a robot of which the file is given. Nothing but the claim's
+/// text, box, T and E is taken from it.
+///
+/// # Errors
+/// A file or text that this checker does not know, a claim that is not about this robot
+/// or is contradicted, or more work than it does.
+pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
+    let setting = scene::read(robot, claim.scene.as_deref())?;
+    claim.whole()?;
+    about(claim, &setting)?;
+    let claimed = |index: usize| claim.total[index].unwrap_or(f64::NAN) * claim.scale[index];
+    let found = measure(claim, &setting, claimed)?;
+    let places = claim.function()?.places(claim.rows.len());
+    let most = attainable(claim, &setting, &places)?;
+    let mut outputs = Vec::new();
+    for (index, (found, (_, place))) in found.into_iter().zip(&places).enumerate() {
+        let joints: Vec<usize> = place.iter().map(|&place| claim.rows[place] - 1).collect();
+        let scale = claim.scale[index];
+        let tolerance = setting.tolerance.as_ref().map(|all| {
+            let each = joints.iter().map(|&joint| all[joint]);
+            each.fold(f64::INFINITY, f64::min)
+        });
+        let tolerated = tolerance.map(|tolerance| below(tolerance * scale.min(most[index])));
+        outputs.push(Output {
+            joints,
+            scale,
+            edits: found.edits,
+            rounding: found.rounding,
+            claimed: below(claimed(index)),
+            tolerated,
+            seen: found.seen.off,
+        });
+    }
+    Ok(Verdict {
+        name: claim.function.clone(),
+        scalar: claim.scalar.clone(),
+        outputs,
+    })
+}
+
+/// What was found of one output, in its own unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// Bound of what the text differs from the function in real numbers.
+    pub edits: f64,
+    /// Bound of what rounding and library sines cost.
+    pub rounding: f64,
+    /// What was seen at states.
+    pub seen: Seen,
+}
+
+impl Found {
+    /// The bound of both.
+    pub fn bound(&self) -> f64 {
+        let sum = self.edits + self.rounding;
+        if sum == 0.0 { 0.0 } else { sum.next_up() }
+    }
+}
+
+/// Bounds how far a text is from the function over the box of a claim, one an output; no
+/// smaller bound is looked for than what is wanted of an output.
+///
+/// # Errors
+/// A text that is not of the grammar or is contradicted by a state, or too much work.
+pub fn measure(
+    claim: &Claim,
+    setting: &Setting,
+    wanted: impl Fn(usize) -> f64,
+) -> Result<Vec<Found>, Fault> {
+    let kind = text::Kind {
+        function: claim.function()?,
+        scalar: &claim.scalar,
+        joints: setting.joints.len(),
+        rows: claim.rows.len(),
+    };
+    let program = text::read(&claim.text, kind)?;
+    let work = &mut Work::default();
+    let ring = Ring::new(setting, claim, work)?;
+    let texts = values::outputs(&program, setting, claim, &ring, work)?;
+    let rows = claim.rows();
+    let formulas = kind.function.outputs(setting, &ring.states, &rows, work)?;
+    let seen = sample::worst(claim, setting, &program, STATES)?;
+    let mut all = Vec::new();
+    for (index, (value, formula)) in texts.iter().zip(&formulas).enumerate() {
+        let difference = value.exact.plus(&formula.negated());
+        let wanted = (wanted(index) - value.error).next_down().next_down();
+        let found = Found {
+            edits: maximum::bound(&difference, &ring, wanted),
+            rounding: value.error,
+            seen: seen[index],
+        };
+        if !(found.seen.off <= found.bound()) {
+            let (place, off) = (index + 1, found.seen.off);
+            let why = format!("output {place} is off by {off:.3e} at a state");
+            return Err(Fault::certificate(format!(
+                "{why}, more than the checker's own bound"
+            )));
+        }
+        all.push(found);
+    }
+    Ok(all)
+}
+
+/// Whether a claim is about this robot in its scene: the same rows, a box that has all
+/// states of the file's, a scale of the same kind.
+fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
+    if !setting
+        .rows
+        .iter()
+        .map(|row| row + 1)
+        .eq(claim.rows.iter().copied())
+    {
+        return Err(Fault::certificate("`rows` are not those of the scene"));
+    }
+    if setting.tolerance.is_some() && claim.relative_to != setting.relative_to {
+        return Err(Fault::certificate("`relative_to` is not that of the scene"));
+    }
+    let arguments = claim.function()?.arguments();
+    let [position, velocity, acceleration] = &setting.ranges;
+    let inside = |(own, claimed): (&[f64; 2], &[f64; 2])| {
+        let slack = BOX_SLACK * (own[0].abs() + own[1].abs());
+        // What the file does not limit is NaN, and in nothing.
+        claimed[0] - slack <= own[0] && own[1] <= claimed[1] + slack
+    };
+    let lists = [
+        (position, &claim.position),
+        (velocity, &claim.velocity),
+        (acceleration, &claim.acceleration),
+    ];
+    let has_all = |(own, claimed): &(&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
+        own.len() == claimed.len() && own.iter().zip(claimed.iter()).all(inside)
+    };
+    match lists.iter().take(arguments).all(has_all) {
+        true => Ok(()),
+        false => Err(Fault::certificate(
+            "the box lacks states of the scene, or of the joints' limits",
+        )),
+    }
+}
+
+/// A number that a rounded one is not below; zero is exact.
+fn below(value: f64) -> f64 {
+    if value > 0.0 {
+        value.next_down()
+    } else {
+        value
+    }
+}
+
+/// What T may be at most, one an output: the actuators' limits, or what the output
+/// reaches at a state of the box. Refuses a T that is above it: E would look smaller than
+/// it is.
+fn attainable(
+    claim: &Claim,
+    setting: &Setting,
+    places: &[(Quantity, Vec<usize>)],
+) -> Result<Vec<f64>, Fault> {
+    let row = |place: usize| claim.rows[place] - 1;
+    let rate = |which: usize, place: usize| setting.ranges[which][row(place)][1];
+    let torque = |place: usize| setting.torques[row(place)];
+    let actuator = |(quantity, place): &(Quantity, Vec<usize>)| match (quantity, place.as_slice()) {
+        (Quantity::Inertia, &[i, k]) => Ok((torque(i) / rate(2, k)).min(torque(k) / rate(2, i))),
+        (Quantity::Christoffel, &[i, k, m]) => Ok(torque(i) / (rate(1, k) * rate(1, m))),
+        (Quantity::Torque | Quantity::Gravity | Quantity::Coriolis, &[i]) => Ok(torque(i)),
+        _ => Err(Fault::certificate(
+            "`relative_to`: the actuators' limits are no measure of this function",
+        )),
+    };
+    let most: Vec<f64> = match claim.relative_to.as_deref() {
+        Some("actuator") => places.iter().map(actuator).collect::<Result<_, Fault>>()?,
+        Some("range") => witness::reached(claim, setting)?,
+        _ => {
+            return Err(Fault::certificate(
+                "`relative_to` is neither actuator nor range",
+            ));
+        }
+    };
+    for (scale, most) in claim.scale.iter().zip(&most) {
+        let is_reached = *scale >= 0.0 && *scale <= most * (1.0 + SCALE_SLACK);
+        if !(is_reached || *scale == 0.0) {
+            let why = format!("`scale` {scale:e} is above {most:e}, the largest that is reached");
+            return Err(Fault::certificate(why));
+        }
+    }
+    Ok(most)
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "`{}` in {}, errors relative to T",
+            self.name, self.scalar
+        )?;
+        writeln!(
+            f,
+            "  joint            T     edits  rounding     bound         E      seen"
+        )?;
+        for output in &self.outputs {
+            let label: Vec<String> = output.joints.iter().map(|j| (j + 1).to_string()).collect();
+            let label = label.join(", ");
+            let of = |x: f64| if x == 0.0 { 0.0 } else { x / output.scale };
+            let verdict = match (output.holds(), output.is_shown()) {
+                (true, true) => "holds",
+                (true, false) => "holds, but is above the tolerance",
+                (false, true) => "E not shown; within the tolerance",
+                (false, false) => "not shown",
+            };
+            writeln!(
+                f,
+                "  {:<6} {:>11.4e} {:>9.3e} {:>9.3e} {:>9.3e} {:>9.3e} {:>9.3e}  {verdict}",
+                label,
+                output.scale,
+                of(output.edits),
+                of(output.rounding),
+                of(output.bound()),
+                of(output.claimed),
+                of(output.seen),
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,89 @@
+//! The false claims that the project's own checker once accepted: none is shown here.
+
+use dalembert_checker::{Fault, audit};
+
+use crate::support::{claim, file};
+
+fn data(name: &str) -> String {
+    format!("cli/tests/data/attacks/{name}")
+}
+
+/// What the audit says of a false claim: a fault's words, or nothing if it is only not
+/// shown.
+fn refused(certificate: &str, robot: &str, scene: Option<&str>) -> String {
+    let mut claim = claim(&data(certificate));
+    claim.scene = scene.map(String::from).or(claim.scene);
+    match audit(&claim, &file(&data(robot))) {
+        Ok(verdict) => {
+            assert!(!verdict.is_shown(), "{certificate}: {verdict}");
+            String::new()
+        }
+        Err(fault) => fault.to_string(),
+    }
+}
+
+#[test]
+fn programs_aimed_at_primes_and_points() {
+    for certificate in ["C.json", "C2.json"] {
+        assert_eq!(refused(certificate, "r2l.toml", None), "");
+    }
+    assert_eq!(refused("pt.certificate.json", "pt.toml", None), "");
+}
+
+#[test]
+fn another_function_than_the_claims() {
+    assert_eq!(refused("still_bad.json", "r2_conf.toml", None), "");
+}
+
+#[test]
+fn inputs_that_are_no_values() {
+    assert!(refused("locked_bad.json", "r2_conf.toml", None).contains("joint 2, which is locked"));
+    assert!(
+        refused("pend_bad.json", "pend.toml", None).contains("the angle of a joint as a number")
+    );
+}
+
+#[test]
+fn texts_that_are_not_of_the_grammar() {
+    let lines = [
+        "crate::evil::sincos(q[0])",
+        "0.0 * libm::cos(q[1])",
+        "#[inline(never)]",
+    ];
+    for (certificate, line) in ["t1.json", "t5.json", "t6.json"].into_iter().zip(lines) {
+        let words = refused(certificate, "r2l.toml", None);
+        assert!(
+            words.starts_with("text, line") && words.contains(line),
+            "{certificate}: {words}"
+        );
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_not_the_scenes() {
+    assert_eq!(
+        refused("scara_a4_too_loose.json", "scara.toml", Some("a4")),
+        ""
+    );
+}
+
+/// Robots of attacks on other parts: they are read as they stand, or refused by key.
+#[test]
+fn robots_of_attacks() {
+    let mut claim = claim("checker/tests/data/planar2r-pick.json");
+    claim.scene = None;
+    // It has no limits of velocity, so that no box has all its states.
+    let fault = audit(&claim, &file(&data("pe.toml"))).unwrap_err();
+    assert!(fault.to_string().contains("the box lacks"), "{fault}");
+    let fault = audit(&claim, &file(&data("h.toml"))).unwrap_err();
+    assert!(
+        matches!(fault, Fault::Robot(ref key, _) if key == "alpha"),
+        "{fault}"
+    );
+    claim.scene = Some("d".into());
+    let fault = audit(&claim, &file(&data("indefinite.toml"))).unwrap_err();
+    assert!(
+        fault.to_string().contains("relative_to") || fault.to_string().contains("box"),
+        "{fault}"
+    );
+}

@@ -1,0 +1,122 @@
+//! Intervals and polynomials against exact numbers.
+
+use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
+use dalembert_checker::polynomial::{Polynomial, Variable, Work};
+use num_rational::BigRational;
+
+fn exact(value: f64) -> BigRational {
+    BigRational::from_float(value).unwrap()
+}
+
+/// Numbers of many sizes, the same on every machine.
+fn numbers(count: usize) -> Vec<f64> {
+    let mut state = 7u64;
+    let mut next = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        state >> 11
+    };
+    let number = |_| {
+        let size = [1e-9, 1e-3, 1.0, 1e3, 1e9][(next() % 5) as usize];
+        (next() as f64 / (1u64 << 53) as f64 - 0.5) * size
+    };
+    (0..count).map(number).collect()
+}
+
+fn has(interval: Interval, value: &BigRational) -> bool {
+    exact(interval.low) <= *value && *value <= exact(interval.high)
+}
+
+#[test]
+fn operations_of_intervals_have_the_exact_results() {
+    let all = numbers(400);
+    for four in all.windows(4) {
+        let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
+        let (x, y) = (
+            Interval::new(a.min(b), a.max(b)),
+            Interval::new(c.min(d), c.max(d)),
+        );
+        for p in [a, b] {
+            for q in [c, d] {
+                assert!(has(x + y, &(exact(p) + exact(q))));
+                assert!(has(x - y, &(exact(p) - exact(q))));
+                assert!(has(x * y, &(exact(p) * exact(q))));
+            }
+        }
+        let off = exact(a) - exact(d);
+        assert!(has(
+            Interval::around(d, (a - d).abs().next_up()),
+            &(exact(d) + off)
+        ));
+    }
+}
+
+#[test]
+fn what_is_no_interval_is_everything() {
+    for all in [Interval::new(1.0, 0.0), Interval::new(f64::NAN, 0.0)] {
+        assert_eq!(all.magnitude(), f64::INFINITY);
+        assert_eq!((all * Interval::point(0.0)).magnitude(), f64::INFINITY);
+    }
+}
+
+#[test]
+fn sines_are_within_their_error() {
+    for x in numbers(4000).into_iter().map(|x| x % 1000.0) {
+        let (sin, cos) = sin_cos(x);
+        // libm is within an ulp.
+        assert!((sin - x.sin()).abs() < SINE_ERROR, "{x}");
+        assert!((cos - x.cos()).abs() < SINE_ERROR, "{x}");
+    }
+}
+
+/// At exact numbers for the variables, a product is the exact one but for its rest.
+#[test]
+fn products_of_polynomials_are_within_their_rest() {
+    let all = numbers(240);
+    for six in all.chunks(6) {
+        let cos = Polynomial::variable(Variable::Cos, 0, six[0]);
+        let rate = Polynomial::variable(Variable::Velocity, 1, six[1]);
+        let one = cos.plus(&Polynomial::constant(six[2], 0.0)).plus(&rate);
+        let other = rate.plus(&Polynomial::variable(Variable::Cos, 0, six[3]));
+        let product = one.times(&other, &mut Work::default()).unwrap();
+        let (c, v) = (exact(six[4] % 1.0), exact(six[5] % 1.0));
+        let at = |p: &Polynomial| {
+            let term = |&(key, coefficient): &(u128, f64)| {
+                let power =
+                    |variable, joint| dalembert_checker::polynomial::exponent(key, variable, joint);
+                let c = num_traits::pow(c.clone(), power(Variable::Cos, 0) as usize);
+                let v = num_traits::pow(v.clone(), power(Variable::Velocity, 1) as usize);
+                exact(coefficient) * c * v
+            };
+            p.terms.iter().map(term).fold(exact(0.0), |a, b| a + b)
+        };
+        let off = at(&product) - at(&one) * at(&other);
+        let rest = exact(product.rest);
+        assert!(-rest.clone() <= off && off <= rest, "{six:?}");
+    }
+}
+
+#[test]
+fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
+    let [sin, cos] = [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, 3, 1.0));
+    let work = &mut Work::default();
+    let sum = sin
+        .times(&sin, work)
+        .unwrap()
+        .plus(&cos.times(&cos, work).unwrap());
+    assert_eq!(sum, Polynomial::constant(1.0, 0.0));
+}
+
+#[test]
+fn powers_that_there_is_no_room_for_are_refused() {
+    let rate = Polynomial::variable(Variable::Acceleration, 8, 1.0);
+    assert!(rate.times(&rate, &mut Work::default()).is_err());
+    let mut power = Polynomial::variable(Variable::Cos, 8, 1.0);
+    let cos = power.clone();
+    let mut steps = 1;
+    while let Ok(next) = power.times(&cos, &mut Work::default()) {
+        (power, steps) = (next, steps + 1);
+    }
+    assert_eq!(steps, 7);
+}

@@ -1,0 +1,36 @@
+//! How many lines there are to be read.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use crate::support::file;
+
+/// The most lines of all of it.
+const MOST: usize = 4500;
+
+/// The README names every file with its lines, rounded up to ten.
+#[test]
+fn trusted_lines_are_named_and_counted() {
+    let mut counted = BTreeMap::new();
+    let folder = format!("{}/src", env!("CARGO_MANIFEST_DIR"));
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        counted.insert(name, fs::read_to_string(&path).unwrap().lines().count());
+    }
+    let readme = file("checker/README.md");
+    let named: BTreeMap<String, usize> = readme
+        .lines()
+        .filter_map(|line| {
+            let mut cells = line.strip_prefix("| `")?.split(" | ");
+            let name = cells.next()?.strip_suffix('`')?;
+            Some((name.to_owned(), cells.next()?.parse().ok()?))
+        })
+        .collect();
+    let rounded = counted
+        .iter()
+        .map(|(name, lines)| (name.clone(), lines.next_multiple_of(10)));
+    assert_eq!(named, rounded.collect());
+    let all: usize = counted.values().sum();
+    assert!(all <= MOST, "{all}");
+}

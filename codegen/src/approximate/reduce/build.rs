@@ -1,0 +1,114 @@
+//! The program of a model.
+
+use dalembert_model::equations::chain::{Body, Chain, Form, Regrouping};
+use dalembert_model::equations::matrix::scaled;
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Exact, Rational};
+use dalembert_model::robot::Inertia;
+use dalembert_model::scalar::Scalar;
+
+use super::path::Model;
+use super::terms::{Terms, nothing};
+use crate::edits::traced;
+use crate::graph::builder::Value;
+use crate::graph::{Builder as GraphBuilder, Folding, Graph};
+use crate::portfolio::{self, Sums, angle_sums, regrouped, skeleton, trace_chain, tuned};
+use crate::program::Program;
+use crate::scene::{FittedLink, SceneRobot};
+use crate::simplify::{self, Effort, simplify};
+
+/// A writer of programs for the models of one function.
+pub(super) struct Builder<'a> {
+    pub scene_robot: &'a SceneRobot,
+    pub exact: &'a Program,
+    pub terms: &'a Terms,
+}
+
+impl Builder<'_> {
+    /// Estimates what a model costs: its formulas traced, no factor being special.
+    pub(super) fn price(&self, terms: &[usize]) -> u64 {
+        let factors: Vec<f64> = (0..terms.len()).map(|k| 1.37 + 0.1709 * k as f64).collect();
+        let fitted = self.fitted(terms, &factors);
+        let Some(&form) = self.forms().first() else {
+            return u64::MAX;
+        };
+        let skeleton = skeleton(&fitted);
+        let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+        let graph = trace_chain(
+            &fitted,
+            self.exact.function,
+            &chain,
+            form,
+            Folding::Semantic,
+        );
+        simplify::cost(&graph.0)
+    }
+
+    /// Searches for the program of a model; outputs that it has not are zero.
+    pub(super) fn program(&self, model: &Model) -> Option<Program> {
+        let fitted = self.fitted(&model.terms, &model.factors);
+        let (function, effort) = (self.exact.function, Effort::Quick);
+        let forms = self.forms();
+        let tuned = tuned(&fitted, function, &forms, effort, None, &[], None);
+        let variants = regrouped(&fitted, function, &forms, &tuned.regrouping);
+        let graphs: Vec<Graph> = variants.into_iter().map(|variant| variant.graph).collect();
+        let helpers = [angle_sums(&fitted, Sums::Products)];
+        let found = simplify(&graphs, &helpers, effort, &|_| true)?;
+        let small = Program::in_scene(&fitted, function, &found.graph);
+        let mut builder = GraphBuilder::new(Folding::Semantic);
+        let values = traced(&small, &mut builder);
+        let mut outputs = vec![Value::zero(); self.exact.outputs.len()];
+        for (&output, value) in self.terms.outputs.iter().zip(values) {
+            outputs[output] = value;
+        }
+        Some(self.exact.with_graph(&builder.finish(&outputs)))
+    }
+
+    fn forms(&self) -> Vec<Form> {
+        self.exact.function.forms()
+    }
+
+    /// Returns the chain with these terms, and the rows that are not zero.
+    fn fitted(&self, terms: &[usize], factors: &[f64]) -> SceneRobot {
+        let mut links = nothing(&portfolio::skeleton(self.scene_robot));
+        for (&term, &factor) in terms.iter().zip(factors) {
+            let term = &self.terms.all[term];
+            add(&mut links[term.link], &term.unit, &short(factor));
+        }
+        let rows = self.terms.outputs.iter();
+        let rows: Vec<usize> = rows.map(|&output| self.exact.rows[output]).collect();
+        self.scene_robot.fitted(links, &rows)
+    }
+}
+
+fn add(link: &mut FittedLink, unit: &FittedLink, factor: &Exact) {
+    let Inertia {
+        xx,
+        yy,
+        zz,
+        xy,
+        yz,
+        xz,
+    } = unit.body.second.map(|x| x.mul(factor));
+    let body = Body {
+        mass: unit.body.mass.mul(factor),
+        first: scaled(factor, &unit.body.first),
+        second: Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        },
+    };
+    link.body = link.body.with(&body);
+    link.armature = link.armature.add(&unit.armature.mul(factor));
+    link.viscous = link.viscous.add(&unit.viscous.mul(factor));
+}
+
+/// Rounds to five digits: literals that can be read.
+fn short(x: f64) -> Exact {
+    let digits: Rational = parse_decimal(&format!("{x:.4e}")).unwrap_or_default();
+    Exact::from(digits)
+}

@@ -1,0 +1,280 @@
+//! Terms fitted to the function: least squares, and the least largest error.
+//!
+//! The error at a position is what a certificate counts: every monomial in the rates at
+//! its worst. Lawson's iteration finds the least largest one: least squares again and
+//! again, each block of rows weighed by the error that it had; inside a block, whose
+//! error is a sum of magnitudes, each row by the inverse of its own.
+
+use super::terms::Terms;
+
+/// Iterations, if they are needed.
+const ROUGH: usize = 12;
+const FINE: usize = 24;
+
+/// What is added to each square, relative: terms that others can replace then have none.
+const RIDGE: f64 = 1e-11;
+
+/// Errors of a row below this part of its block's largest weigh no more.
+const FLOOR: f64 = 0.02;
+
+/// The products of all terms, block by block: what least squares need.
+pub(super) struct Fit<'t> {
+    terms: &'t Terms,
+    /// Rows a block.
+    block: usize,
+    /// Of each block: products of the terms with each other and with the function.
+    products: Vec<Vec<f64>>,
+    /// How large each column is.
+    sizes: Vec<f64>,
+}
+
+/// A solution.
+#[derive(Clone, Debug)]
+pub(super) struct Solution {
+    /// A factor a term, in the order asked for.
+    pub factors: Vec<f64>,
+    /// The largest error, one being the allowance.
+    pub error: f64,
+    /// How much worse the squares become without each term.
+    pub saliency: Vec<f64>,
+    /// (JᵀWJ)⁻¹, row after row.
+    pub inverse: Vec<f64>,
+}
+
+impl<'t> Fit<'t> {
+    pub(super) fn new(terms: &'t Terms) -> Fit<'t> {
+        let (block, count) = (terms.motions.len(), terms.all.len());
+        let columns: Vec<&[f64]> = terms
+            .all
+            .iter()
+            .map(|term| &term.column[..])
+            .chain([&terms.whole[..]])
+            .collect();
+        let blocks = terms.whole.len() / block;
+        let products = |index: usize| {
+            let part = |column: usize| &columns[column][index * block..][..block];
+            let mut products = Vec::with_capacity((count + 1) * (count + 2) / 2);
+            for a in 0..=count {
+                for b in 0..=a {
+                    products.push(dot(part(a), part(b)));
+                }
+            }
+            products
+        };
+        let products: Vec<Vec<f64>> = (0..blocks).map(products).collect();
+        let size = |term: usize| {
+            let place = at(term, term);
+            let sum: f64 = products.iter().map(|products| products[place]).sum();
+            sum.sqrt()
+        };
+        Fit {
+            terms,
+            block,
+            sizes: (0..count).map(size).collect(),
+            products,
+        }
+    }
+
+    /// Returns whether a term does anything at all.
+    pub(super) fn is_something(&self, term: usize) -> bool {
+        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        self.sizes[term] > 1e-9 * largest
+    }
+
+    /// Fits terms so that the largest error is small; ends as soon as it is at most
+    /// `enough`.
+    pub(super) fn solve(&self, of: &[usize], enough: f64) -> Solution {
+        let blocks = self.products.len();
+        let mut weights = vec![1.0 / blocks as f64; blocks];
+        let mut best: Option<Solution> = None;
+        for _ in 0..ROUGH {
+            let solution = self.weighed(of, &weights);
+            let errors = self.errors(of, &solution.factors);
+            let error = errors.iter().copied().fold(0.0, f64::max);
+            if best.as_ref().is_none_or(|best| error < best.error) {
+                best = Some(Solution { error, ..solution });
+            }
+            if error <= enough || error == 0.0 {
+                break;
+            }
+            for (weight, own) in weights.iter_mut().zip(&errors) {
+                *weight *= 0.02 + own / error;
+            }
+            let sum: f64 = weights.iter().sum();
+            weights.iter_mut().for_each(|weight| *weight /= sum);
+        }
+        best.unwrap_or_else(|| self.weighed(of, &weights))
+    }
+
+    /// Fits more closely than [`Fit::solve`], row by row, from its solution.
+    pub(super) fn refine(&self, of: &[usize], from: Solution, enough: f64) -> Solution {
+        let mut weights = vec![1.0; self.products.len()];
+        let mut best = from;
+        let mut now = best.factors.clone();
+        for _ in 0..FINE {
+            if best.error <= enough {
+                break;
+            }
+            let residual = self.residual(of, &now);
+            let errors = self.of_blocks(&residual);
+            let error = errors.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+            for (weight, own) in weights.iter_mut().zip(&errors) {
+                *weight *= 0.02 + own / error;
+            }
+            let most = weights.iter().copied().fold(0.0, f64::max);
+            weights.iter_mut().for_each(|weight| *weight /= most);
+            let rows = residual.chunks_exact(self.block).zip(&weights).zip(&errors);
+            let rows = rows.flat_map(|((rows, weight), own)| {
+                let largest = rows.iter().fold(0.0, |m, x: &f64| x.abs().max(m));
+                let floor = (FLOOR * largest).max(1e-12);
+                rows.iter()
+                    .map(move |x| weight * own.max(1e-12) / x.abs().max(floor))
+            });
+            let rows: Vec<f64> = rows.collect();
+            now = self.least_squares(of, &rows);
+            let error = self.errors(of, &now).into_iter().fold(0.0, f64::max);
+            if error < best.error {
+                best = Solution {
+                    factors: now.clone(),
+                    error,
+                    ..best
+                };
+            }
+        }
+        best
+    }
+
+    /// Returns what the terms leave of the function, relative to the allowances.
+    fn residual(&self, of: &[usize], factors: &[f64]) -> Vec<f64> {
+        let mut left = self.terms.whole.clone();
+        for (&term, factor) in of.iter().zip(factors) {
+            let column = &self.terms.all[term].column;
+            for (left, x) in left.iter_mut().zip(column) {
+                *left -= factor * x;
+            }
+        }
+        left
+    }
+
+    fn of_blocks(&self, residual: &[f64]) -> Vec<f64> {
+        let blocks = residual.chunks_exact(self.block);
+        blocks
+            .map(|block| self.terms.motions.largest(block))
+            .collect()
+    }
+
+    fn errors(&self, of: &[usize], factors: &[f64]) -> Vec<f64> {
+        self.of_blocks(&self.residual(of, factors))
+    }
+
+    /// Solves the least squares with a weight a row.
+    fn least_squares(&self, of: &[usize], rows: &[f64]) -> Vec<f64> {
+        let scaled: Vec<Vec<f64>> = of
+            .iter()
+            .map(|&term| {
+                let pairs = self.terms.all[term].column.iter().zip(rows);
+                pairs.map(|(x, weight)| x * weight).collect()
+            })
+            .collect();
+        let mut gram = Vec::new();
+        let mut right = Vec::new();
+        for (a, &term) in of.iter().enumerate() {
+            for scaled in &scaled[..=a] {
+                gram.push(dot(scaled, &self.terms.all[term].column));
+            }
+            right.push(dot(&scaled[a], &self.terms.whole));
+        }
+        let factor = cholesky(gram, of.len());
+        solved(&factor, right)
+    }
+
+    fn weighed(&self, of: &[usize], weights: &[f64]) -> Solution {
+        let (n, whole) = (of.len(), self.terms.all.len());
+        let mut gram = vec![0.0; n * (n + 1) / 2];
+        let mut right = vec![0.0; n];
+        for (products, &weight) in self.products.iter().zip(weights) {
+            let mut next = gram.iter_mut();
+            for (a, &row) in of.iter().enumerate() {
+                for &column in &of[..=a] {
+                    if let Some(sum) = next.next() {
+                        *sum += weight * products[at(row, column)];
+                    }
+                }
+                right[a] += weight * products[at(whole, row)];
+            }
+        }
+        let factor = cholesky(gram, n);
+        let factors = solved(&factor, right);
+        let mut inverse = Vec::with_capacity(n * n);
+        for k in 0..n {
+            let mut unit = vec![0.0; n];
+            unit[k] = 1.0;
+            inverse.extend(solved(&factor, unit));
+        }
+        let saliency = factors.iter().enumerate();
+        let saliency = saliency.map(|(k, x)| x * x / inverse[k * n + k]).collect();
+        Solution {
+            factors,
+            error: f64::INFINITY,
+            saliency,
+            inverse,
+        }
+    }
+}
+
+/// Returns the place of a pair in a triangle.
+fn at(a: usize, b: usize) -> usize {
+    let (a, b) = (a.max(b), a.min(b));
+    a * (a + 1) / 2 + b
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    // In eight sums: a fixed order, and no chain of additions.
+    let mut sums = [0.0; 8];
+    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
+    let rest: f64 = a_chunks
+        .remainder()
+        .iter()
+        .zip(b_chunks.remainder())
+        .map(|(a, b)| a * b)
+        .sum();
+    for (a, b) in a_chunks.zip(b_chunks) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Factors a symmetric matrix, given by its lower triangle, row by row, into L Lᵀ.
+fn cholesky(mut l: Vec<f64>, n: usize) -> Vec<f64> {
+    for a in 0..n {
+        for b in 0..=a {
+            let (x, y) = (at(a, 0), at(b, 0));
+            let known: f64 = (0..b).map(|k| l[x + k] * l[y + k]).sum();
+            let own = l[x + b];
+            l[x + b] = if a == b {
+                let ridge = RIDGE * own + f64::MIN_POSITIVE;
+                (own - known).max(ridge).sqrt()
+            } else {
+                (own - known) / l[y + b]
+            };
+        }
+    }
+    l
+}
+
+/// Solves L Lᵀ x = b.
+fn solved(l: &[f64], mut x: Vec<f64>) -> Vec<f64> {
+    let n = x.len();
+    for a in 0..n {
+        let row = at(a, 0);
+        let known: f64 = (0..a).map(|k| l[row + k] * x[k]).sum();
+        x[a] = (x[a] - known) / l[row + a];
+    }
+    for a in (0..n).rev() {
+        let known: f64 = (a + 1..n).map(|k| l[at(k, a)] * x[k]).sum();
+        x[a] = (x[a] - known) / l[at(a, a)];
+    }
+    x
+}

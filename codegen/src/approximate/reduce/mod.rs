@@ -1,0 +1,84 @@
+//! Smaller models: fewer inertial parameters, fitted to the torques of the robot.
+//!
+//! Editing the exact program one value at a time never leaves what all of its values
+//! share: the wrist's sines stay as long as anything reads them. Torques are linear in
+//! the moments of the links about their joints, so a model with few of them is found by
+//! linear algebra, and the exact search then writes a program for it that shares nothing
+//! with the exact one:
+//!
+//! 1. [`terms`]: a column for each moment, armature and viscous friction of each link,
+//!    at sampled positions and all motions there
+//! 2. [`path`]: backward elimination. What least squares would miss least goes, weighed
+//!    by the operations it saves, as long as the largest error can be fitted to be within
+//!    the allowances ([`fit`])
+//! 3. [`build`]: an exact search for the program of a model
+//!
+//! Outputs that are never beyond their allowance are zero. Nothing here is certified:
+//! what comes out is a place for [`prune`](super::prune) to start from, which bounds the
+//! final program against the exact one.
+
+mod build;
+mod fit;
+mod path;
+mod terms;
+
+use crate::approximate::motions;
+use crate::bound::input_box::InputBox;
+use crate::program::Program;
+use crate::random::Random;
+use crate::scene::SceneRobot;
+use crate::watch::FunctionWatch;
+use build::Builder;
+use path::Model;
+use terms::Terms;
+
+/// Of the sampled positions.
+const SEED: u64 = 0x5eed;
+
+/// Sampled positions.
+const POSITIONS: usize = 48;
+
+/// How much of the allowances the models that are tried use: the rest is for pruning.
+const USES: [f64; 5] = [0.25, 0.45, 0.65, 0.8, 0.93];
+
+/// Returns programs of smaller models than the exact program's, from those that leave most
+/// of the allowances to the smallest; none for a function that is not linear in the links'
+/// moments, or where nothing may go.
+pub(super) fn programs(
+    scene_robot: &SceneRobot,
+    exact: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    watch: Option<FunctionWatch<'_>>,
+) -> Vec<Program> {
+    let is_over = || watch.is_some_and(|watch| watch.is_over());
+    let positions = motions::positions(limits, POSITIONS, &mut Random::new(SEED));
+    let Some(terms) = Terms::new(scene_robot, exact, limits, allowances, &positions) else {
+        return Vec::new();
+    };
+    if terms.outputs.is_empty() {
+        return Vec::new();
+    }
+    let builder = Builder {
+        scene_robot,
+        exact,
+        terms: &terms,
+    };
+    let models = path::eliminate(&terms, &builder, &is_over);
+    let mut programs: Vec<Program> = Vec::new();
+    for most in USES {
+        // The smallest that leaves so much.
+        let fits = |model: &&Model| model.error <= most;
+        let Some(model) = models.iter().rev().find(fits) else {
+            continue;
+        };
+        if is_over() {
+            break;
+        }
+        let program = builder.program(&path::refined(&terms, model));
+        if let Some(program) = program.filter(|program| !programs.contains(program)) {
+            programs.push(program);
+        }
+    }
+    programs
+}

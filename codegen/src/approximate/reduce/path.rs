@@ -1,0 +1,116 @@
+//! Backward elimination: from all terms to the fewest that can be fitted.
+
+use super::build::Builder;
+use super::fit::{Fit, Solution};
+use super::terms::Terms;
+
+/// The largest error that a fit at the samples may have.
+const MOST: f64 = 0.95;
+
+/// Fits that are no worse than this may be made good enough.
+const NEARLY: f64 = 1.25;
+
+/// Fits that are no worse need not be made better.
+const ENOUGH: f64 = 0.2;
+
+/// Candidates whose programs are counted, and those of which a fit is tried, in each step.
+const COUNTED: usize = 8;
+const TRIED: usize = 5;
+
+/// A model: terms with factors.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    pub terms: Vec<usize>,
+    pub factors: Vec<f64>,
+    /// The largest error at the samples, one being the allowance.
+    pub error: f64,
+}
+
+/// Returns the models on the way from all terms to few.
+pub(super) fn eliminate(
+    terms: &Terms,
+    builder: &Builder<'_>,
+    is_over: &dyn Fn() -> bool,
+) -> Vec<Model> {
+    let fit = Fit::new(terms);
+    let singles = terms.all.iter().enumerate();
+    let singles = singles.filter(|(_, term)| term.stands_for.is_none());
+    let mut now: Vec<usize> = singles.map(|(index, _)| index).collect();
+    now.retain(|&term| fit.is_something(term));
+    let mut solution = fit.solve(&now, ENOUGH);
+    let mut models = Vec::new();
+    while !is_over() {
+        let mut candidates = candidates(terms, &fit, &now, &solution);
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates.truncate(COUNTED);
+        let paid = builder.price(&now);
+        for (loss, other) in &mut candidates {
+            let saved = paid.saturating_sub(builder.price(other)) as f64;
+            *loss = (*loss + 1e-18) / (0.3 + saved).powi(2);
+        }
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates.truncate(TRIED);
+        let next = candidates.into_iter().find_map(|(_, other)| {
+            let found = fit.solve(&other, ENOUGH);
+            let found = match found.error > MOST && found.error < NEARLY {
+                true => fit.refine(&other, found, MOST),
+                false => found,
+            };
+            (found.error <= MOST).then_some((other, found))
+        });
+        let Some(next) = next else { break };
+        (now, solution) = next;
+        models.push(Model {
+            terms: now.clone(),
+            factors: solution.factors.clone(),
+            error: solution.error,
+        });
+    }
+    models
+}
+
+/// Fits a model as closely as can be: that leaves more to prune with.
+pub(super) fn refined(terms: &Terms, model: &Model) -> Model {
+    let fit = Fit::new(terms);
+    let from = fit.solve(&model.terms, 0.0);
+    let found = fit.refine(&model.terms, from, 0.0);
+    Model {
+        terms: model.terms.clone(),
+        factors: found.factors,
+        error: found.error,
+    }
+}
+
+/// Returns what can come next, one term less or two tied, with what the squares lose.
+fn candidates(
+    terms: &Terms,
+    fit: &Fit<'_>,
+    now: &[usize],
+    solution: &Solution,
+) -> Vec<(f64, Vec<usize>)> {
+    let n = now.len();
+    let mut all: Vec<(f64, Vec<usize>)> = Vec::new();
+    for (place, &loss) in solution.saliency.iter().enumerate() {
+        let mut other = now.to_vec();
+        other.remove(place);
+        all.push((loss, other));
+    }
+    for (tied, term) in terms.all.iter().enumerate() {
+        let Some(of) = term.stands_for.filter(|_| fit.is_something(tied)) else {
+            continue;
+        };
+        let places = of.map(|single| now.iter().position(|&term| term == single));
+        let [Some(a), Some(b)] = places else { continue };
+        // The one that is left is the sum or the difference of both.
+        let is_sum = tied == of[0] + 2;
+        let sign = if is_sum { -1.0 } else { 1.0 };
+        let gap = solution.factors[a] + sign * solution.factors[b];
+        let inverse = |i: usize, j: usize| solution.inverse[i * n + j];
+        let stiff = inverse(a, a) + inverse(b, b) + 2.0 * sign * inverse(a, b);
+        let mut other: Vec<usize> = now.to_vec();
+        other[a] = tied;
+        other.remove(b);
+        all.push((gap * gap / stiff, other));
+    }
+    all
+}

@@ -1,0 +1,197 @@
+//! The parameters that torques are linear in: a column for each of each link.
+
+use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
+use dalembert_model::number::Exact;
+use dalembert_model::robot::{Inertia, JointKind};
+use dalembert_model::scalar::Scalar;
+
+use crate::approximate::motions::Motions;
+use crate::bound::input_box::InputBox;
+use crate::graph::Folding;
+use crate::portfolio::{skeleton, trace_chain};
+use crate::program::columns::Columns;
+use crate::program::{Program, ScalarType};
+use crate::scene::{FittedLink, SceneRobot};
+use crate::states::JointState;
+
+/// An output that is never more than this part of its allowance is zero.
+const NOTHING: f64 = 0.97;
+
+/// A parameter, or two that are tied.
+#[derive(Clone, Debug)]
+pub(super) struct Term {
+    /// The segment of the chain.
+    pub link: usize,
+    /// What the segment moves if the parameter is one.
+    pub unit: FittedLink,
+    /// Those that together can do what it does: it may stand in their place.
+    pub stands_for: Option<[usize; 2]>,
+    /// Its column: outputs, positions, monomials; relative to the allowances.
+    pub column: Vec<f64>,
+}
+
+/// The terms of a function, and its own column.
+pub(super) struct Terms {
+    pub all: Vec<Term>,
+    /// The function's own column.
+    pub whole: Vec<f64>,
+    /// The places of the outputs that are not zero.
+    pub outputs: Vec<usize>,
+    pub motions: Motions,
+}
+
+impl Terms {
+    /// Computes the columns at sampled positions; `None` where results are no linear
+    /// function of the links' parameters, one a row.
+    pub(super) fn new(
+        scene_robot: &SceneRobot,
+        exact: &Program,
+        limits: &InputBox,
+        allowances: &[f64],
+        positions: &[Vec<f64>],
+    ) -> Option<Terms> {
+        let function = exact.function;
+        let mut quantities = function.quantities().iter();
+        let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
+        let is_plain = scene_robot.load().is_none() && !scene_robot.takes_any(function);
+        if exact.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
+            return None;
+        }
+        let motions = Motions::new(exact, limits);
+        let states = motions.states(positions);
+        let mut terms = Terms {
+            all: Vec::new(),
+            whole: Vec::new(),
+            outputs: Vec::new(),
+            motions,
+        };
+        let block = terms.motions.len();
+        let whole = terms.values(exact, &states);
+        for (output, (values, &allowance)) in whole.iter().zip(allowances).enumerate() {
+            let blocks = values.chunks_exact(block);
+            let most = blocks.fold(0.0, |most, block| {
+                f64::max(most, terms.motions.largest(block))
+            });
+            if most > NOTHING * allowance {
+                // What may not err at all cannot be fitted.
+                if allowance <= 0.0 {
+                    return None;
+                }
+                terms.outputs.push(output);
+                terms.whole.extend(values.iter().map(|x| x / allowance));
+            }
+        }
+        let skeleton = skeleton(scene_robot);
+        for (link, unit, stands_for) in units(&skeleton) {
+            let mut links = nothing(&skeleton);
+            links[link] = unit.clone();
+            let fitted = scene_robot.fitted(links, &exact.rows);
+            let skeleton = crate::portfolio::skeleton(&fitted);
+            let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+            let form = *function.forms().first()?;
+            let graph = trace_chain(&fitted, function, &chain, form, Folding::Semantic).0;
+            let values = terms.values(&Program::in_scene(&fitted, function, &graph), &states);
+            let outputs = terms.outputs.iter();
+            let column = outputs.flat_map(|&output| {
+                let values = values[output].iter();
+                values.map(move |x| x / allowances[output])
+            });
+            let column = column.collect();
+            terms.all.push(Term {
+                link,
+                unit,
+                stands_for,
+                column,
+            });
+        }
+        Some(terms)
+    }
+
+    /// Runs a program: for each output, the monomials at each position.
+    fn values(&self, program: &Program, states: &[JointState]) -> Vec<Vec<f64>> {
+        let code = program.lower(ScalarType::F64, |_| None);
+        let mut values = code.run_columns(&Columns::<f64>::of(states));
+        for values in &mut values {
+            self.motions.monomials(values);
+        }
+        values
+    }
+}
+
+/// Returns links without mass, drives without inertia or friction.
+pub(super) fn nothing(skeleton: &Skeleton<Exact>) -> Vec<FittedLink> {
+    let nothing = |_| FittedLink {
+        body: Body::zero(),
+        armature: Exact::zero(),
+        viscous: Exact::zero(),
+    };
+    skeleton.links.iter().map(nothing).collect()
+}
+
+/// Returns the terms of every link: about a point on its axis what cannot move to the link
+/// before, and ties of the two squares across the axis: a disc, and its opposite.
+fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2]>)> {
+    let mut all: Vec<(usize, FittedLink, Option<[usize; 2]>)> = Vec::new();
+    let zero = || FittedLink {
+        body: Body::zero(),
+        armature: Exact::zero(),
+        viscous: Exact::zero(),
+    };
+    let second = |entries: &[(usize, usize, i64)]| {
+        let value = |i: usize, j: usize| {
+            let found = entries.iter().find(|(a, b, _)| (*a, *b) == (i, j));
+            found.map_or(Exact::zero(), |(_, _, sign)| match sign {
+                1 => Exact::one(),
+                _ => Exact::one().neg(),
+            })
+        };
+        Body {
+            second: Inertia::symmetric(value),
+            ..Body::zero()
+        }
+    };
+    let first = |axis: usize| {
+        let mut body = Body::zero();
+        body.first[axis] = Exact::one();
+        body
+    };
+    for (link, segment) in skeleton.links.iter().enumerate() {
+        let start = all.len();
+        let bodies = match segment.kind {
+            JointKind::Revolute => {
+                let about = [Exact::zero(), Exact::zero(), segment.d.clone()];
+                let bodies = vec![
+                    second(&[(0, 0, 1)]),
+                    second(&[(1, 1, 1)]),
+                    second(&[(0, 0, 1), (1, 1, 1)]),
+                    second(&[(0, 0, 1), (1, 1, -1)]),
+                    second(&[(0, 1, 1)]),
+                    second(&[(0, 2, 1)]),
+                    second(&[(1, 2, 1)]),
+                    first(0),
+                    first(1),
+                ];
+                bodies.iter().map(|body| body.moved(&about)).collect()
+            }
+            JointKind::Prismatic => {
+                let mut mass = Body::zero();
+                mass.mass = Exact::one();
+                vec![mass, first(0), first(1), first(2)]
+            }
+        };
+        for (index, body) in bodies.into_iter().enumerate() {
+            let is_tied = segment.kind == JointKind::Revolute && (2..4).contains(&index);
+            let unit = FittedLink { body, ..zero() };
+            all.push((link, unit, is_tied.then_some([start, start + 1])));
+        }
+        if !segment.armature.is_zero() {
+            let armature = Exact::one();
+            all.push((link, FittedLink { armature, ..zero() }, None));
+        }
+        if !segment.friction.viscous.is_zero() {
+            let viscous = Exact::one();
+            all.push((link, FittedLink { viscous, ..zero() }, None));
+        }
+    }
+    all
+}

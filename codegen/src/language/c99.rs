@@ -1,0 +1,462 @@
+//! Functions in C99, which C++ reads too: one flat `static inline` function each, matrices
+//! row by row.
+//!
+//! ```text
+//! static inline void arm_gravity(const double q[ARM_RESTRICT 2], double c[ARM_RESTRICT 2])
+//! {
+//!     ARM_UNFUSED
+//!     const arm_sincos_t p1 = arm_sincos(q[0]);
+//!     const double s1 = p1.sin;
+//!     const double t1 = s1 * 0.5;
+//!     c[0] = t1;
+//!     c[1] = -t1;
+//! }
+//! ```
+
+use std::fmt::Write;
+
+use dalembert_sines::{LARGEST, LARGEST_F32};
+
+use super::dialect::Dialect;
+use super::function::reads;
+use super::scope::Scope;
+use super::{Printed, speed};
+use crate::function::{Argument, Function, Quantity};
+use crate::program::kernel::{Kernel, Term, Value};
+use crate::program::{AngleSum, Library, Literal, Lowered, ScalarType};
+
+/// The most characters of a name: compilers need not tell longer ones apart.
+pub(crate) const LONGEST: usize = 31;
+
+/// Words that are shortened in names that would be too long.
+const SHORT: [(&str, &str); 10] = [
+    ("inverse", "inv"),
+    ("forward", "fwd"),
+    ("dynamics", "dyn"),
+    ("derivatives", "deriv"),
+    ("kinematics", "kin"),
+    ("coefficients", "coef"),
+    ("manipulator", "manip"),
+    ("equation", "eq"),
+    ("passivity", "pass"),
+    ("regressor", "regr"),
+];
+
+/// The names of one scalar's functions in a header.
+#[derive(Clone, Debug)]
+pub struct Names {
+    base: String,
+    scalar: ScalarType,
+}
+
+impl Names {
+    /// The names of a module's functions in a scalar.
+    pub fn new(base: &str, scalar: ScalarType) -> Names {
+        Names {
+            base: base.to_owned(),
+            scalar,
+        }
+    }
+
+    /// A function or type by its word, shortened where it would be too long.
+    pub(crate) fn of(&self, word: &str) -> String {
+        let infix = match self.scalar {
+            ScalarType::F64 => "",
+            ScalarType::F32 => "f32_",
+        };
+        let name = format!("{}_{infix}{word}", self.base);
+        if name.len() <= LONGEST {
+            return name;
+        }
+        let words = word.split('_').map(|part| {
+            let short = SHORT.iter().find(|(long, _)| *long == part);
+            short.map_or(part, |(_, short)| short)
+        });
+        let words: Vec<&str> = words.collect();
+        format!("{}_{infix}{}", self.base, words.join("_"))
+    }
+
+    /// A macro, which both scalars share.
+    pub(crate) fn constant(&self, word: &str) -> String {
+        format!("{}_{word}", self.base.to_uppercase())
+    }
+}
+
+impl Dialect {
+    /// C99.
+    pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
+        let (declaration, fused, literal) = match scalar {
+            ScalarType::F64 => ("const double {} = {};", "fma({}, {}, {})", "{}"),
+            ScalarType::F32 => ("const float {} = {};", "fmaf({}, {}, {})", "{}F"),
+        };
+        Dialect {
+            scalar,
+            declaration,
+            fused,
+            negative: "-{}",
+            literal,
+            separator: "",
+        }
+    }
+}
+
+/// The scalar's type.
+pub(crate) fn float(scalar: ScalarType) -> &'static str {
+    match scalar {
+        ScalarType::F64 => "double",
+        ScalarType::F32 => "float",
+    }
+}
+
+/// Whether the function's results are one struct: a bundle's are.
+pub(crate) fn is_bundle(function: Function) -> bool {
+    !Function::ALL.contains(&function) && function != Function::Load
+}
+
+/// Whether the function returns its only number.
+pub(crate) fn is_number(function: Function) -> bool {
+    function.structure().is_none() && function.quantities()[0].shape().0.is_empty()
+}
+
+/// The struct that a bundle's results are in.
+pub(crate) fn structure(printed: &Printed<'_>, names: &Names) -> Option<String> {
+    let function = printed.function;
+    is_bundle(function).then(|| {
+        let float = float(printed.code.scalar);
+        let fields = function.quantities().iter().map(|quantity| {
+            let length = quantity.len(printed.sizes);
+            let doc = shaped(*quantity, printed);
+            format!(
+                "    /* {doc} */\n    {float} {}[{length}];\n",
+                quantity.field()
+            )
+        });
+        let fields: String = fields.collect();
+        format!(
+            "/* The results of {}. */\ntypedef struct {{\n{fields}}} {};\n",
+            names.of(function.name()),
+            structure_name(function, names)
+        )
+    })
+}
+
+pub(crate) fn structure_name(function: Function, names: &Names) -> String {
+    names.of(&format!("{}_t", function.name()))
+}
+
+/// A quantity with its unit and its axes.
+pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
+    let lengths = quantity.shape().lengths(printed.sizes);
+    let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
+    let rows = match lengths.len() {
+        0 | 1 => "",
+        _ => ", row by row",
+    };
+    let field = quantity.field();
+    format!("{field}{}{rows}: {}", lengths.concat(), quantity.summary())
+}
+
+/// Whether the sines of a function are known to be near: of one state they are not, and in
+/// a batch the function is told.
+pub(crate) const FAR: [&str; 2] = ["1", "far"];
+
+/// The head of a function; of one that is told whether angles may be far, by another name.
+pub(crate) fn head(printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
+    let (function, sizes, float) = (printed.function, printed.sizes, float(printed.code.scalar));
+    let restrict = names.constant("RESTRICT");
+    let (mut parameters, mut name) = (Vec::new(), function.name().to_owned());
+    if is_told {
+        parameters.push("const int far".to_owned());
+        name += "_any";
+    }
+    for argument in printed.arguments {
+        let (name, length) = (argument.name(), argument.length(sizes));
+        parameters.push(format!("const {float} {name}[{restrict} {length}]"));
+    }
+    let mut result = "void";
+    if is_number(function) {
+        result = float;
+    } else if is_bundle(function) {
+        let kind = structure_name(function, names);
+        parameters.push(format!("{kind} result[{restrict} 1]"));
+    } else {
+        for quantity in function.quantities() {
+            let (name, length) = (quantity.field(), quantity.len(sizes));
+            parameters.push(format!("{float} {name}[{restrict} {length}]"));
+        }
+    }
+    format!(
+        "static inline {result} {}({})",
+        names.of(&name),
+        parameters.join(", ")
+    )
+}
+
+/// The names of the results that a function writes.
+fn written(function: Function) -> Vec<&'static str> {
+    match (is_number(function), is_bundle(function)) {
+        (true, _) => Vec::new(),
+        (_, true) => vec!["result"],
+        _ => function.quantities().iter().map(|q| q.field()).collect(),
+    }
+}
+
+/// Prints the function of one state where there is one that is told more.
+pub(crate) fn single(printed: &Printed<'_>, names: &Names) -> String {
+    let function = printed.function;
+    let called = names.of(&format!("{function}_any"));
+    let arguments = printed.arguments.iter().map(|argument| argument.name());
+    let passed: Vec<&str> = [FAR[0]]
+        .into_iter()
+        .chain(arguments)
+        .chain(written(function))
+        .collect();
+    let back = if is_number(function) { "return " } else { "" };
+    format!(
+        "{}\n{{\n    {back}{called}({});\n}}\n",
+        head(printed, names, false),
+        passed.join(", ")
+    )
+}
+
+/// Whether sines are of the crate's algorithm, which calls others for angles that are far.
+pub(crate) fn is_together(code: &Lowered) -> bool {
+    code.library == Library::Together && code.trig.iter().any(|trig| trig.kernel.is_none())
+}
+
+/// Where the numbers of a result go, in their order; none of a number that is returned.
+pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
+    let function = printed.function;
+    if is_number(function) {
+        return Vec::new();
+    }
+    let before = if is_bundle(function) { "result->" } else { "" };
+    let fields = function.quantities().iter().flat_map(|quantity| {
+        let field = quantity.field();
+        (0..quantity.len(printed.sizes)).map(move |index| format!("{before}{field}[{index}]"))
+    });
+    fields.collect()
+}
+
+/// Arguments that the code does not read.
+pub(crate) fn unread(printed: &Printed<'_>) -> Vec<Argument> {
+    let arguments = printed.arguments.iter().copied();
+    arguments
+        .filter(|&argument| !reads(printed.code, argument))
+        .collect()
+}
+
+/// How the polynomials of an angle name their step, counted from zero.
+pub(crate) fn kernel_name(angle: AngleSum, step: usize) -> String {
+    format!("x{angle}_{}", step + 1)
+}
+
+/// Prints the function.
+pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
+    let (code, dialect) = (printed.code, Dialect::c99(printed.code.scalar));
+    let far = FAR[usize::from(is_told)];
+    let mut text = format!("{}\n{{\n", head(printed, names, is_told));
+    let mut line = |line: &str| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "    {line}");
+    };
+    line(&names.constant("UNFUSED"));
+    for trig in &code.trig {
+        let (angle, state) = (trig.angle, Scope::STATE);
+        if angle.additions() > 0 {
+            line(&dialect.declare(&format!("a{angle}"), &state.sum(angle)));
+        }
+        let (argument, pair) = (state.angle(angle), format!("p{angle}"));
+        if let (None, Library::Together) = (&trig.kernel, code.library) {
+            let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
+            line(&format!(
+                "const {kind} {pair} = {function}({far}, {argument});"
+            ));
+        }
+        if let Some(kernel) = &trig.kernel {
+            for statement in kernel_lines(kernel, angle, &argument, dialect) {
+                line(&statement);
+            }
+        }
+        for (taken, name, function) in [(trig.sin, 's', "sin"), (trig.cos, 'c', "cos")] {
+            if !taken {
+                continue;
+            }
+            let value = match (&trig.kernel, code.library) {
+                (Some(kernel), _) => {
+                    let value = if name == 's' { kernel.sin } else { kernel.cos };
+                    value.map_or_else(String::new, |value| {
+                        kernel_value(value, angle, &argument, dialect)
+                    })
+                }
+                (None, Library::Together) => format!("{pair}.{function}"),
+                (None, Library::Libm) => dialect.call("", function, &argument),
+            };
+            line(&dialect.declare(&format!("{name}{angle}"), &value));
+        }
+    }
+    speed::write(&mut text, dialect, code, "");
+    let mut line = |line: &str| {
+        let _ = writeln!(text, "    {line}");
+    };
+    for statement in (0..code.steps.len()).filter_map(|step| dialect.statement(code, step)) {
+        line(&statement);
+    }
+    for argument in unread(printed) {
+        line(&format!("(void){};", argument.name()));
+    }
+    let values = code.outputs.iter().map(|output| {
+        let sign = if output.negative { "-" } else { "" };
+        format!("{sign}{}", dialect.operand(&output.value))
+    });
+    let targets = targets(printed);
+    for (index, value) in values.enumerate() {
+        match targets.get(index) {
+            Some(target) => line(&format!("{target} = {value};")),
+            None => line(&format!("return {value};")),
+        }
+    }
+    text.push_str("}\n");
+    text
+}
+
+fn kernel_lines<'k>(
+    kernel: &'k Kernel,
+    angle: AngleSum,
+    argument: &'k str,
+    dialect: Dialect,
+) -> impl Iterator<Item = String> + 'k {
+    kernel.steps.iter().enumerate().map(move |(index, step)| {
+        let [left, right] = [step.left, step.right].map(|t| term(t, angle, argument, dialect));
+        let value = format!("{left} {} {right}", step.operation.symbol());
+        dialect.declare(&kernel_name(angle, index), &value)
+    })
+}
+
+fn kernel_value(value: Value, angle: AngleSum, argument: &str, dialect: Dialect) -> String {
+    let sign = if value.negative { "-" } else { "" };
+    format!("{sign}{}", term(value.value, angle, argument, dialect))
+}
+
+fn term(term: Term, angle: AngleSum, argument: &str, dialect: Dialect) -> String {
+    match term {
+        Term::Input(_) => argument.to_owned(),
+        Term::Constant(value) => dialect.literal(value),
+        Term::Step(step) => kernel_name(angle, step),
+    }
+}
+
+/// Prints the function of any number of states, in columns: entry i of state s is at
+/// `i * n + s`.
+pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
+    let (function, sizes) = (printed.function, printed.sizes);
+    let float = float(printed.code.scalar);
+    let [restrict, simd] = ["RESTRICT", "SIMD"].map(|word| names.constant(word));
+    let is_told = is_together(printed.code);
+    let (single, name) = (
+        names.of(function.name()),
+        names.of(&format!("{function}_batch")),
+    );
+    let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
+    let (mut gathered, mut stored) = (String::new(), String::new());
+    let at = |index: usize| match index {
+        0 => "s".to_owned(),
+        1 => "n + s".to_owned(),
+        more => format!("({more}U * n) + s"),
+    };
+    for argument in printed.arguments {
+        let (name, length) = (argument.name(), argument.length(sizes));
+        parameters.push(format!("const {float} *{restrict} {name}"));
+        let entries = (0..length).map(|index| format!("{name}[{}]", at(index)));
+        let entries: Vec<String> = entries.collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            gathered,
+            "        const {float} {name}_s[{length}] = {{{}}};",
+            entries.join(", ")
+        );
+        passed.push(format!("{name}_s"));
+    }
+    for quantity in function.quantities() {
+        parameters.push(format!("{float} *{restrict} {}", quantity.field()));
+    }
+    let call = |passed: &[String], is_told: bool| {
+        let (called, passed) = (names.of(&format!("{function}_any")), passed.join(", "));
+        match is_told {
+            true => format!("{called}(0, {passed})"),
+            false => format!("{single}({passed})"),
+        }
+    };
+    let field = function.quantities()[0].field();
+    let before = if is_number(function) {
+        format!("{field}[s] = ")
+    } else {
+        String::new()
+    };
+    if !is_number(function) {
+        let mut of = "";
+        if is_bundle(function) {
+            let kind = structure_name(function, names);
+            let _ = writeln!(gathered, "        {kind} result_s;");
+            passed.push("&result_s".to_owned());
+            of = "result_s.";
+        }
+        for quantity in function.quantities() {
+            let (field, length) = (quantity.field(), quantity.len(sizes));
+            let after = if is_bundle(function) { "" } else { "_s" };
+            if !is_bundle(function) {
+                let _ = writeln!(gathered, "        {float} {field}_s[{length}];");
+                passed.push(format!("{field}_s"));
+            }
+            for index in 0..length {
+                let place = at(index);
+                let _ = writeln!(
+                    stored,
+                    "        {field}[{place}] = {of}{field}{after}[{index}];"
+                );
+            }
+        }
+    }
+    let body = |is_told: bool, when: &str| {
+        format!(
+            "    for (s = 0U; s < n; ++s) {{\n{gathered}{when}        {before}{};\n{stored}    }}\n",
+            call(&passed, is_told)
+        )
+    };
+    // Where an angle may be far, once more: no joint is that far whose sums are not.
+    let mut again = String::new();
+    if is_told {
+        let far = Dialect::c99(printed.code.scalar).literal(Literal(far(printed.code)));
+        let f = printed.code.scalar.math_suffix();
+        let near = (0..sizes.joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
+        let near: Vec<String> = near.collect();
+        let when = format!(
+            "        if ({}) {{\n            continue;\n        }}\n",
+            near.join(" && ")
+        );
+        again = body(false, &when);
+    }
+    format!(
+        "/* {single} at n states, in columns: entry i of state s stands at i * n + s. Each state\n \
+         * has the results that it has alone, bit for bit. */\n\
+         #if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n\
+         static inline void {name}({})\n{{\n    size_t s;\n    {simd}\n{}{again}}}\n",
+        parameters.join(", "),
+        body(is_told, "")
+    )
+}
+
+/// As far as joints may turn for all angles, sums of them too, to be those that sines are
+/// computed of without a library.
+fn far(code: &Lowered) -> f64 {
+    let terms = code.trig.iter().map(|trig| trig.angle.terms().count());
+    largest(code.scalar) / terms.max().unwrap_or(1).next_power_of_two() as f64
+}
+
+/// Up to this magnitude sines are computed without a library.
+pub(crate) fn largest(scalar: ScalarType) -> f64 {
+    match scalar {
+        ScalarType::F64 => LARGEST,
+        ScalarType::F32 => f64::from(LARGEST_F32),
+    }
+}

@@ -1,0 +1,100 @@
+//! `NAME_batch` and `NAME_columns`: the function at any number of states, by
+//! the crate `dalembert-batch`, which asks the processor what it can do.
+//!
+//! What that needs to know of the function is the type `…Batch`.
+
+use std::fmt::Write;
+
+use super::{Around, arguments, lanes, places};
+use crate::language::{Printed, function, result};
+
+/// Prints them.
+pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
+    let kind = kind(printed);
+    let name = printed.function.name();
+    marker(text, printed, around, &kind);
+    let (n, scalar, batch) = (printed.sizes.joints, printed.code.scalar, around.batch);
+    let arguments = arguments(printed);
+    let passed = arguments.join(", ");
+    let result = function::result_type(printed.function, printed.sizes, scalar);
+    let (count, entries) = (arguments.len(), printed.code.outputs.len());
+    let sizes = format!("{count}, {n}, {entries}");
+    let parameters = |kind: &str| -> String {
+        let each = arguments.iter();
+        each.map(|name| format!("{name}: {kind}, ")).collect()
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "\n/// [`{name}`] at any number of states, an entry of every slice each, with the vectors that\n\
+         /// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.\n\
+         ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
+         pub fn {name}_batch({}results: &mut [{result}]) -> Result<(), {batch}::Unequal> {{\n    \
+         {batch}::states::<{kind}, {sizes}>([{passed}], results)\n}}",
+        parameters(&format!("&[[{scalar}; {n}]]")),
+    );
+    let _ = writeln!(
+        text,
+        "\n/// [`{name}_batch`] with states in columns: a slice for every entry of an argument, and of\n\
+         /// the result in the order of its text. No number has to be moved: it is the faster one.\n\
+         ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
+         pub fn {name}_columns({}results: &mut [&mut [{scalar}]; {entries}]) -> Result<(), {batch}::Unequal> {{\n    \
+         {batch}::columns::<{kind}, {sizes}>([{passed}], results)\n}}",
+        parameters(&format!("&[&[{scalar}]; {n}]")),
+    );
+}
+
+/// The type of a function: `InverseDynamicsBatch`.
+fn kind(printed: &Printed<'_>) -> String {
+    format!("{}Batch", printed.function.camel())
+}
+
+fn marker(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, kind: &str) {
+    let (name, n, scalar, batch) = (
+        printed.function.name(),
+        printed.sizes.joints,
+        printed.code.scalar,
+        around.batch,
+    );
+    let arguments = arguments(printed);
+    let (count, entries) = (arguments.len(), printed.code.outputs.len());
+    let in_lanes = lanes::result_type(printed);
+    let result = function::result_type(printed.function, printed.sizes, scalar);
+    let passed = arguments.join(", ");
+    let _ = writeln!(
+        text,
+        "/// [`{name}`] as the functions of `dalembert-batch` take it.\n\
+         #[derive(Clone, Copy, Debug)]\npub struct {kind};\n\n\
+         impl {batch}::Function<{count}, {n}, {entries}> for {kind} {{\n    \
+         type Scalar = {scalar};\n    type State = {result};\n    \
+         type Lanes<const L: usize> = {in_lanes};\n\n    \
+         #[inline(always)]\n    \
+         fn lanes<const L: usize>([{passed}]: &[[[{scalar}; L]; {n}]; {count}]) -> {in_lanes} {{\n        \
+         {name}_lanes({passed})\n    }}\n\n    \
+         #[inline(always)]\n    \
+         fn state<const L: usize>(results: &{in_lanes}, l: usize) -> {result} {{",
+    );
+    let (function, sizes) = (printed.function, printed.sizes);
+    let places = places(printed);
+    let items = places.iter().map(|place| format!("results{place}[l]"));
+    let mut state = String::new();
+    result::write(&mut state, function, function.structure(), sizes, items);
+    for line in state.lines() {
+        let _ = writeln!(text, "    {line}");
+    }
+    let columns: Vec<String> = places
+        .iter()
+        .map(|place| format!("results{place}"))
+        .collect();
+    let _ = writeln!(
+        text,
+        "    }}\n\n    #[inline(always)]\n    \
+         fn columns<const L: usize>(results: &{in_lanes}) -> [[{scalar}; L]; {entries}] {{\n        \
+         [{}]\n    }}\n}}",
+        match places.as_slice() {
+            // One number: the whole result, behind its reference.
+            [place] if place.is_empty() => "*results".to_owned(),
+            _ => columns.join(", "),
+        }
+    );
+}

@@ -1,0 +1,240 @@
+//! Reads a function in C99: the lines of the arithmetic as in every language, and how C
+//! writes sines, unread arguments and results.
+
+use super::entries::same;
+use super::reader::{Reader, output};
+use super::sines::{Block, trig};
+use super::{TextError, at, expect};
+use crate::language::c99::{FAR, Names, batch, head, single, targets};
+use crate::language::dialect::{Dialect, holes};
+use crate::language::scope::Scope;
+use crate::language::{Entries, Printed};
+use crate::program::{AngleSum, Library, Lowered};
+
+impl Lowered {
+    /// Reads a function out of the text of a header. Nothing is taken from the code of
+    /// `printed`, which says what the function is.
+    ///
+    /// # Errors
+    /// The first line that is not of such a function.
+    pub fn parse_c(
+        text: &str,
+        printed: &Printed<'_>,
+        entries: Entries,
+        names: &Names,
+    ) -> Result<Lowered, TextError> {
+        let dialect = Dialect::c99(printed.code.scalar);
+        let all: Vec<&str> = text.lines().map(str::trim).collect();
+        let heads = [true, false].map(|is_told| head(printed, names, is_told));
+        let found = heads
+            .each_ref()
+            .map(|head| all.iter().position(|line| line == head));
+        let (first, is_told) = match found {
+            [Some(told), Some(plain)] => {
+                same(&all, plain, &single(printed, names))?;
+                (told, true)
+            }
+            [None, Some(plain)] => (plain, false),
+            _ => return Err(at(0)(format!("there is no `{}`", heads[1]))),
+        };
+        let mut lines = all.iter().copied().enumerate().skip(first + 1);
+        for expected in ["{", &names.constant("UNFUSED")] {
+            let (number, line) = lines.next().unwrap_or((first, ""));
+            expect(line, expected).map_err(at(number))?;
+        }
+        let mut reader = CReader {
+            reader: Reader::new(dialect),
+            names,
+            far: FAR[usize::from(is_told)],
+            block: None,
+        };
+        let targets = targets(printed);
+        let mut items = Vec::new();
+        for (number, line) in lines {
+            if line == "}" {
+                let read = reader.finish(&items, &targets).map_err(at(number))?;
+                if entries == Entries::Batch {
+                    let text = batch(
+                        &Printed {
+                            code: &read,
+                            ..*printed
+                        },
+                        names,
+                    );
+                    let start = text.find("static inline").unwrap_or_default();
+                    let head = text[start..].lines().next().unwrap_or_default();
+                    let place = all.iter().position(|line| *line == head);
+                    let place = place.ok_or_else(|| at(0)(format!("there is no `{head}`")))?;
+                    same(&all, place, &text[start..])?;
+                }
+                return Ok(read);
+            }
+            let mut unread = printed.arguments.iter();
+            if items.is_empty() && unread.any(|a| line == format!("(void){};", a.name())) {
+                continue;
+            }
+            if let Some(declaration) = line.strip_prefix("const ") {
+                if !items.is_empty() {
+                    return Err(at(number)("a statement after the result".into()));
+                }
+                reader.declaration(line, declaration).map_err(at(number))?;
+                continue;
+            }
+            let result = match targets.get(items.len()) {
+                Some(target) => holes::<2>("{} = {};", line)
+                    .filter(|[found, _]| found == target)
+                    .map(|[_, value]| value),
+                None if targets.is_empty() && items.is_empty() => {
+                    holes::<1>("return {};", line).map(|[value]| value)
+                }
+                None => None,
+            };
+            let value = result.ok_or_else(|| at(number)(format!("`{line}` is no result")))?;
+            items.push(value);
+        }
+        Err(at(first)(format!("`{}` does not end", all[first])))
+    }
+}
+
+struct CReader<'n> {
+    reader: Reader<'n>,
+    names: &'n Names,
+    /// What is said of angles that are far.
+    far: &'static str,
+    /// The polynomials of the angle before.
+    block: Option<Block>,
+}
+
+impl CReader<'_> {
+    fn declaration(&mut self, line: &str, declaration: &str) -> Result<(), String> {
+        let [kind, function] = ["sincos_t", "sincos"].map(|word| self.names.of(word));
+        if let Some(rest) = declaration.strip_prefix(&format!("{kind} ")) {
+            self.close();
+            let [name, called, far, argument] =
+                holes("{} = {}({}, {});", rest).ok_or_else(|| format!("`{line}` is no call"))?;
+            expect(called, &function)?;
+            expect(far, self.far)?;
+            let angle = angle(name, 'p')?;
+            self.begin(angle, argument)?;
+            self.reader.program.library = Library::Together;
+            self.reader.program.trig.push(trig(angle, false, false));
+            return Ok(());
+        }
+        let [name, value] = holes(self.reader.dialect.declaration, line)
+            .ok_or_else(|| format!("`{line}` gives no value a name"))?;
+        match name.chars().next() {
+            Some('x') => self.step(name, value),
+            Some(letter @ ('s' | 'c')) => self.sine(letter, name, value),
+            _ => {
+                self.close();
+                self.reader.declaration(name, value)
+            }
+        }
+    }
+
+    /// An operation of an angle's polynomials.
+    fn step(&mut self, name: &str, value: &str) -> Result<(), String> {
+        let word = name.split_once('_').map_or("", |(word, _)| word);
+        let angle = angle(word, 'x')?;
+        if self
+            .block
+            .as_ref()
+            .is_none_or(|block| block.trig.angle != angle)
+        {
+            self.close();
+            let argument = Scope::STATE.angle(angle);
+            self.begin(angle, &argument)?;
+            self.block = Some(Block::new(
+                trig(angle, false, false),
+                argument,
+                format!("x{angle}_"),
+            ));
+        }
+        let dialect = self.reader.dialect;
+        match &mut self.block {
+            Some(block) => block.step(name, value, dialect),
+            None => Ok(()),
+        }
+    }
+
+    /// A sine or cosine: of polynomials, of a call for both, or a call of its own.
+    fn sine(&mut self, letter: char, name: &str, value: &str) -> Result<(), String> {
+        let (angle, dialect) = (angle(name, letter)?, self.reader.dialect);
+        let twice = || Err(format!("`{name}` a second time"));
+        if let Some(block) = &mut self.block
+            && block.trig.angle == angle
+        {
+            let read = output(value, |word| block.term(word, dialect))?;
+            let (taken, place) = match letter {
+                's' => (&mut block.trig.sin, &mut block.kernel.sin),
+                _ => (&mut block.trig.cos, &mut block.kernel.cos),
+            };
+            *place = Some(read);
+            return match std::mem::replace(taken, true) {
+                true => twice(),
+                false => Ok(()),
+            };
+        }
+        self.close();
+        let function = if letter == 's' { "sin" } else { "cos" };
+        let last = self.reader.program.trig.last();
+        let is_new = last.is_none_or(|last| last.angle != angle || last.kernel.is_some());
+        match self.reader.program.library {
+            Library::Together if is_new => return Err(format!("`{value}` is of no call")),
+            Library::Together => expect(value, &format!("p{angle}.{function}"))?,
+            Library::Libm => {
+                let argument = Scope::STATE.angle(angle);
+                expect(value, &dialect.call("", function, &argument))?;
+                if is_new {
+                    self.begin(angle, &argument)?;
+                    self.reader.program.trig.push(trig(angle, false, false));
+                }
+            }
+        }
+        let Some(last) = self.reader.program.trig.last_mut() else {
+            return twice();
+        };
+        let taken = match letter {
+            's' if last.cos => return Err(format!("`{name}` after its cosine")),
+            's' => &mut last.sin,
+            _ => &mut last.cos,
+        };
+        match std::mem::replace(taken, true) {
+            true => twice(),
+            false => Ok(()),
+        }
+    }
+
+    /// Takes the sum that the line before formed, of an angle that is one.
+    fn begin(&mut self, angle: AngleSum, argument: &str) -> Result<(), String> {
+        expect(argument, &Scope::STATE.angle(angle))?;
+        if angle.additions() > 0 && self.reader.sums.pop_if(|sum| *sum == angle).is_none() {
+            return Err(format!("`{argument}` is no angle"));
+        }
+        let mut all = self.reader.program.trig.iter();
+        match all.any(|trig| trig.angle == angle) {
+            true => Err(format!("sines of `{argument}` a second time")),
+            false => Ok(()),
+        }
+    }
+
+    fn close(&mut self) {
+        if let Some(block) = self.block.take() {
+            self.reader.program.trig.push(block.done());
+        }
+    }
+
+    fn finish(mut self, items: &[&str], targets: &[String]) -> Result<Lowered, String> {
+        self.close();
+        if items.len() != targets.len().max(1) {
+            return Err(format!("{} results expected", targets.len().max(1)));
+        }
+        self.reader.finish(items)
+    }
+}
+
+/// The angle of `s1p2`.
+fn angle(word: &str, letter: char) -> Result<AngleSum, String> {
+    let angle = word.strip_prefix(letter).and_then(|word| word.parse().ok());
+    angle.ok_or_else(|| format!("`{word}` is of no angle"))
+}

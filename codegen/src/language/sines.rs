@@ -1,0 +1,52 @@
+//! Sines and cosines as polynomials: a block an angle, an operation a line.
+//!
+//! ```text
+//! let (s1, c1) = {
+//!     let x1 = q[0] * q[0];
+//!     …
+//!     (x9, -x14)
+//! };
+//! ```
+
+use std::fmt::Write;
+
+use crate::language::scope::Scope;
+use crate::program::ScalarType;
+use crate::program::kernel::{Kernel, Term, Value};
+
+/// The block that computes one angle's sine and cosine; `argument` is how the
+/// code names the angle.
+pub(super) fn write(
+    text: &mut String,
+    scope: Scope,
+    names: &str,
+    argument: &str,
+    kernel: &Kernel,
+    scalar: ScalarType,
+) {
+    let term = |term: Term| match term {
+        Term::Input(_) => argument.to_owned(),
+        Term::Constant(value) => value.text(scalar),
+        Term::Step(step) => format!("x{}", step + 1),
+    };
+    let value = |value: Value| {
+        let sign = if value.negative { "-" } else { "" };
+        format!("{sign}{}", term(value.value))
+    };
+    let Scope {
+        indent, binding, ..
+    } = scope;
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{indent}{binding}{names} = {{");
+    for (index, step) in kernel.steps.iter().enumerate() {
+        let (left, right) = (term(step.left), term(step.right));
+        let (number, symbol) = (index + 1, step.operation.symbol());
+        let _ = writeln!(text, "{indent}    let x{number} = {left} {symbol} {right};");
+    }
+    let result = match (kernel.sin, kernel.cos) {
+        (Some(sin), Some(cos)) => format!("({}, {})", value(sin), value(cos)),
+        (Some(only), None) | (None, Some(only)) => value(only),
+        (None, None) => "()".to_owned(),
+    };
+    let _ = writeln!(text, "{indent}    {result}\n{indent}}};");
+}

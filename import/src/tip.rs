@@ -1,0 +1,161 @@
+//! Where an arm ends, when nobody says: at the palm that its fingers hang on, or at the
+//! end of its longest chain.
+
+use std::collections::BTreeMap;
+
+use crate::problems::MAX_NAMES;
+use crate::tree::Tree;
+
+/// Arms have more joints that move than this before their hand.
+const ARM: usize = 3;
+/// Fingers have at most so many joints that move behind each other; of a hand with three or
+/// more, any number.
+const FINGER: usize = 4;
+/// Parts of the names of fingers; a link called gripper is the palm.
+const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
+/// Parts of the names of frames that an arm is used by.
+const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
+
+impl Tree<'_, '_, '_> {
+    /// Returns the link that the arm ends at; `None` after saying that there are several.
+    pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
+        let Some(heights) = self.heights(base) else {
+            let message = "links hang on each other in a circle".to_owned();
+            let help = "every chain ends somewhere: closed loops are not read";
+            let span = &self.urdf.links[base].span;
+            self.problems.error(span, message, help);
+            return None;
+        };
+        let most = heights.get(&base).copied().unwrap_or_default();
+        let mut tips = Vec::new();
+        let mut palms = Vec::new();
+        let mut open = vec![(base, 0)];
+        while let Some((link, moved)) = open.pop() {
+            let fixed = self.fixed_to(link);
+            let joints: Vec<usize> = fixed
+                .iter()
+                .flat_map(|link| self.hanging(*link))
+                .filter(|joint| self.step(*joint).is_none())
+                .collect();
+            let left = |joint: usize| 1 + heights.get(&self.ends[joint][1]).copied().unwrap_or(0);
+            let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
+            let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
+                // Fingers may be fixed, too.
+                let is_finger = |link: &&usize| has_one_of(&self.urdf.links[**link].name, &FINGERS);
+                let (fingers, ends): (Vec<usize>, Vec<usize>) = leaves.partition(is_finger);
+                match ends.is_empty() {
+                    true => palms.extend(fingers.first().and_then(|link| self.on(*link))),
+                    false => tips.extend(ends),
+                }
+                continue;
+            };
+            let main: Vec<usize> = joints
+                .into_iter()
+                .filter(|joint| left(*joint) == longest)
+                .collect();
+            let are_fingers = main.len() > 1 || self.is_finger(main[0]);
+            let is_palm = main.len() > 2 || longest <= FINGER && are_fingers;
+            if moved >= ARM && is_palm {
+                palms.push(self.ends[main[0]][0]);
+                let is_hand = |link: &&usize| has_one_of(&self.urdf.links[**link].name, &HANDS);
+                tips.extend(leaves.filter(is_hand));
+            } else {
+                let next = main.into_iter();
+                open.extend(next.map(|joint| (self.ends[joint][1], moved + 1)));
+            }
+        }
+        let holds = !palms.is_empty();
+        let name = |link: &usize| self.urdf.links[*link].name.as_str();
+        tips.sort_by_key(|link| (!has_one_of(name(link), &HANDS), *link));
+        palms.sort_unstable();
+        tips.splice(0..0, palms);
+        if let [link] = tips[..] {
+            let message = format!("the chain ends at link `{}`", name(&link));
+            let span = &self.urdf.links[link].span;
+            self.problems
+                .note(span, message, "--tip LINK chooses another end");
+            return Some(link);
+        }
+        let message = match holds {
+            true => format!("{} links may be where the arm ends", tips.len()),
+            false => format!("{} chains have {most} joints", tips.len()),
+        };
+        let names: Vec<&str> = tips.iter().take(MAX_NAMES).map(name).collect();
+        let mut help = format!("choose the end by --tip: {}", names.join(", "));
+        if holds && self.others.is_none() {
+            help += "; --lock-others 0 holds the fingers";
+        }
+        self.problems.error(&self.urdf.span, message, &help);
+        None
+    }
+
+    /// Returns how many joints move behind each other from a link on, for every link that
+    /// hangs on the base; none where they hang on each other in a circle.
+    fn heights(&self, base: usize) -> Option<BTreeMap<usize, usize>> {
+        let mut order = vec![base];
+        let mut at = 0;
+        while let Some(link) = order.get(at).copied() {
+            at += 1;
+            order.extend(
+                self.hanging(link)
+                    .into_iter()
+                    .map(|joint| self.ends[joint][1]),
+            );
+            // Every link hangs on one joint: only the base can come again.
+            if order[1..].contains(&base) {
+                return None;
+            }
+        }
+        let mut heights = BTreeMap::new();
+        for link in order.into_iter().rev() {
+            let below = self.hanging(link).into_iter().map(|joint| {
+                let moves = usize::from(self.step(joint).is_none());
+                moves + heights.get(&self.ends[joint][1]).copied().unwrap_or(0)
+            });
+            let height = below.max().unwrap_or(0);
+            heights.insert(link, height);
+        }
+        Some(heights)
+    }
+
+    /// Returns a link and what is fixed to it.
+    fn fixed_to(&self, link: usize) -> Vec<usize> {
+        let mut links = vec![link];
+        let mut at = 0;
+        while let Some(link) = links.get(at).copied() {
+            at += 1;
+            let joints = self.hanging(link).into_iter();
+            let stay = joints.filter(|joint| self.step(*joint).is_some());
+            links.extend(stay.map(|joint| self.ends[joint][1]));
+        }
+        links
+    }
+
+    /// Returns the joints that hang on a link, without those of links that are left away.
+    fn hanging(&self, link: usize) -> Vec<usize> {
+        let joints = self.below.get(&link).into_iter().flatten().copied();
+        joints
+            .filter(|joint| !self.without.contains(&self.ends[*joint][1]))
+            .collect()
+    }
+
+    /// Returns the link that a link hangs on.
+    fn on(&self, link: usize) -> Option<usize> {
+        self.above.get(&link).map(|joint| self.ends[*joint][0])
+    }
+
+    /// Returns whether a joint moves a finger.
+    fn is_finger(&self, joint: usize) -> bool {
+        let joint = &self.urdf.joints[joint];
+        joint.mimic.is_some()
+            || has_one_of(&joint.name, &["grip"])
+            || has_one_of(&joint.name, &FINGERS)
+            || has_one_of(&joint.child.0, &FINGERS)
+    }
+}
+
+/// Returns whether a name has one of these words in it.
+fn has_one_of(name: &str, words: &[&str]) -> bool {
+    let name = name.to_ascii_lowercase();
+    words.iter().any(|word| name.contains(word))
+}

@@ -1,0 +1,108 @@
+//! Limits of the text, and whether it is a xacro, before the parser sees it.
+//!
+//! The parser compares every attribute of an element with those before it, and every
+//! namespace with those of the elements around: the limits keep both linear in the
+//! size of the file.
+
+use std::ops::Range;
+
+use crate::MAX_BYTES;
+use crate::problems::Problems;
+
+/// The most attributes of one element: a URDF has six.
+pub(crate) const MAX_ATTRIBUTES: usize = 64;
+/// The most namespaces of a file.
+const MAX_NAMESPACES: usize = 64;
+/// The beginnings of expressions of xacro.
+const EXPRESSIONS: [&str; 2] = ["${", "$("];
+
+/// Returns whether the text may be parsed, after saying why not.
+pub(super) fn admits(source: &str, problems: &mut Problems) -> bool {
+    if source.len() > MAX_BYTES {
+        let message = format!(
+            "the file is too long: a URDF has at most {} MiB",
+            MAX_BYTES >> 20
+        );
+        problems.error(&(0..0), message, "is this the right file?");
+        return false;
+    }
+    let mut namespaces = 0;
+    for (is_tag, span) in pieces(source) {
+        let text = &source[span.clone()];
+        let expression = EXPRESSIONS.iter().filter_map(|begin| text.find(begin));
+        let is_xacro = is_tag && text.starts_with("<xacro:");
+        if let Some(at) = expression.min().or(is_xacro.then_some(0)) {
+            let word = text[at..].split([' ', '"', '\'', '>', '\n', '\t', '\r', '/']);
+            let word: String = word.take(1).flat_map(str::chars).take(40).collect();
+            let end = span.start + at + word.len();
+            problems.error(
+                &(span.start + at..end),
+                format!("`{word}` is not expanded"),
+                "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first",
+            );
+            return false;
+        }
+        if !is_tag {
+            continue;
+        }
+        namespaces += text.matches("xmlns").count();
+        let problem = match attributes(text) {
+            count if count > MAX_ATTRIBUTES => {
+                format!("an element with {count} attributes, more than {MAX_ATTRIBUTES}")
+            }
+            _ if namespaces > MAX_NAMESPACES => {
+                format!("the file has more than {MAX_NAMESPACES} namespaces")
+            }
+            _ => continue,
+        };
+        let span = span.start..span.start + text.lines().next().map_or(1, str::len);
+        problems.error(&span, problem, "is this a URDF?");
+        return false;
+    }
+    true
+}
+
+/// Returns the tags and the texts between them, in order: comments, instructions and
+/// what is marked as text are left out, and so is all that follows a mistake.
+fn pieces(source: &str) -> impl Iterator<Item = (bool, Range<usize>)> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        loop {
+            let rest = &source[at..];
+            let start = at;
+            if !rest.starts_with('<') {
+                at += rest.find('<').unwrap_or(rest.len());
+                return (start < at).then_some((false, start..at));
+            }
+            let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+            let skipped = skipped.iter().find(|(begin, _)| rest.starts_with(begin));
+            if let Some((begin, end)) = skipped {
+                let inside = &rest[begin.len()..];
+                at += begin.len() + inside.find(end)? + end.len();
+                continue;
+            }
+            at += outside_of_quotes(rest).find(|(_, byte)| *byte == b'>')?.0 + 1;
+            return Some((true, start..at));
+        }
+    })
+}
+
+/// Counts the attributes of a tag.
+fn attributes(tag: &str) -> usize {
+    outside_of_quotes(tag)
+        .filter(|(_, byte)| *byte == b'=')
+        .count()
+}
+
+/// Returns the bytes of a tag that are in no attribute's value, with their places.
+fn outside_of_quotes(tag: &str) -> impl Iterator<Item = (usize, u8)> {
+    let mut quote = None;
+    tag.bytes().enumerate().filter(move |(_, byte)| {
+        match quote {
+            Some(open) if open == *byte => quote = None,
+            None if matches!(byte, b'"' | b'\'') => quote = Some(*byte),
+            _ => return quote.is_none(),
+        }
+        false
+    })
+}
