@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::backend::MathPath;
+use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::{Fma, Prefer, Request};
 use dalembert_codegen::workspace::program::{Library, ScalarType};
