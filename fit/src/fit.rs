@@ -1,0 +1,203 @@
+//! Parameters with their standard errors.
+//!
+//! The joints' noise comes from the same triangles: σ_i² = ρ_i²/(m − k_i), the residual that a
+//! fit of joint i alone leaves (Gautier 1997, weighted least squares). With rows divided by σ_i
+//! the covariance of π is (RᵀR)⁻¹; R is never multiplied by itself.
+//!
+//! Combinations are then compared with the [reference motion](mod@crate::reference). With R_ref
+//! its factor, the singular values γ of R R_ref⁻¹/√m say how much torque a combination gives in
+//! the data per torque in that motion. Below [`LEAST_EXCITATION`] it is not excited: it
+//! keeps the robot file's value, and its standard error is infinite.
+
+use crate::accumulator::Accumulator;
+use crate::dense::{apply, back_substitute, dot, over, singular};
+use crate::error::{Error, check};
+use crate::model::Model;
+use crate::reference::{Reference, weighted};
+use crate::unexcited::{Unexcited, Weighting, separated};
+
+/// Combinations that give less torque than so much of that in the reference motion are not
+/// excited.
+pub const LEAST_EXCITATION: f64 = 1e-3;
+
+/// Noise is taken for at least so much of the torque's root mean square: exact torques would
+/// have none.
+const LEAST_NOISE: f64 = 1e-13;
+
+/// What is known of parameters before there are data.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Prior {
+    /// Nothing.
+    #[default]
+    None,
+    /// The robot file's parameters are right within standard errors, one a column, in the
+    /// parameters' units; infinite where nothing is known. A ridge.
+    File(Vec<f64>),
+}
+
+/// Identified parameters.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// π, an entry a column of the model.
+    pub parameters: Vec<f64>,
+    /// Their standard errors; infinite where the data do not tell.
+    pub standard_errors: Vec<f64>,
+    /// σ_i: the noise of each joint's torque, N·m or N.
+    pub noise: Vec<f64>,
+    /// Root mean square of each joint's residual with the robot file's parameters.
+    pub before: Vec<f64>,
+    /// The same with the identified ones, on the same states.
+    pub after: Vec<f64>,
+    /// Condition of the weighted regressor, columns of length one; infinite where columns
+    /// depend on each other in the data.
+    pub condition: f64,
+    /// What the data do not excite.
+    pub unexcited: Vec<Unexcited>,
+    /// Number of states.
+    pub states: u64,
+    /// R of the weighted data, without the prior, and z.
+    pub(crate) factor: Vec<f64>,
+}
+
+/// Identifies the parameters of a model from what was accumulated.
+///
+/// # Errors
+/// [`Error::OtherModel`], [`Error::TooFew`], and of a prior with numbers that are no standard
+/// errors [`Error::Option`] and [`Error::Length`].
+pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Error> {
+    data.matches(model)?;
+    let width = model.columns().len();
+    let noise = noise(data)?;
+    let scales: Vec<f64> = noise.iter().map(|noise| 1.0 / noise).collect();
+    let mut all = weighted(data, width, &scales);
+    let factor = all.clone().reduced();
+    if let Prior::File(errors) = prior {
+        add_prior(model, errors, &mut all)?;
+    }
+    let whole = all.reduced();
+    let stride = width + 1;
+    let r: Vec<f64> = (0..width * width)
+        .map(|i| whole[i / width * stride + i % width])
+        .collect();
+    let z: Vec<f64> = (0..width).map(|i| whole[i * stride + width]).collect();
+
+    let reference = Reference::new(model, &noise)?;
+    let root = libm::sqrt(data.states() as f64);
+    let found = singular(&over(&r, &reference.r, width), width);
+    let before = apply(&reference.r, model.parameters());
+    let mut y = vec![0.0; width];
+    let mut variances = vec![0.0f64; width];
+    let mut directions = Vec::new();
+    for k in 0..width {
+        let (value, direction) = (found.values[k], &found.directions[k]);
+        let parameters = back_substitute(&reference.r, direction);
+        let excited = value >= LEAST_EXCITATION * root;
+        let along = match excited {
+            true => dot(&found.images[k], &z) / (value * value),
+            false => dot(direction, &before),
+        };
+        for (y, direction) in y.iter_mut().zip(direction) {
+            *y += along * direction;
+        }
+        for (column, part) in parameters.iter().enumerate() {
+            if excited {
+                variances[column] += (part / value).powi(2);
+            } else if (part * reference.norms[column]).abs() > 1e-6 {
+                variances[column] = f64::INFINITY;
+            }
+        }
+        if !excited {
+            directions.push(parameters);
+        }
+    }
+    let weighting = Weighting {
+        model,
+        noise: &noise,
+        reference: &reference,
+    };
+    let directions = separated(directions, &reference.norms);
+    let mut unexcited = weighting.describe(&directions, &r, root)?;
+    unexcited.sort_by(|a, b| a.excitation.total_cmp(&b.excitation));
+    let parameters = back_substitute(&reference.r, &y);
+    Ok(Fit {
+        before: data.residual(model, model.parameters())?,
+        after: data.residual(model, &parameters)?,
+        parameters,
+        standard_errors: variances.into_iter().map(libm::sqrt).collect(),
+        condition: condition(&factor, width),
+        noise,
+        unexcited,
+        states: data.states(),
+        factor,
+    })
+}
+
+/// σ_i of every joint.
+fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
+    let each = data.factors().into_iter().enumerate().map(|(joint, row)| {
+        let needed = row.columns.len() as u64;
+        if data.states() <= needed {
+            return Err(Error::TooFew {
+                joint,
+                states: data.states(),
+                needed,
+            });
+        }
+        let width = row.columns.len() + 1;
+        let torques = row.factor.chunks(width).map(|r| r[width - 1]);
+        let squares: f64 = torques.map(|x| x * x).sum();
+        let degrees = (data.states() - needed) as f64;
+        let least = LEAST_NOISE * libm::sqrt(squares / data.states() as f64);
+        let noise = libm::sqrt(row.rest() / degrees).max(least);
+        // Torques that are all zero have none: any weight will do.
+        Ok(if noise > 0.0 { noise } else { 1.0 })
+    });
+    each.collect()
+}
+
+fn add_prior(
+    model: &Model,
+    errors: &[f64],
+    all: &mut crate::triangle::Triangle,
+) -> Result<(), Error> {
+    let width = model.columns().len();
+    if errors.len() == width && errors.iter().any(|error| error.is_nan() || *error <= 0.0) {
+        return Err(Error::Option(
+            "standard errors of a prior have to be positive numbers, or infinite",
+        ));
+    }
+    let finite: Vec<f64> = (errors.iter())
+        .map(|error| if error.is_finite() { *error } else { 1.0 })
+        .collect();
+    check("prior", &finite, width)?;
+    for (k, error) in errors.iter().enumerate().filter(|(_, e)| e.is_finite()) {
+        let entry = |column: usize| match column {
+            _ if column == k => 1.0 / error,
+            _ if column == width => model.parameters()[k] / error,
+            _ => 0.0,
+        };
+        all.push((0..=width).map(entry));
+    }
+    Ok(())
+}
+
+/// The condition of R, whole rows with a last column that is not part of it, its columns
+/// scaled to length one.
+pub(crate) fn condition(factor: &[f64], width: usize) -> f64 {
+    let entry = |i: usize, k: usize| factor[i * (width + 1) + k];
+    let norm = |k: usize| -> f64 {
+        let squares = (0..width).map(|i| entry(i, k).powi(2));
+        libm::sqrt(squares.sum())
+    };
+    let norms: Vec<f64> = (0..width).map(norm).collect();
+    let scaled: Vec<f64> = (0..width * width)
+        .map(|i| match norms[i % width] {
+            0.0 => 0.0,
+            norm => entry(i / width, i % width) / norm,
+        })
+        .collect();
+    let values = singular(&scaled, width).values;
+    let largest = values.iter().fold(0.0f64, |a, b| a.max(*b));
+    let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+    largest / least
+}
