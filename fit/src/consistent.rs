@@ -39,7 +39,7 @@ const LAST: f64 = 5e-9;
 /// By how much the barrier weakens at once.
 const WEAKEN: f64 = 0.1;
 /// Newton steps at one strength of the barrier; ten are more than usual.
-const STEPS: usize = 60;
+const STEPS: usize = 200;
 
 /// Parameters of bodies and drives that exist.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,7 +120,6 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
             let now = value(&theta).ok_or(Error::NotConverged)?;
             let along = newton(&metric, &wanted, &barrier, &theta, strength)?;
             steps += 1;
-            // From half a step on the quadratic model tells what is left to gain.
             let mut length = 1.0;
             let next = loop {
                 let next: Vec<f64> = (theta.iter().zip(&along))
@@ -135,7 +134,8 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
             // Where rounding hides what is left, there is no better point.
             let Some((next, gain)) = next else { break };
             theta = next;
-            if length == 1.0 && gain <= 1e-4 * strength {
+            // Below the rounding of the value itself there is nothing left to gain.
+            if gain <= (1e-4 * strength).max(1e-14 * now) {
                 break;
             }
         }

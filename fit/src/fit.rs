@@ -85,13 +85,18 @@ pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Erro
     let root = libm::sqrt(data.states() as f64);
     let found = singular(&over(&r, &reference.r, width), width);
     let before = apply(&reference.r, model.parameters());
+    // A prior tells what it is finite for, however little the data say of it.
+    let told = match prior {
+        Prior::None => LEAST_EXCITATION * root,
+        Prior::File(_) => 1e-12 * found.values.iter().fold(0.0f64, |a, b| a.max(*b)),
+    };
     let mut y = vec![0.0; width];
     let mut variances = vec![0.0f64; width];
     let mut directions = Vec::new();
     for k in 0..width {
         let (value, direction) = (found.values[k], &found.directions[k]);
         let parameters = back_substitute(&reference.r, direction);
-        let excited = value >= LEAST_EXCITATION * root;
+        let excited = value >= told;
         let along = match excited {
             true => dot(&found.images[k], &z) / (value * value),
             false => dot(direction, &before),
@@ -118,7 +123,8 @@ pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Erro
     let directions = separated(directions, &reference.norms);
     let mut unexcited = weighting.describe(&directions, &r, root)?;
     unexcited.sort_by(|a, b| a.excitation.total_cmp(&b.excitation));
-    let parameters = back_substitute(&reference.r, &y);
+    let mut parameters = back_substitute(&reference.r, &y);
+    keep_file(model, &directions, &reference.norms, &mut parameters);
     Ok(Fit {
         before: data.residual(model, model.parameters())?,
         after: data.residual(model, &parameters)?,
@@ -130,6 +136,49 @@ pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Erro
         states: data.states(),
         factor,
     })
+}
+
+/// Takes back what unexcited directions have of the change from the file's parameters, sizes
+/// by `norms`: a parameter that is one of these directions by itself then keeps its value.
+fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: &mut [f64]) {
+    let mut change: Vec<f64> = (parameters.iter().zip(model.parameters()))
+        .zip(norms)
+        .map(|((own, file), norm)| (own - file) * norm)
+        .collect();
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(directions.len());
+    for direction in directions {
+        let mut own: Vec<f64> = direction
+            .iter()
+            .zip(norms)
+            .map(|(x, norm)| x * norm)
+            .collect();
+        // Twice is enough (Giraud, Langou and Rozložník 2005).
+        for _ in 0..2 {
+            for other in &basis {
+                remove(&mut own, other);
+            }
+        }
+        let size = libm::sqrt(dot(&own, &own));
+        if size > 0.0 {
+            own.iter_mut().for_each(|x| *x /= size);
+            remove(&mut change, &own);
+            basis.push(own);
+        }
+    }
+    let file = model.parameters().iter().zip(norms);
+    for ((own, (file, norm)), change) in parameters.iter_mut().zip(file).zip(change) {
+        if *norm > 0.0 {
+            *own = file + change / norm;
+        }
+    }
+}
+
+/// Subtracts the part of a vector along a unit vector.
+fn remove(from: &mut [f64], unit: &[f64]) {
+    let along = dot(from, unit);
+    for (x, unit) in from.iter_mut().zip(unit) {
+        *x -= along * unit;
+    }
 }
 
 /// σ_i of every joint.
