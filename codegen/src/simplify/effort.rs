@@ -1,8 +1,8 @@
 //! How much work a search may do: counted in e-nodes, pairs and moves, never
 //! in time, so the result is the same on every machine.
 
-use super::egraph::SaturationLimits;
 use super::extract::Schedule;
+use super::rules::RuleLimits;
 use super::search::SearchLimits;
 
 /// A program of at most so many operations is a small one.
@@ -43,17 +43,13 @@ impl Effort {
         }
     }
 
-    pub(super) fn budget(self) -> SaturationLimits {
-        match self {
-            Effort::Quick => SaturationLimits {
-                nodes: 5_000,
-                iterations: 1,
-                rounds: 1,
-            },
-            Effort::Thorough => SaturationLimits {
-                nodes: 100_000,
-                iterations: 3,
-                rounds: 2,
+    /// How far rules are applied.
+    pub(super) fn rules(self) -> RuleLimits {
+        RuleLimits {
+            growth: 20,
+            iterations: match self {
+                Effort::Quick => 2,
+                Effort::Thorough => 4,
             },
         }
     }

@@ -1,8 +1,8 @@
 //! Fewer operations, same function.
 //!
 //! - [`effort`]: how much work a search may do, in moves and nodes
-//! - [`classes`]: values up to sign by fingerprint, and the ways to compute each
-//! - [`rules`], [`egraph`]: equality saturation with rules as data
+//! - [`classes`]: the e-graph: values up to sign by fingerprint, and the ways to compute each
+//! - [`rules`]: identities of algebra, applied by pattern
 //! - [`discover`]: ways that only the fingerprints show; `sieve`: whether a value may be
 //!   among others
 //! - [`extract`]: the cheapest program that the ways allow
@@ -11,7 +11,6 @@
 pub(crate) mod classes;
 pub(crate) mod discover;
 pub(crate) mod effort;
-pub(crate) mod egraph;
 pub(crate) mod extract;
 pub(crate) mod rules;
 pub(crate) mod search;
@@ -126,14 +125,15 @@ pub fn watched(
     let mut random = Random::new(1);
     tell(Part::EGraph, [0, 1], start);
 
-    let mut classes = Classes::new(start);
-    let program = classes.program();
-    egraph::saturate(&mut classes, &program, effort.budget());
+    let mut classes = Classes::default();
+    let (_, program) = classes.begin(start);
+    rules::saturate(&mut classes, effort.rules());
     let found = search::extract(&classes, &program, effort.first_schedule(), &mut random);
     let mut best = take(found, start);
     passes.push(Pass::of("e-graph", &best));
     let saturated = best.clone();
 
+    let formulations = Classes::of(variants.iter().chain(helpers));
     let settings = effort.search(best.counts().operations());
     let mut idle = 0;
     for round in 0..settings.rounds {
@@ -141,7 +141,7 @@ pub fn watched(
             break;
         }
         tell(Part::Search, [round, settings.rounds], &best);
-        let found = search::round(&best, variants, helpers, &settings, &mut random);
+        let found = search::round(&best, &formulations, &settings, &mut random);
         let before = cost(&best);
         best = take(found, &best);
         idle = if cost(&best) < before { 0 } else { idle + 1 };

@@ -1,6 +1,8 @@
 //! Discovery and extraction in turns.
 
-use super::classes::{ClassId, Classes, ENode};
+use rustc_hash::FxHashSet;
+
+use super::classes::{ClassId, Classes, Way};
 use super::cost;
 use super::discover;
 use super::extract::{CostModel, Extraction, Schedule};
@@ -26,25 +28,23 @@ pub(crate) struct SearchLimits {
 /// A program with more values than this is not paired whole in any search.
 const MAX_OWN: usize = 1_500;
 
-/// One round from a program: what other graphs and the fingerprints offer,
-/// then extraction. Never returns a dearer program.
+/// One round from a program: what the formulations, whose e-graph this is, and the
+/// fingerprints offer, then extraction. Never returns a dearer program.
 pub(crate) fn round(
     program: &Graph,
-    variants: &[Graph],
-    helpers: &[Graph],
+    formulations: &Classes,
     limits: &SearchLimits,
     random: &mut Random,
 ) -> Graph {
-    let mut classes = Classes::new(program);
-    let choice = classes.program();
-    let own: Vec<ClassId> = (0..classes.len() as ClassId).collect();
-    for graph in variants.iter().chain(helpers) {
-        classes.absorb(graph);
-    }
+    let mut classes = formulations.clone();
+    let (own, choice) = classes.begin(program);
     discover::multiples(&mut classes, &own, &choice);
-    // The program's own classes come first, then the other graphs' in turn.
+    // The program's own classes come first, then the others in turn.
     let most = limits.pairs.max(own.len().min(MAX_OWN));
-    let pool: Vec<ClassId> = (0..classes.len().min(most) as ClassId).collect();
+    let is_own: FxHashSet<ClassId> = own.iter().copied().collect();
+    let others = classes.ids().iter().filter(|id| !is_own.contains(id));
+    let pool = own.iter().chain(others).take(most);
+    let pool: Vec<ClassId> = pool.copied().collect();
     discover::pairs(&mut classes, &pool);
     if own.len() <= limits.substitutes {
         discover::resubstitute(&mut classes, &own);
@@ -66,13 +66,14 @@ pub(crate) fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
         substitutes: 1_000,
         schedule: Schedule::COOLING,
     };
-    round(program, &[], helpers, &limits, &mut Random::new(1))
+    let formulations = Classes::of(helpers);
+    round(program, &formulations, &limits, &mut Random::new(1))
 }
 
 /// Climbs, anneals and climbs again from a choice.
 pub(crate) fn extract(
     classes: &Classes,
-    choice: &[Option<ENode>],
+    choice: &[Option<Way>],
     schedule: Schedule,
     random: &mut Random,
 ) -> Graph {
