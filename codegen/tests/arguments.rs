@@ -11,6 +11,7 @@ use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
+use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::states::JointState;
 use dalembert_codegen::workspace::verify::exact::prove;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
@@ -523,6 +524,17 @@ fn entries_have_the_arguments() {
     ] {
         assert!(text.contains(expected), "{expected}\n{text}");
     }
+}
+
+/// D with a payload and polynomial sines was once looked for in a box without payloads.
+#[test]
+fn polynomial_sines_of_an_inertia_with_a_payload() {
+    let request = Request {
+        sincos: SinCos::Polynomial { error: None },
+        ..request(&[Function::Inertia, Function::Gravity], BOTH)
+    };
+    let text = generate(&support::robot("planar2r"), &request).text;
+    assert!(text.contains("pub fn inertia(q: &[f64; 2], load: &Load) -> [[f64; 2]; 2] {"));
 }
 
 /// The macro's clause, and what it says of a slip.
