@@ -18,14 +18,14 @@ const RATE: f64 = 10.0;
 /// this something was left out, or rounding can cost that much.
 const MOST_UNITS: f64 = 65_536.0;
 
-/// What was found of one function.
+/// The findings about one function.
 #[derive(Clone, Debug)]
 pub struct Line {
     /// Its module.
     pub module: String,
     /// Its name.
     pub name: String,
-    /// What was shown, or why nothing was.
+    /// The bounds that were shown, or the reason why none was.
     pub result: Result<Distance, Fault>,
 }
 
@@ -37,7 +37,7 @@ pub struct Distance {
     pub edits: f64,
     /// By rounding and library sines.
     pub rounding: f64,
-    /// What is seen at states.
+    /// The largest error seen at states.
     pub seen: f64,
     /// Half an ulp, relative.
     pub unit: f64,
@@ -49,23 +49,23 @@ impl Distance {
         (self.edits + self.rounding) / self.unit
     }
 
-    /// Whether that is what an exact program costs.
+    /// Returns whether that is no more than an exact program's rounding.
     pub fn is_shown(&self) -> bool {
         self.units() <= MOST_UNITS
     }
 }
 
-/// What was found of a file.
+/// The findings about a file.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// One a function, in the file's order.
     pub lines: Vec<Line>,
-    /// Whether rates are without a limit in the robot file.
+    /// `true` if the robot file gives rates no limit.
     pub is_unlimited: bool,
 }
 
 impl Report {
-    /// Whether every function is shown.
+    /// Returns whether every function is shown.
     pub fn is_shown(&self) -> bool {
         let shown = |line: &Line| line.result.as_ref().is_ok_and(Distance::is_shown);
         !self.lines.is_empty() && self.lines.iter().all(shown)

@@ -1,4 +1,4 @@
-//! What the recursion computes with: polynomials for bounds, doubles to look for states.
+//! The numbers of the recursion: polynomials for bounds, doubles to look for states.
 
 use crate::fault::Fault;
 use crate::polynomial::{Polynomial, Work};
@@ -8,7 +8,7 @@ use crate::polynomial::{Polynomial, Work};
 pub struct Real {
     /// The nearest double.
     pub value: f64,
-    /// How far the number is from it at most.
+    /// The largest distance of the number from it.
     pub radius: f64,
 }
 

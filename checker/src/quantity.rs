@@ -1,4 +1,4 @@
-//! What functions return, each by the recursion.
+//! The results of functions, each by the recursion.
 //!
 //! The recursion is quadratic in q̇: h(v + w) − h(v) − h(w) is twice the load that two
 //! velocities give together, C(v) w. So the Christoffel symbols, the Coriolis matrix and
@@ -34,7 +34,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// How many axes its array has, each over the rows.
+    /// Returns the number of axes of its array, each over the rows.
     pub fn axes(self) -> usize {
         match self {
             Quantity::KineticEnergy => 0,
@@ -45,7 +45,7 @@ impl Quantity {
         }
     }
 
-    /// How many of q, q̇ and q̈ it is a function of.
+    /// Returns the number of arguments among q, q̇ and q̈, in this order.
     fn arguments(self) -> usize {
         match self {
             Quantity::Gravity | Quantity::Inertia | Quantity::Christoffel => 1,
@@ -62,7 +62,7 @@ pub struct Function {
     pub name: &'static str,
     /// The struct that it returns, if it does.
     pub structure: Option<&'static str>,
-    /// What it returns, by the names of fields.
+    /// The quantities of the results, by the names of fields.
     pub fields: &'static [(&'static str, Quantity)],
 }
 
@@ -116,7 +116,7 @@ impl Function {
         FUNCTIONS.iter().find(|function| function.name == name)
     }
 
-    /// How many of q, q̇ and q̈ it is a function of.
+    /// Returns the number of arguments among q, q̇ and q̈, in this order.
     pub fn arguments(&self) -> usize {
         let each = self.fields.iter().map(|(_, field)| field.arguments());
         each.max().unwrap_or(0)

@@ -38,7 +38,7 @@ pub fn states<N: Number>(setting: &Setting, at: &[Vec<f64>; 3]) -> Vec<State<N>>
     (0..setting.joints.len()).map(state).collect()
 }
 
-/// What is seen of an output.
+/// The errors seen of an output.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
     /// The largest difference between text and recursion.
@@ -112,7 +112,7 @@ impl Random {
     }
 }
 
-/// What the text returns, computed in its scalar.
+/// Runs the text in its scalar and returns its results.
 fn run(program: &Program, state: &[Vec<f64>; 3], is_single: bool) -> Vec<f64> {
     // A sum or product of two f32 in f64, rounded to f32, is rounded as in f32: f64 has
     // more than twice as many bits.

@@ -28,7 +28,7 @@ pub struct Kind<'k> {
     pub scalar: &'k str,
     /// The joints of the arm.
     pub joints: usize,
-    /// How many joints results are over.
+    /// The number of joints that results are over.
     pub rows: usize,
 }
 
@@ -42,7 +42,7 @@ struct Parser<'t> {
     arguments: HashMap<&'t str, usize>,
     /// Whether a block is read, and how it spells its angle, once it has.
     is_inside: bool,
-    /// Whether a part of a long function is read.
+    /// `true` while a part of a long function is read.
     is_part: bool,
     angle: Option<&'t str>,
 }

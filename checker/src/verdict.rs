@@ -22,7 +22,7 @@ const BOX_SLACK: f64 = 1e-9;
 /// relative to what was found.
 const SCALE_SLACK: f64 = 1e-4;
 
-/// What was found of one output; all in its own unit.
+/// The findings about one output, in its own unit.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// Its joints, from zero: of an entry of D its row and its column.
@@ -48,7 +48,7 @@ impl Output {
         if sum == 0.0 { 0.0 } else { sum.next_up() }
     }
 
-    /// Whether E is shown, but for one part in 10⁹ of it.
+    /// Returns whether E is shown, but for one part in 10⁹ of it.
     pub fn holds(&self) -> bool {
         self.bound() <= self.claimed * (1.0 + 1e-9)
     }
@@ -63,7 +63,7 @@ impl Output {
     }
 }
 
-/// What was found of a claim.
+/// The findings about a claim.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// The name of the function.
@@ -122,14 +122,14 @@ pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
     })
 }
 
-/// What was found of one output, in its own unit.
+/// The findings about one output, in its own unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     /// Bound of what the text differs from the function in real numbers.
     pub edits: f64,
     /// Bound of what rounding and library sines cost.
     pub rounding: f64,
-    /// What was seen at states.
+    /// The largest error seen at states.
     pub seen: Seen,
 }
 

@@ -18,7 +18,7 @@ use crate::scene::Setting;
 /// At how many states the search looks before it climbs, and from how many it climbs.
 const STATES: usize = 2048;
 const CLIMBS: usize = 16;
-/// How many climbs more start near the best state.
+/// The number of further climbs that start near the best state.
 const HOPS: usize = 240;
 /// The most rounds of all coordinates, and the gain below which there are no more.
 const ROUNDS: usize = 60;
@@ -107,7 +107,7 @@ fn values(claim: &Claim, setting: &Setting, at: &[Vec<f64>; 3]) -> Result<Vec<f6
     claim.function()?.outputs(setting, &states, &rows, work)
 }
 
-/// What an output's magnitude is at least at a state.
+/// Returns a lower bound of an output's magnitude at a state.
 fn least(
     claim: &Claim,
     setting: &Setting,

@@ -1,4 +1,4 @@
-//! What a language lacks of what somebody asks for: refused by name, before any search.
+//! Refuses by name, before any search, requests that a language cannot express.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::emit::{Interface, Layout, header};
 use crate::function::Function;
 use crate::language::{Entries, Language};
 
-/// What a language lacks.
+/// A request that a language cannot express.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Lacks {

@@ -108,12 +108,12 @@ pub(crate) fn float(scalar: ScalarType) -> &'static str {
     }
 }
 
-/// Whether the function's results are one struct: a bundle's are.
+/// Returns whether the function's results are one struct: a bundle's are.
 pub(crate) fn is_bundle(function: Function) -> bool {
     !Function::ALL.contains(&function) && function != Function::Load
 }
 
-/// Whether the function returns its only number.
+/// Returns whether the function returns its only number.
 pub(crate) fn is_number(function: Function) -> bool {
     function.structure().is_none() && function.quantities()[0].shape().0.is_empty()
 }
@@ -246,7 +246,7 @@ pub(crate) fn unread(printed: &Printed<'_>) -> Vec<Argument> {
         .collect()
 }
 
-/// How the polynomials of an angle name their step, counted from zero.
+/// Returns the name of a step of an angle's polynomials, counted from zero.
 pub(crate) fn kernel_name(angle: AngleSum, step: usize) -> String {
     format!("x{angle}_{}", step + 1)
 }

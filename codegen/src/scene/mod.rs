@@ -68,7 +68,7 @@ pub struct SceneRobot {
     base: Bases,
     /// Chosen where a payload is an argument.
     load: Option<LoadParameters>,
-    /// What the joints of the chain move in place of the robot's links.
+    /// The links that the joints of the chain move in place of the robot's.
     fitted: Option<Vec<FittedLink>>,
 }
 

@@ -57,7 +57,7 @@ pub(super) struct Search<'a> {
     pub guesses: usize,
     /// Times that a part is taken back and chosen anew.
     pub retries: usize,
-    /// Whether the first program to edit is no equal of the full one.
+    /// `true` if the first program to edit is not equal to the full one.
     pub is_direct: bool,
 }
 

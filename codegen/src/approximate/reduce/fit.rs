@@ -24,7 +24,7 @@ pub(super) struct Fit<'t> {
     block: usize,
     /// Of each block: products of the terms with each other and with the function.
     products: Vec<Vec<f64>>,
-    /// How large each column is.
+    /// The size of each column.
     sizes: Vec<f64>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Solution {
     pub factors: Vec<f64>,
     /// The largest error, one being the allowance.
     pub error: f64,
-    /// How much worse the squares become without each term.
+    /// Returns by how much the squares grow without each term.
     pub saliency: Vec<f64>,
     /// (JᵀWJ)⁻¹, row after row.
     pub inverse: Vec<f64>,

@@ -31,13 +31,13 @@ use crate::watch::FunctionWatch;
 use build::Builder;
 use terms::{Model, Terms};
 
-/// Of the sampled positions.
+/// The seed of the sampled positions.
 const SEED: u64 = 0x5eed;
 
 /// Sampled positions.
 const POSITIONS: usize = 48;
 
-/// How much of the allowances the models that are tried use: the rest is for pruning.
+/// The parts of the allowances that tried models use: the rest is for pruning.
 const USES: [f64; 5] = [0.25, 0.45, 0.65, 0.8, 0.93];
 
 /// Returns programs of smaller models than the exact program's, from those that leave most

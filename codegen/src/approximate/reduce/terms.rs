@@ -22,7 +22,7 @@ const NOTHING: f64 = 0.97;
 pub(super) struct Term {
     /// The segment of the chain.
     pub link: usize,
-    /// What the segment moves if the parameter is one.
+    /// The link that the segment moves if the parameter is one.
     pub unit: FittedLink,
     /// Those that together can do what it does: it may stand in their place.
     pub stands_for: Option<[usize; 2]>,

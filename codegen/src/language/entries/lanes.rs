@@ -74,7 +74,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     text.push_str("    }\n    results\n}\n");
 }
 
-/// What one lane of an argument is.
+/// Returns one lane of an argument.
 fn in_lane(argument: Argument, sizes: Sizes) -> String {
     let (name, length) = (argument.name(), argument.length(sizes));
     let entries: Vec<String> = (0..length).map(|i| format!("{name}[{i}][l]")).collect();

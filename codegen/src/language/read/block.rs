@@ -8,12 +8,12 @@ use crate::program::{AngleSum, Literal, LoweredTrig, Operand, Operation, Output,
 /// The open block of an angle's polynomials.
 pub(super) struct Block {
     pub(super) trig: LoweredTrig,
-    /// How its lines name the angle.
+    /// The name of the angle in its lines.
     argument: String,
-    /// How its lines name their steps, before the number.
+    /// The name of the steps in its lines, before the number.
     prefix: String,
     pub(super) kernel: Kernel,
-    /// Whether the result was read.
+    /// `true` once the result was read.
     done: bool,
 }
 

@@ -99,7 +99,7 @@ impl Lowered {
 struct CReader<'n> {
     reader: Reader<'n>,
     names: &'n Names,
-    /// What is said of angles that are far.
+    /// The text about angles that are far.
     far: &'static str,
     /// The polynomials of the angle before.
     block: Option<Block>,

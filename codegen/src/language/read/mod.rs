@@ -30,7 +30,7 @@ use reader::Reader;
 pub struct TextError {
     /// The line of the text, from one.
     pub line: usize,
-    /// What is wrong there.
+    /// The reason.
     pub reason: String,
 }
 

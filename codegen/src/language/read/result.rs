@@ -8,7 +8,7 @@ use dalembert_model::outputs::Axis;
 use super::expect;
 use crate::function::Function;
 
-/// Whether every bracket that opens is closed again.
+/// Returns whether every bracket that opens is closed again.
 pub(super) fn is_complete(text: &str) -> bool {
     let depth = text.chars().fold(0i64, |depth, c| match c {
         '{' | '[' => depth + 1,

@@ -7,7 +7,7 @@ use crate::language::dialect::holes;
 use crate::program::{AngleSum, Library};
 
 impl Reader<'_> {
-    /// Whether a value is one that [`sines`](Self::sines) reads.
+    /// Returns whether [`sines`](Self::sines) reads this value.
     pub(super) fn is_of_sines(&self, value: &str) -> bool {
         value.contains('(') || value.starts_with("sin[") || value.starts_with("cos[")
     }

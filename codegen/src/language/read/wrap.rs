@@ -9,19 +9,19 @@ use std::collections::VecDeque;
 use crate::function::Argument;
 use crate::language::dialect::holes;
 
-/// What is open at a line.
+/// A block or part that is open at a line.
 #[derive(Default)]
 pub(super) struct Wrap {
-    /// Whether a part has begun, whose head must follow.
+    /// `true` if a part has begun, whose head must follow.
     is_part: bool,
-    /// What hands the values on and ends the block or the part, line by line.
+    /// The lines that hand the values on and end the block or the part.
     rest: VecDeque<String>,
-    /// Whether that has begun.
+    /// `true` once these have begun.
     is_ending: bool,
 }
 
 impl Wrap {
-    /// Whether the statements may end here.
+    /// Returns whether the statements may end here.
     pub(super) fn is_closed(&self) -> bool {
         self.rest.is_empty()
     }
