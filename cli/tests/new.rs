@@ -8,12 +8,13 @@ use crate::support::{robot, run, temporary};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
-/// Built as a user would build it, outside this workspace's target directory.
+/// Built as a user would build it, outside this workspace and its target directory: with
+/// the checkout that the command comes from, since no registry has this version.
 #[test]
 fn it_builds_and_passes_at_once() {
     let folder = temporary("new").join("my_arm");
     let name = folder.to_str().unwrap();
-    let ran = run(&["new", name, "--path", ROOT]);
+    let ran = run(&["new", name]);
     assert_eq!(ran.code, 0, "{}", ran.err);
     // The versions that everything else here is tested with.
     fs::copy(format!("{ROOT}/Cargo.lock"), folder.join("Cargo.lock")).unwrap();
@@ -59,7 +60,20 @@ fn from_robot_files_and_urdfs() {
     assert!(source.contains("pub mod puma560 = \"robots/puma560.toml\";"));
     assert!(source.contains("[0.1; 6]") && !source.contains("JOINTS"));
     let manifest = fs::read_to_string(made("puma").join("Cargo.toml")).unwrap();
-    assert!(manifest.contains("name = \"puma\"") && manifest.contains("version = \"0.1.0\" }"));
+    let checkout = fs::canonicalize(ROOT).unwrap();
+    let own = format!("dalembert = {{ path = {:?} }}", checkout.to_str().unwrap());
+    assert!(manifest.contains("name = \"puma\"") && manifest.contains(&own));
+    let named = [
+        "new",
+        &text("named"),
+        "--path",
+        ROOT,
+        "--from",
+        &robot("puma560"),
+    ];
+    assert_eq!(run(&named).code, 0);
+    let named = fs::read_to_string(made("named").join("Cargo.toml")).unwrap();
+    assert!(named.contains(&own), "{named}");
 
     let urdf = format!("{ROOT}/import/tests/data/twodofs.urdf");
     let ran = run(&["new", &text("two"), "--from", &urdf]);
@@ -96,7 +110,7 @@ fn from_robot_files_and_urdfs() {
         ),
         (
             vec![text("far"), "--path".into(), text("nowhere")],
-            "there is no crate",
+            "there is no dalembert in",
         ),
         (
             vec![text("lost"), "--from".into(), text("lost.toml")],
@@ -112,7 +126,7 @@ fn from_robot_files_and_urdfs() {
         assert!(ran.err.contains(part), "{part}: {}", ran.err);
     }
     // Nothing is left of what was refused.
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 3);
     // What the errors say works.
     let hand = text("hand");
     let ran = run(&[

@@ -2,6 +2,7 @@
 //! other text must bring the right values. What does not is refused.
 
 use dalembert_codegen::Entries;
+use dalembert_codegen::workspace::clauses::expand_from;
 use dalembert_codegen::workspace::emit::Layout;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
@@ -279,4 +280,22 @@ fn every_line_counts() {
         tried += 1;
     }
     assert!(tried > 35, "{tried}");
+}
+
+/// Without the crate's feature, batches are refused in a sentence of ours that says what to
+/// write, and nothing reads a crate that is not there: rustc has nothing to add.
+#[test]
+fn batches_without_the_feature_are_one_sentence() {
+    let invocation = "mod arm = \"../generated/robots/planar2r.toml\"; \
+                      outputs: gravity; scalar: f64; entries: batch;";
+    let expanded = |has_batch| {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        expand_from(invocation.parse().unwrap(), &[folder], has_batch).to_string()
+    };
+    let (without, with) = (expanded(false), expanded(true));
+    assert_eq!(without.matches("compile_error").count(), 1, "{without}");
+    assert!(without.contains("needs the feature `batch` of the crate dalembert"));
+    assert!(without.contains("features = [\\\"batch\\\"]"), "{without}");
+    assert!(!without.contains("batch ::"), "{without}");
+    assert!(!with.contains("compile_error") && with.contains("batch ::"));
 }

@@ -16,8 +16,8 @@ pub struct NewArgs {
     pub from: Option<PathBuf>,
     #[command(flatten)]
     pub chain: ChainArgs,
-    /// Take dalembert from this checkout [default: the registry's, of this
-    /// version]
+    /// Take dalembert from this checkout [default: the one that this program was
+    /// built from, or crates.io]
     #[arg(long, value_name = "FOLDER")]
     pub path: Option<PathBuf>,
     /// Print what was made as JSON

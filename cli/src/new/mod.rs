@@ -36,7 +36,8 @@ pub fn run(args: &NewArgs) -> Outcome {
     let reading = reading(&robot_file)?;
     let robot = &reading.robot.name;
     let source = texts::source(robot, reading.robot.joints.len());
-    let manifest = texts::manifest(&name, &dependency(args)?);
+    let dependency = dependency(args)?;
+    let manifest = texts::manifest(&name, &dependency);
     let files = [
         ("Cargo.toml".to_owned(), manifest),
         (format!("robots/{robot}.toml"), robot_file),
@@ -57,6 +58,11 @@ pub fn run(args: &NewArgs) -> Outcome {
             "joints": reading.robot.joints.len(),
             "files": files,
         }));
+    }
+    if dependency.starts_with("version") {
+        output::note(&format!(
+            "dalembert {VERSION} is taken from crates.io; from a checkout of it: --path FOLDER"
+        ));
     }
     output::note(&format!(
         "{}: cargo run prints torques, cargo test compares them with the runtime",
@@ -131,21 +137,38 @@ fn reading(text: &str) -> Result<Reading, Failure> {
         .map_err(|errors| Failure::Input(errors.render("the robot file", text)))
 }
 
-/// Where the crate has dalembert from.
+/// Returns where the crate has dalembert from: the folder that was given, the checkout that
+/// this program was built from, if it is still there, or the registry.
 fn dependency(args: &NewArgs) -> Result<String, Failure> {
-    let Some(path) = &args.path else {
-        return Ok(format!("version = {:?}", env!("CARGO_PKG_VERSION")));
+    let own = Path::new(OWN_CHECKOUT);
+    let path = match &args.path {
+        Some(path) => path,
+        None if is_dalembert(own) => own,
+        None => return Ok(format!("version = {VERSION:?}")),
     };
-    let found = path.join("Cargo.toml").is_file();
-    let whole = fs::canonicalize(path).ok().filter(|_| found);
+    let whole = fs::canonicalize(path)
+        .ok()
+        .filter(|path| is_dalembert(path));
     let Some(whole) = whole else {
         return Err(Failure::Input(format!(
-            "error: --path: there is no crate in `{}`\n  = help: the folder of a checkout of dalembert, with its Cargo.toml",
+            "error: --path: there is no dalembert in `{}`\n  = help: the folder of a checkout of dalembert, with its Cargo.toml",
             path.display()
         )));
     };
     // A debug string is a TOML string for every path that is text.
     Ok(format!("path = {:?}", whole.display().to_string()))
+}
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Where this program was built, unless that was from the registry: there, no folder holds
+/// this one and dalembert.
+const OWN_CHECKOUT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+
+/// Returns whether a folder holds the crate dalembert.
+fn is_dalembert(folder: &Path) -> bool {
+    fs::read_to_string(folder.join("Cargo.toml"))
+        .is_ok_and(|manifest| manifest.lines().any(|line| line == "name = \"dalembert\""))
 }
 
 /// Writes the files into a folder beside, which then gets its name.

@@ -189,10 +189,13 @@ impl Exact {
             Form::Rational(value) => rational(value),
             Form::Polynomial(terms) => {
                 let mut sum = S::zero();
+                let mut pairs = BTreeMap::new();
                 for (monomial, coefficient) in terms.iter() {
                     let mut product = rational(coefficient)?;
                     for power in monomial {
-                        let rotor = pair(&power.angle);
+                        let rotor = pairs
+                            .entry(&power.angle)
+                            .or_insert_with(|| pair(&power.angle));
                         for _ in 0..power.sin {
                             product = product.mul(&rotor.sin);
                         }

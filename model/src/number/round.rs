@@ -118,11 +118,15 @@ fn scale(mut x: f64, mut e: i64) -> f64 {
 
 /// Ziv's strategy: more bits until both ends of the enclosure round alike.
 fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
-    let mut bits = 192;
+    let mut bits = 128;
     loop {
         let (value, error) = enclose(terms, bits);
-        let low = T::nearest_rational(&(&value - &error));
-        let high = T::nearest_rational(&(&value + &error));
+        let near = |value: BigInt| {
+            // In no lowest terms: rounding divides, and asks for none.
+            T::nearest_rational(&Rational::new_raw(value, BigInt::one() << bits))
+        };
+        let low = near(&value - &error);
+        let high = near(&value + &error);
         if low == high {
             return low;
         }
@@ -130,37 +134,40 @@ fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
             // Only a relation that the representation does not know, such as
             // sin π/4 = cos π/4, brings a constant this close to a boundary:
             // the value is zero, or the boundary itself.
-            return T::nearest_rational(&if value.abs() <= error {
-                Rational::zero()
-            } else {
-                value
+            return near(match value.abs() <= error {
+                true => BigInt::zero(),
+                false => value,
             });
         }
         bits *= 2;
     }
 }
 
-/// A value and a bound of its error, with sines and cosines to `bits` bits.
-fn enclose(terms: &BTreeMap<Monomial, Rational>, bits: usize) -> (Rational, Rational) {
-    let unit = BigInt::one() << bits;
+/// Returns the value and a bound of its error, both times 2^bits, from sines and cosines
+/// to `bits` bits. Fixed point: rationals would be brought to lowest terms, sum by sum.
+fn enclose(terms: &BTreeMap<Monomial, Rational>, bits: usize) -> (BigInt, BigInt) {
     let mut pairs = BTreeMap::new();
-    let (mut value, mut error) = (Rational::zero(), Rational::zero());
+    let (mut value, mut error) = (BigInt::zero(), BigInt::zero());
     for (monomial, coefficient) in terms {
-        let mut product = BigInt::one();
+        let mut product = BigInt::one() << bits;
         let mut degree = 0u32;
         for power in monomial {
             let (sin, cos) = pairs
-                .entry(power.angle.clone())
+                .entry(&power.angle)
                 .or_insert_with(|| sin_cos(&power.angle, bits));
-            product *= sin.pow(power.sin) * cos.pow(power.cos);
-            degree += power.sin + power.cos;
+            let sines = (0..power.sin).map(|_| &*sin);
+            for factor in sines.chain((0..power.cos).map(|_| &*cos)) {
+                product = (product * factor) >> bits;
+                degree += 1;
+            }
         }
-        value += coefficient * Rational::new(product, unit.pow(degree));
-        // Each factor is at most 1 (+ its error): the product rule, doubled.
-        error += coefficient.abs() * Rational::from_integer((2 * degree).into());
+        value += (coefficient.numer() * product).div_floor(coefficient.denom());
+        // Each factor is at most 1 (+ its error), and each product is cut by a unit, fewer
+        // than the 2^SLACK of an error: the product rule, doubled. And a unit for the quotient.
+        let most = BigInt::from(2 * degree) << SLACK;
+        error += (coefficient.numer().abs() * most).div_ceil(coefficient.denom()) + 1;
     }
-    let slack = Rational::new(BigInt::one() << SLACK, unit);
-    (value, error * slack)
+    (value, error)
 }
 
 #[cfg(test)]
