@@ -227,7 +227,7 @@ impl Generator {
         self
     }
 
-    /// Where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32), and `sqrt`
+    /// Returns where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32), and `sqrt`
     /// of robots with Coulomb friction:
     /// a path, by default `libm`, or `dalembert_sines` with
     /// [`SinCos::Together`]. A target with its own sines has a module of them.
@@ -237,7 +237,7 @@ impl Generator {
         self
     }
 
-    /// Where sines come from: by default from libm. [`SinCos::Together`] takes
+    /// Returns where sines come from: by default from libm. [`SinCos::Together`] takes
     /// less than a third of its time for six angles, within the same ulp, and
     /// needs `dalembert-sines` in `Cargo.toml`, as `dynamics!` brings it along.
     /// Polynomials over the joints' limits, or the scene's box, are faster

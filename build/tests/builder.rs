@@ -29,7 +29,7 @@ fn generator(folder: &Path) -> Generator {
         .scalars([Scalar::F32])
 }
 
-/// Whether a file is written again is seen from its time, so that goes back
+/// Returns whether a file is written again is seen from its time, so that goes back
 /// to the past.
 fn age(path: &Path) -> SystemTime {
     let file = fs::File::options().append(true).open(path).unwrap();

@@ -48,7 +48,7 @@ pub fn run(args: &ShowArgs) -> Outcome {
     output::print_json(&poses)
 }
 
-/// Where everything is: each pose is [R | p], row by row, in base axes.
+/// Returns where everything is: each pose is [R | p], row by row, in base axes.
 fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
     let runtime = Reference::<f64>::from_robot(robot);
     let q = DVector::from_column_slice(at);
@@ -106,7 +106,7 @@ fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     ))
 }
 
-/// Where the joints are: at zero unless said.
+/// Returns where the joints are: at zero unless said.
 fn position(args: &ShowArgs, robot: &Robot) -> Result<Vec<f64>, Failure> {
     if args.at.is_empty() {
         return Ok(vec![0.0; robot.joints.len()]);

@@ -78,7 +78,7 @@ fn run(line: &str, inside: &Path, what: &str) -> String {
     }
 }
 
-/// Whether lines are those shown, where `...` stands for any.
+/// Returns whether lines are those shown, where `...` stands for any.
 fn shows(shown: &[&str], lines: &[&str]) -> bool {
     match shown {
         [] => lines.is_empty(),

@@ -9,7 +9,7 @@ use std::thread;
 /// same code.
 const STACK: usize = 8 << 20;
 
-/// What a function makes of each, in their order, by as many threads as the
+/// Returns what a function makes of each, in their order, by as many threads as the
 /// machine runs at once. A thread that the system refuses is done without. Work begins
 /// with the last: the long outputs come last, and none should be left alone at the end.
 pub(crate) fn each<'t, T: Sync, R: Send>(

@@ -46,7 +46,7 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
     }
 }
 
-/// Whether a function of a robot in its scene depends on what Coulomb friction reads of
+/// Returns whether a function of a robot in its scene depends on what Coulomb friction reads of
 /// speeds.
 pub(crate) fn depends_on_coulomb(scene_robot: &SceneRobot, function: Function) -> bool {
     if !scene_robot.has_coulomb() {

@@ -79,7 +79,7 @@ fn in_f64(generated: &Generated, function: Function) -> &Emitted {
     emitted.find(is).unwrap()
 }
 
-/// Where friction has its full force, where it is within its width, and at rest.
+/// Returns where friction has its full force, where it is within its width, and at rest.
 fn states(scene_robot: &SceneRobot, count: usize) -> Vec<JointState> {
     let mut states = scene_robot.states(count, 0x636f_756c);
     for (index, state) in states.iter_mut().enumerate() {

@@ -174,7 +174,7 @@ fn locked_scenes_are_the_full_model() {
     }
 }
 
-/// Whether a program reads anything of some joints.
+/// Returns whether a program reads anything of some joints.
 fn reads(program: &Program, joint: impl Fn(usize) -> bool) -> bool {
     let steps = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
     let outputs = program.outputs.iter().map(|output| &output.value);

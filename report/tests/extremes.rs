@@ -71,7 +71,7 @@ impl Robots {
     }
 }
 
-/// What is searched; but where that takes long, with many different angles
+/// Returns what is searched; but where that takes long, with many different angles
 /// and in long chains, only τ of each category's first robot in f64, and else
 /// the recursion as it is. Without optimisation, only short arms are searched.
 fn start(robot: &Robot, scalar: ScalarType, function: Function, first: bool) -> Start {
@@ -171,7 +171,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Whether it is the first case of its category.
+/// Returns whether it is the first case of its category.
 fn is_first(case: &Extreme) -> bool {
     case.id.ends_with("_00")
 }
@@ -185,12 +185,12 @@ fn fails(case: &Extreme, quantity: Quantity, deviation: &Deviation) -> bool {
         || quantity == Quantity::Torque && !criterion.met(deviation)
 }
 
-/// Whether the state is out of the scalar's range on purpose.
+/// Returns whether the state is out of the scalar's range on purpose.
 fn overflows(case: &Extreme, scalar: ScalarType) -> bool {
     case.category.starts_with("f32overflow") && scalar == ScalarType::F32
 }
 
-/// What is beyond the range must not look like a number.
+/// Returns what is beyond the range must not look like a number.
 fn never_silent(found: &[f64], truth: &[Big]) -> bool {
     let largest = f64::from(f32::MAX);
     let beyond = |truth: &Big| truth.abs().to_f64() > largest;

@@ -31,7 +31,7 @@ fn reads(input: Input, place: Entry) -> bool {
     }
 }
 
-/// Which outputs a program makes out of an input.
+/// Returns which outputs a program makes out of an input.
 fn dependent(program: &Program, place: Entry) -> Vec<bool> {
     let mut steps: Vec<bool> = Vec::new();
     let of = |operand: &Operand, steps: &[bool]| match operand {
@@ -54,7 +54,7 @@ fn with(state: &JointState, place: Entry, value: f64) -> JointState {
     state
 }
 
-/// Whether an output changes with an input, at some of the states.
+/// Returns whether an output changes with an input, at some of the states.
 fn sensitive(code: &Code, function: Function, states: &[JointState], place: Entry) -> Vec<bool> {
     let mut sensitive = Vec::new();
     for state in states {

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use crate::outcome::Failure;
 
-/// Why something cannot be written.
+/// Returns why something cannot be written.
 fn unwritable(path: &Path, why: impl Display) -> Failure {
     let path = path.display();
     Failure::Input(format!("error: `{path}` cannot be written: {why}"))

@@ -48,7 +48,7 @@ impl Axis {
         }
     }
 
-    /// Where a value is.
+    /// Returns where a value is.
     pub fn place(&self, value: f64) -> f64 {
         let [low, high] = self.ends;
         let log = if value > 0.0 { value.log10() } else { low };

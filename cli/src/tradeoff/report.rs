@@ -85,7 +85,7 @@ pub fn json(point: &Point) -> Value {
     value
 }
 
-/// Where its sines come from.
+/// Returns where its sines come from.
 fn by(point: &Point) -> &'static str {
     match point.certificate.sines.is_empty() {
         true => "libm",

@@ -50,7 +50,7 @@ impl Admitted {
         }
     }
 
-    /// Whether D, if it is an output and was edited, is positive definite.
+    /// Returns whether D, if it is an output and was edited, is positive definite.
     pub fn is_definite(&self) -> bool {
         let certain = |certificate: &Certificate| certificate.lambda_min.is_some();
         !has_edits(&self.stages)
@@ -58,7 +58,7 @@ impl Admitted {
             || self.certificates.iter().all(certain)
     }
 
-    /// Whether every E is within its output's tolerance, and nothing overflows.
+    /// Returns whether every E is within its output's tolerance, and nothing overflows.
     ///
     /// # Errors
     /// [`ToleranceError::Above`] with the first that is not;
@@ -70,7 +70,8 @@ impl Admitted {
     }
 }
 
-/// Whether every E of a certificate is within its output's tolerance, and nothing overflows.
+/// Returns whether every E of a certificate is within its output's tolerance, and nothing
+/// overflows.
 ///
 /// # Errors
 /// As of [`Admitted::within`].

@@ -99,7 +99,7 @@ impl<'a> ErrorBudget<'a> {
         scale::tolerances(self.exact, tolerance)
     }
 
-    /// What bounds of a program's rounding need: found once for the scalars, the
+    /// Returns what bounds of a program's rounding need: found once for the scalars, the
     /// sines and the tolerances of the same program.
     fn sensitivity(&self, program: &Program, bound_effort: BoundEffort) -> Rc<Sensitivity> {
         let mut known = self.sensitivities.borrow_mut();
@@ -115,7 +115,7 @@ impl<'a> ErrorBudget<'a> {
         found
     }
 
-    /// Whether the exact program's D, if it has one, can be shown to be positive
+    /// Returns whether the exact program's D, if it has one, can be shown to be positive
     /// definite: where the full model's cannot, no variant's can, and a search would
     /// be in vain.
     ///
@@ -145,7 +145,7 @@ impl<'a> ErrorBudget<'a> {
         Ok(())
     }
 
-    /// What is claimed of a variant.
+    /// Returns what is claimed of a variant.
     fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
         Subject {
             scene_robot: self.scene_robot,
@@ -221,7 +221,7 @@ impl<'a> ErrorBudget<'a> {
         Ok(Admitted::of(stages, emitted, certificates))
     }
 
-    /// Whether what a plan claims of a variant's bounds can be shown: they are
+    /// Returns whether what a plan claims of a variant's bounds can be shown: they are
     /// found anew, as coarsely as shows them.
     ///
     /// # Errors
@@ -410,7 +410,7 @@ impl<'a> ErrorBudget<'a> {
         Ok(found)
     }
 
-    /// What is left for edits, in each output's unit; `None` if that is
+    /// Returns what is left for edits, in each output's unit; `None` if that is
     /// nothing.
     fn allowances(
         &self,

@@ -63,7 +63,7 @@ pub enum Unbounded {
 }
 
 impl Unbounded {
-    /// What a function is, whatever its program.
+    /// Returns what a function is, whatever its program.
     pub fn of(function: Function) -> Option<Unbounded> {
         let mut arguments = function.arguments().into_iter();
         let other = arguments.find(|argument| !Argument::STATE.contains(argument));

@@ -39,7 +39,7 @@ impl Motions {
         }
     }
 
-    /// How many motions there are at a position.
+    /// Returns how many motions there are at a position.
     pub(super) fn len(&self) -> usize {
         let v = self.velocities.len();
         1 + self.accelerations.len() + 2 * v + v * v.saturating_sub(1) / 2

@@ -103,7 +103,7 @@ pub fn least_eigenvalue(
     shown(program, scalar, sines, limits, Wanted::Most)
 }
 
-/// Whether it can be shown to be no less than a number above zero: one pass in place
+/// Returns whether it can be shown to be no less than a number above zero: one pass in place
 /// of a search for the largest.
 pub(crate) fn is_at_least(
     least: f64,
@@ -115,7 +115,7 @@ pub(crate) fn is_at_least(
     least > 0.0 && shown(program, scalar, sines, limits, Wanted::AtLeast(least)).is_ok()
 }
 
-/// Whether D can be shown to be positive definite, by whatever little: what a search
+/// Returns whether D can be shown to be positive definite, by whatever little: what a search
 /// asks of one variant after the other.
 pub(crate) fn is_definite(
     program: &Program,
@@ -243,7 +243,7 @@ fn at_rest(q: Vec<f64>) -> JointState {
     }
 }
 
-/// Where D starts among the outputs.
+/// Returns where D starts among the outputs.
 fn start(program: &Program) -> Option<usize> {
     let sizes = program.sizes();
     let mut start = 0;

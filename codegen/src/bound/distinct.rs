@@ -37,7 +37,7 @@ impl Distinct {
             .collect()
     }
 
-    /// What was found of each value, for every output.
+    /// Returns what was found of each value, for every output.
     pub(super) fn scatter<T: Clone>(&self, found: &[T]) -> Vec<T> {
         debug_assert_eq!(found.len(), self.firsts.len());
         let places = self.places.iter();

@@ -124,7 +124,7 @@ pub(super) fn visit(
     Some(())
 }
 
-/// Whether a joint's position is read and its sine or cosine too: both would
+/// Returns whether a joint's position is read and its sine or cosine too: both would
 /// have the same place in a key.
 fn mixes(graph: &Graph, live: &[bool]) -> bool {
     let (mut slides, mut turns) = (0u64, 0u64);
@@ -140,7 +140,7 @@ fn mixes(graph: &Graph, live: &[bool]) -> bool {
     slides & turns != 0
 }
 
-/// Where a joint's bits are in a key.
+/// Returns where a joint's bits are in a key.
 pub(super) const fn shift(joint: usize) -> usize {
     16 + 5 * joint
 }

@@ -116,7 +116,7 @@ impl InputBox {
         Ok(limits)
     }
 
-    /// Whether every state of another box is in this one.
+    /// Returns whether every state of another box is in this one.
     pub fn holds(&self, other: &InputBox) -> bool {
         let pairs = |mine: &[Interval], theirs: &[Interval]| {
             mine.len() == theirs.len()

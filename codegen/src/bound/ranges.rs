@@ -50,7 +50,7 @@ pub enum Finding {
 }
 
 impl Finding {
-    /// Whether code with it must not be emitted.
+    /// Returns whether code with it must not be emitted.
     pub fn is_error(self) -> bool {
         !matches!(self, Finding::Subnormal { .. })
     }

@@ -7,7 +7,7 @@ use crate::interval::Interval;
 use crate::program::{Program, ScalarType, Trig};
 use crate::sincos::stated;
 
-/// Whether a joint may stand anywhere, however many turns: it has no limits, and
+/// Returns whether a joint may stand anywhere, however many turns: it has no limits, and
 /// no sum of angles is formed of it, which rounds the worse the larger it is.
 /// Everything else reads its sine and cosine, so that what holds over one turn
 /// holds wherever those two are good.

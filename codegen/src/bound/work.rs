@@ -38,7 +38,7 @@ impl Meter {
         DONE.get().wrapping_sub(self.from)
     }
 
-    /// Whether more was done than may be.
+    /// Returns whether more was done than may be.
     pub(crate) fn is_over(self) -> bool {
         self.done() > self.limit
     }

@@ -196,7 +196,7 @@ fn may_stand(clause: &str) -> String {
 }
 
 impl Invocation {
-    /// Where to report what is about the robot as a whole.
+    /// Returns where to report what is about the robot as a whole.
     pub(super) fn place(&self) -> TokenStream {
         match &self.robot {
             RobotSource::File(path) => path.to_token_stream(),

@@ -157,7 +157,7 @@ fn bundle(
     }
 }
 
-/// Why a word is no part: it is a bundle before this one.
+/// Returns why a word is no part: it is a bundle before this one.
 fn nested(word: &Ident, before: &[Function]) -> Option<BundleError> {
     let error = BundleError::Unknown(word.to_string()).among(before);
     matches!(error, BundleError::Nested(_)).then_some(error)

@@ -156,7 +156,7 @@ fn located(tokens: TokenStream, invocation: &Invocation) -> TokenStream {
     located.collect()
 }
 
-/// Where the output of a function is asked for: the longest name that the function's
+/// Returns where the output of a function is asked for: the longest name that the function's
 /// begins with, since what follows says how it is called.
 fn place(function: &Ident, invocation: &Invocation) -> Span {
     let function = function.to_string();

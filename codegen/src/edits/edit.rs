@@ -70,7 +70,7 @@ impl Edit {
         }
     }
 
-    /// Whether it puts another constant in the place of an operand: it saves
+    /// Returns whether it puts another constant in the place of an operand: it saves
     /// nothing, but makes up for what other edits leave out.
     pub fn corrects(&self) -> bool {
         matches!(self.place, EditSite::Left(_) | EditSite::Right(_))
@@ -128,7 +128,7 @@ impl Stage {
     }
 }
 
-/// Whether anything was edited.
+/// Returns whether anything was edited.
 pub(crate) fn has_edits(stages: &[Stage]) -> bool {
     stages.iter().any(|stage| !stage.edits.is_empty())
 }

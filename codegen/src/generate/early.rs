@@ -36,7 +36,7 @@ pub(super) fn no_dearer_than_quick(
     }
 }
 
-/// What programs are compared by, in hundredths of an operation: operations,
+/// Returns what programs are compared by, in hundredths of an operation: operations,
 /// and what sines and cosines are worth to the search.
 pub fn price(program: &Program) -> u64 {
     let model = CostModel::OPERATIONS;

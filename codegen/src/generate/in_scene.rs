@@ -21,7 +21,7 @@ pub struct UnknownScene {
 }
 
 impl UnknownScene {
-    /// What is wrong.
+    /// Returns what is wrong.
     pub fn message(&self) -> String {
         format!("the robot has no scene `{}`", self.found)
     }

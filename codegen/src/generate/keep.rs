@@ -74,7 +74,7 @@ fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) ->
     }
 }
 
-/// What a run would emit of an entry.
+/// Returns what a run would emit of an entry.
 fn emitted(entry: &Entry) -> &Program {
     let edited = entry.edited.as_ref();
     edited.map_or(&entry.program, |edited| &edited.program)

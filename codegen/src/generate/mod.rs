@@ -302,7 +302,7 @@ fn one(
     })
 }
 
-/// Whether the scene has a tolerance.
+/// Returns whether the scene has a tolerance.
 fn tolerates(scene_robot: &SceneRobot) -> bool {
     scene_robot
         .scene()
@@ -337,7 +337,7 @@ fn sines(
     all.collect()
 }
 
-/// Whether D, if it is an output, can be shown to be positive definite at all positions
+/// Returns whether D, if it is an output, can be shown to be positive definite at all positions
 /// with exact sines, and with these no more.
 fn spoil_inertia(
     scene_robot: &SceneRobot,

@@ -146,7 +146,7 @@ impl Request {
         Ok(load::chosen(scene_robot.taking(&self.parameters)))
     }
 
-    /// What is emitted of a program that was found: in another order, or with its
+    /// Returns what is emitted of a program that was found: in another order, or with its
     /// products fused, where that was asked for.
     pub(crate) fn finished(&self, program: &Program) -> Program {
         let program = match self.prefer {

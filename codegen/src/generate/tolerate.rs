@@ -51,7 +51,7 @@ pub(super) fn tolerate(
     Ok(scalars)
 }
 
-/// What the scene's tolerance admits in place of each exact program; `None` if
+/// Returns what the scene's tolerance admits in place of each exact program; `None` if
 /// it has none.
 pub fn admitted<'p>(
     scene_robot: &'p SceneRobot,
@@ -101,7 +101,7 @@ pub fn admitted<'p>(
     Err(GenerateError::Empty)
 }
 
-/// What a tolerance admits of every function in these scalars. Whether it admits
+/// Returns what a tolerance admits of every function in these scalars. Whether it admits
 /// the exact programs is seen first: a refusal comes before any search.
 fn all(
     budgets: &[ErrorBudget<'_>],

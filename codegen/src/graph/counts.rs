@@ -6,7 +6,7 @@ use super::{Graph, Node};
 use crate::program::{AngleSum, Counts};
 
 impl Graph {
-    /// What the outputs cost.
+    /// Returns what the outputs cost.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
         for (node, live) in self.nodes.iter().zip(self.live()) {

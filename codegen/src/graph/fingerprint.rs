@@ -74,7 +74,7 @@ impl Fingerprint {
             (*self, false)
         }
     }
-    /// Whether the node is the same in every state.
+    /// Returns whether the node is the same in every state.
     pub fn is_constant(&self) -> bool {
         self.0[0] == self.0[1]
     }
@@ -133,7 +133,7 @@ impl Points {
         Some(Fingerprint(print))
     }
 
-    /// Whether the search cannot tell a constant from zero: the prime divides
+    /// Returns whether the search cannot tell a constant from zero: the prime divides
     /// one of its coefficients.
     pub fn lose(value: &Exact) -> bool {
         let coefficient = &mut |x: &Rational| Field::from_rational(x).filter(|x| *x != Field::ZERO);

@@ -52,7 +52,7 @@ impl Edge {
     pub fn node(self) -> NodeId {
         NodeId(self.0 >> 1)
     }
-    /// Whether the node's value is negated.
+    /// Returns whether the node's value is negated.
     pub fn is_negative(self) -> bool {
         self.0 & 1 == 1
     }
@@ -111,7 +111,7 @@ impl Graph {
         self.nodes[id.index()]
     }
 
-    /// Which nodes the outputs need.
+    /// Returns which nodes the outputs need.
     pub fn live(&self) -> Vec<bool> {
         let mut live = vec![false; self.nodes.len()];
         for output in &self.outputs {
@@ -129,7 +129,7 @@ impl Graph {
         live
     }
 
-    /// Whether an output is identically zero.
+    /// Returns whether an output is identically zero.
     pub fn is_zero(&self, output: Edge) -> bool {
         use dalembert_model::scalar::Scalar;
         matches!(self.node(output.node()), Node::Constant(c) if self.constants[c as usize].is_zero())

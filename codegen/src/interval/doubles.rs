@@ -103,12 +103,12 @@ impl Interval {
         self.high - self.low
     }
 
-    /// Whether a number lies inside.
+    /// Returns whether a number lies inside.
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }
 
-    /// Whether another interval lies inside.
+    /// Returns whether another interval lies inside.
     pub fn encloses(self, other: Interval) -> bool {
         self.low <= other.low && other.high <= self.high
     }

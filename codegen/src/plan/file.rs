@@ -9,7 +9,7 @@ use super::Plan;
 use super::error::PlanError;
 use super::parse::MAX_BYTES;
 
-/// Where a robot file's plan is: `puma560.plan` beside `puma560.toml`.
+/// Returns where a robot file's plan is: `puma560.plan` beside `puma560.toml`.
 pub fn path(robot_file: &Path) -> PathBuf {
     robot_file.with_extension("plan")
 }

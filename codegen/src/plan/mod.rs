@@ -88,7 +88,7 @@ type Key<'e> = (
     &'e [RuntimeParameter],
 );
 
-/// Which parameters of the robot are arguments.
+/// Returns which parameters of the robot are arguments.
 fn taken(parameters: Option<&ParametersKey>) -> &[RuntimeParameter] {
     parameters.map_or(&[], |parameters| &parameters.taken)
 }

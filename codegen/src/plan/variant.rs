@@ -34,7 +34,7 @@ impl Variant {
         }
     }
 
-    /// Whether it must be known that D is still positive definite.
+    /// Returns whether it must be known that D is still positive definite.
     fn has_edited_inertia(&self) -> bool {
         has_edits(&self.stages) && has_inertia(&self.program)
     }

@@ -97,7 +97,7 @@ fn written(
     })
 }
 
-/// What moves, with exact parameters, the base folded.
+/// Returns what moves, with exact parameters, the base folded.
 pub fn skeleton(scene_robot: &SceneRobot) -> Skeleton<Exact> {
     with_columns(scene_robot, &[])
 }

@@ -39,7 +39,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Where none were chosen: those that depend on a payload, as they were met.
+    /// Returns where none were chosen: those that depend on a payload, as they were met.
     pub(super) fn met(self) -> Vec<Exact> {
         self.met
     }

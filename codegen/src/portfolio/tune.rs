@@ -35,7 +35,7 @@ pub struct Tuned {
     pub price: u64,
 }
 
-/// Where a descent starts: base parameters; where regrouping through odd
+/// Returns where a descent starts: base parameters; where regrouping through odd
 /// angles would make the constants too large, a link keeps what it has.
 pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     let mut regrouping = Regrouping::base(arm);
@@ -195,7 +195,7 @@ pub(crate) fn neighbours(
     found
 }
 
-/// What a link may keep, where its origin may lie and how its frame may turn.
+/// Returns what a link may keep, where its origin may lie and how its frame may turn.
 fn alternatives(
     arm: &Skeleton<Exact>,
     regrouping: &Regrouping<Exact>,

@@ -112,7 +112,7 @@ impl Classes {
             .collect()
     }
 
-    /// How many classes there are.
+    /// Returns how many classes there are.
     pub(crate) fn len(&self) -> usize {
         self.classes.len()
     }

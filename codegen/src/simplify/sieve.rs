@@ -30,7 +30,7 @@ impl Sieve {
         self.bits[word] |= bit;
     }
 
-    /// Whether the key passes: whatever was noted does, and some that was not.
+    /// Returns whether the key passes: whatever was noted does, and some that was not.
     pub(super) fn passes(&self, key: Field) -> bool {
         let (word, bit) = self.place(key);
         self.bits[word] & bit != 0

@@ -221,7 +221,7 @@ pub(crate) fn polynomials(
     Ok(sines)
 }
 
-/// What is wanted of an angle.
+/// Returns what is wanted of an angle.
 pub fn need(trig: &Trig) -> Need {
     Need {
         sin: trig.sin,

@@ -87,7 +87,7 @@ fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Er
     errors.worst().is_finite().then_some(errors)
 }
 
-/// What a kernel is off with exact arithmetic.
+/// Returns what a kernel is off with exact arithmetic.
 pub(super) fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
     if range.magnitude().is_nan() || range.magnitude() > FARTHEST {
         return None;
@@ -199,7 +199,7 @@ fn interval(term: Term, values: &[Interval], angle: Interval) -> Interval {
     }
 }
 
-/// What each step is, and what it rounds.
+/// Returns what each step is, and what it rounds.
 fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
     let operands = |index: usize, values: &[Interval]| {

@@ -111,7 +111,7 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
     Some(([inverse, much, little], left))
 }
 
-/// What is left of angles in a range; `None` if there are too many turns for
+/// Returns what is left of angles in a range; `None` if there are too many turns for
 /// the way they are counted.
 pub(crate) fn rest(
     [inverse, much, little]: [f64; 3],
@@ -158,7 +158,7 @@ pub(crate) fn rest(
     })
 }
 
-/// Whether a float times any integer up to `turns` is a float.
+/// Returns whether a float times any integer up to `turns` is a float.
 pub(super) fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
     let (mantissa, exponent, _) = FloatCore::integer_decode(x);
     let bits = 64 - (mantissa >> mantissa.trailing_zeros().min(63)).leading_zeros() as i32;

@@ -126,7 +126,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         self.places.keep(place, span, read, or)
     }
 
-    /// Where the link is, if that is given instead of a row.
+    /// Returns where the link is, if that is given instead of a row.
     fn placed(&mut self) -> Option<Placed> {
         const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
         let given = self.keys.get("placement").or(self.keys.get("axis"))?;

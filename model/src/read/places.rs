@@ -35,7 +35,7 @@ impl Places {
         !self.unread.contains(&place)
     }
 
-    /// Where a part is, if the file has it.
+    /// Returns where a part is, if the file has it.
     pub(super) fn span(&self, place: Place) -> Option<Range<usize>> {
         self.spans.get(&place).cloned()
     }

@@ -279,7 +279,7 @@ fn of_number<S: Scalar>(number: Dyadic) -> S {
 }
 
 impl<I, C> Recorded<I, C> {
-    /// Where its value is on a tape.
+    /// Returns where its value is on a tape.
     fn enter(&self, tape: &Rc<RefCell<Tape<I, C>>>) -> u32 {
         let call = match &self.0 {
             Form::Taped(own, at) if Rc::ptr_eq(own, tape) => return *at,

@@ -82,7 +82,7 @@ impl View {
         self.scale
     }
 
-    /// Where a point is on the paper.
+    /// Returns where a point is on the paper.
     pub(super) fn place(&self, point: &Vector<f64>) -> [f64; 2] {
         let [right, up] = self.coordinates.map(|k| point[k]);
         [

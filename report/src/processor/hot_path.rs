@@ -79,7 +79,7 @@ impl HotPath {
         }
     }
 
-    /// Where it branches.
+    /// Returns where it branches.
     pub fn branches(&self) -> &'static str {
         match (self.library, self.scalar) {
             (None, _) if self.roots => "in libm, where it has no instruction for roots",
@@ -90,7 +90,7 @@ impl HotPath {
         }
     }
 
-    /// Where it computes in f64.
+    /// Returns where it computes in f64.
     pub fn f64(&self) -> &'static str {
         match (self.scalar, self.library) {
             (ScalarType::F64, _) => "all",

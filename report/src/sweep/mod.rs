@@ -70,14 +70,14 @@ impl Point {
         }
     }
 
-    /// Where its certificate goes.
+    /// Returns where its certificate goes.
     pub fn file(&self) -> String {
         let Certificate { scalar, sines, .. } = &self.certificate;
         let by = if sines.is_empty() { "" } else { "-polynomials" };
         format!("{:e}-{scalar}{by}.json", self.tolerance)
     }
 
-    /// Which kind of variant it is: scalar and sines.
+    /// Returns which kind of variant it is: scalar and sines.
     pub fn kind(&self) -> usize {
         let polynomials = !self.certificate.sines.is_empty();
         2 * usize::from(polynomials)

@@ -27,7 +27,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// Whether it is the same node, zero too, or another constant too.
+    /// Returns whether it is the same node, zero too, or another constant too.
     pub(super) fn is_like(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Known(a), Value::Known(b)) => (*a == 0.0) == (*b == 0.0),
@@ -156,7 +156,7 @@ impl Nodes {
         }
     }
 
-    /// What an operation reads, from the columns of the nodes before it.
+    /// Returns what an operation reads, from the columns of the nodes before it.
     pub(super) fn column<'c>(
         &self,
         operand: &Operand<f64, usize>,

@@ -141,7 +141,7 @@ impl PruneSettings {
         }
     }
 
-    /// What a stage may use of the allowances.
+    /// Returns what a stage may use of the allowances.
     fn part(&self, stage: usize) -> f64 {
         match stage + 1 < self.stages {
             true => RAMP.get(stage).copied().unwrap_or(1.0),
@@ -159,7 +159,7 @@ impl PruneSettings {
         }
     }
 
-    /// Whether a program is so long that who waits for a quick search would wait for
+    /// Returns whether a program is so long that who waits for a quick search would wait for
     /// minutes, were it not for what is about as good.
     fn hurries(&self, steps: usize) -> bool {
         self.effort == Effort::Quick && steps > LONG
@@ -188,7 +188,7 @@ const MAX_MORE: usize = 3;
 /// An output that uses less of its allowance leaves much.
 const MUCH: f64 = 0.8;
 
-/// Whether no output uses up its allowance.
+/// Returns whether no output uses up its allowance.
 fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
     let mut pairs = best.errors.iter().zip(allowances);
     has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)

@@ -33,7 +33,7 @@ pub struct Omission {
 }
 
 impl Pruned {
-    /// What was left out, stage after stage.
+    /// Returns what was left out, stage after stage.
     pub fn omissions(&self, limits: &InputBox) -> Vec<Omission> {
         let mut omissions = omissions(&self.stages);
         for omission in &mut omissions {
@@ -49,7 +49,7 @@ impl Pruned {
     }
 }
 
-/// What was left out, stage after stage, without the errors, which take long.
+/// Returns what was left out, stage after stage, without the errors, which take long.
 /// Constants that were corrected are no omissions: they save nothing.
 pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
     let mut omissions = Vec::new();
@@ -81,7 +81,7 @@ impl fmt::Display for Omission {
     }
 }
 
-/// What the stage costs with one edit put back.
+/// Returns what the stage costs with one edit put back.
 fn without(stage: &Stage, edit: &Edit) -> Counts {
     let edits = stage.edits.iter().filter(|e| e.place != edit.place);
     let back = Stage {

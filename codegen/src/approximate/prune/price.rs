@@ -72,7 +72,7 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// Which nodes the last priced program computes.
+    /// Returns which nodes the last priced program computes.
     pub(super) fn live(&self) -> &[bool] {
         &self.live
     }

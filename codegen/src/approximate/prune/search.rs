@@ -70,7 +70,7 @@ struct Found {
 }
 
 impl Search<'_> {
-    /// What would stay if errors at the samples decided, weighed as by
+    /// Returns what would stay if errors at the samples decided, weighed as by
     /// [`cost`]; nothing is certified.
     pub(super) fn appraise(&self, positions: &[Vec<f64>], share: f64, random: &mut Random) -> u32 {
         let prices = vec![1.0; self.allowances.len()];
@@ -315,7 +315,7 @@ impl Search<'_> {
         (pruned, error)
     }
 
-    /// Whether D, if it is an output, is positive definite.
+    /// Returns whether D, if it is an output, is positive definite.
     fn is_definite(&self, program: &Program) -> bool {
         !has_inertia(program) || is_definite(program, ScalarType::F64, &[], self.limits)
     }
@@ -349,7 +349,7 @@ impl Search<'_> {
     }
 }
 
-/// Whether no certified error is above its allowance.
+/// Returns whether no certified error is above its allowance.
 fn within(ratios: &[f64]) -> bool {
     ratios.iter().all(|ratio| *ratio <= 1.0)
 }

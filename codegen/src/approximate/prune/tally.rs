@@ -41,7 +41,7 @@ impl<'a> Tally<'a> {
         self.done.set(done + 1);
     }
 
-    /// Whether the one who watches wants an end, or the work is done.
+    /// Returns whether the one who watches wants an end, or the work is done.
     pub(super) fn is_over(&self) -> bool {
         self.meter.is_over() || self.watch.is_some_and(|watch| watch.is_over())
     }

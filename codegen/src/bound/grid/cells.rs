@@ -99,7 +99,7 @@ impl<'a> Cells<'a> {
         self.points = self.points.saturating_sub(points);
     }
 
-    /// Whether the maximum over the joints from `level` on is at most a bound:
+    /// Returns whether the maximum over the joints from `level` on is at most a bound:
     /// `true` is a proof.
     pub(super) fn below(&mut self, level: usize, bound: f64) -> bool {
         if level == self.layout.joints.len() {

@@ -165,7 +165,7 @@ fn place(i: usize, j: usize) -> usize {
     row * (row + 1) / 2 + column
 }
 
-/// Whether the least eigenvalue is at least t; `true` is a proof.
+/// Returns whether the least eigenvalue is at least t; `true` is a proof.
 fn exceeds(mut a: Vec<f64>, n: usize, t: f64) -> bool {
     let trace: f64 = (0..n).map(|i| a[place(i, i)].abs()).sum();
     let margin = 4.0 * (n as f64 + 2.0) * f64::EPSILON * (trace + n as f64 * t.abs());

@@ -159,7 +159,7 @@ impl Layout {
         }
     }
 
-    /// How many values there are before a joint, or after the last one.
+    /// Returns how many values there are before a joint, or after the last one.
     pub(super) fn len(&self, level: usize) -> usize {
         match level.checked_sub(1) {
             None => self.coefficients.len(),
@@ -243,7 +243,7 @@ impl Layout {
     }
 }
 
-/// What rounding costs a value at a point, against the sum of the magnitudes
+/// Returns what rounding costs a value at a point, against the sum of the magnitudes
 /// of all its terms.
 ///
 /// For each angle a term is multiplied by a sine or cosine of a multiple and

@@ -98,7 +98,7 @@ impl GridEffort {
     }
 }
 
-/// Which joints slide: a position that is read as it stands.
+/// Returns which joints slide: a position that is read as it stands.
 pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
     let mut sliding = vec![false; joints];
     for node in &graph.nodes {

@@ -113,7 +113,7 @@ fn replaced(terms: &Polynomial, joint: usize, range: Interval) -> Polynomial {
 /// five series would be a hundred times more terms than count.
 const SMALL: f64 = 1e-9;
 
-/// What is small is added to what its rates' coefficient without angles may be
+/// Returns what is small is added to what its rates' coefficient without angles may be
 /// off.
 fn pruned(terms: Polynomial, limits: &InputBox) -> Polynomial {
     let size = |&(key, x): &(Key, Interval)| x.magnitude() * super::range(key, limits).magnitude();

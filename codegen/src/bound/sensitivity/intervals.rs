@@ -91,13 +91,13 @@ impl Constants {
         &self.steps
     }
 
-    /// What is read of a joint's speed.
+    /// Returns what is read of a joint's speed.
     fn speed(&self, joint: usize) -> Interval {
         let found = self.speeds.iter().find(|(known, _)| *known == joint);
         found.map_or(Interval::ALL, |(_, range)| *range)
     }
 
-    /// What a sine that is at most so large is proved to be off: a polynomial's or a
+    /// Returns what a sine that is at most so large is proved to be off: a polynomial's or a
     /// called one's; `None` for libm's.
     fn sine(&self, input: Input, size: f64) -> Option<f64> {
         let angle = input.angle()?;
@@ -121,7 +121,7 @@ fn speed(own: &Speed, scalar: ScalarType) -> (usize, Interval) {
     (own.joint, Interval::new(0.0, most).unwrap_or(Interval::ALL))
 }
 
-/// Whether an operation does not round, but for underflow: a product with a
+/// Returns whether an operation does not round, but for underflow: a product with a
 /// power of two, a value added to itself, a product that a sum takes.
 pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) -> bool {
     let power = |known: &Option<(Interval, f64)>| {

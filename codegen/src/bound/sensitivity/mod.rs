@@ -149,7 +149,7 @@ impl Sensitivity {
         }
     }
 
-    /// Whether it is of this program, over its box, and as fine.
+    /// Returns whether it is of this program, over its box, and as fine.
     pub fn is_of(&self, program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> bool {
         self.of == *program && self.limits == *limits && self.bound_effort == bound_effort
     }

@@ -100,7 +100,7 @@ impl<'a> Written<'a> {
         }
     }
 
-    /// Whether there is something to be found.
+    /// Returns whether there is something to be found.
     pub(super) fn is_wanted(&self) -> bool {
         self.squares.is_some()
     }
@@ -240,7 +240,7 @@ fn of_steps(
     (Some(found.sum), caps)
 }
 
-/// What a sine is off at most, in u, in either scalar.
+/// Returns what a sine is off at most, in u, in either scalar.
 fn weight(input: Input, limits: &InputBox, constants: &Both) -> f64 {
     let each = constants.iter().map(|(scalar, constants)| {
         let (_, error) = read(&Operand::Input(input), &[], *scalar, constants, limits);

@@ -105,7 +105,7 @@ impl Pattern {
     }
 }
 
-/// Whether a variable stands for a constant.
+/// Returns whether a variable stands for a constant.
 pub(crate) fn is_constant(variable: char) -> bool {
     matches!(variable, 'k' | 'm')
 }

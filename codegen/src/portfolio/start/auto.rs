@@ -58,7 +58,7 @@ pub(super) fn approaches(problem: &Problem<'_>) -> Vec<Approach> {
     }
 }
 
-/// What the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
+/// Returns what the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
 /// is cheaper, and from forms that turn fewer axes or share levers, each with
 /// Lagrange–Euler's values at hand. These are small, and what is dearer by itself often
 /// ends lower: all are searched from.
@@ -130,7 +130,7 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     near.into_iter().map(approach).collect()
 }
 
-/// What is about as cheap as the cheapest, each with its index.
+/// Returns what is about as cheap as the cheapest, each with its index.
 fn near<T>(all: Vec<T>, price: impl Fn(&T) -> u64) -> Vec<(usize, T)> {
     let least = all.iter().map(&price).min().unwrap_or(0);
     let most = least.saturating_add(least / NEAR);

@@ -29,7 +29,7 @@ trait Beginning {
     /// Its name on the command line, in the macro and in plans.
     fn name(&self) -> &'static str;
 
-    /// What to search from, each by itself: the cheapest that is found is taken.
+    /// Returns what to search from, each by itself: the cheapest that is found is taken.
     fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach>;
 
     /// Values that no formula forms but that may shorten it.
@@ -37,12 +37,12 @@ trait Beginning {
         Vec::new()
     }
 
-    /// Whether it has the chain formulas: a load is numbers of these.
+    /// Returns whether it has the chain formulas: a load is numbers of these.
     fn has_chain(&self) -> bool {
         false
     }
 
-    /// Whether a tolerance may be met in another regrouping than that which is
+    /// Returns whether a tolerance may be met in another regrouping than that which is
     /// cheapest without one.
     fn may_regroup(&self) -> bool {
         false
@@ -99,12 +99,12 @@ impl Start {
         Start::all().find(|start| start.name() == name)
     }
 
-    /// Whether functions that it starts can take a load.
+    /// Returns whether functions that it starts can take a load.
     pub fn has_chain(self) -> bool {
         self.beginning().has_chain()
     }
 
-    /// Whether a tolerance may be met in another regrouping than that which is
+    /// Returns whether a tolerance may be met in another regrouping than that which is
     /// cheapest without one.
     pub fn may_regroup(self) -> bool {
         self.beginning().may_regroup()
@@ -115,7 +115,7 @@ impl Start {
         self.beginning().helpers(scene_robot)
     }
 
-    /// What to search from, each by itself: the cheapest that is found is taken.
+    /// Returns what to search from, each by itself: the cheapest that is found is taken.
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
         self.beginning().approaches(problem)
     }

@@ -79,7 +79,7 @@ impl Extraction<'_> {
         }
     }
 
-    /// What a way adds, looking `depth` levels into dead operands, where that is less
+    /// Returns what a way adds, looking `depth` levels into dead operands, where that is less
     /// than `below`; else something that is not.
     fn marginal(&self, way: ENode, depth: u32, below: u64) -> u64 {
         let mut cost = self.model.way(way);

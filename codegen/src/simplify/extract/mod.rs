@@ -52,7 +52,7 @@ pub(crate) struct Extraction<'a> {
 
 const NONE: u32 = u32::MAX;
 
-/// What the chosen way of a class reads.
+/// Returns what the chosen way of a class reads.
 fn operands(classes: &Classes, chosen: &[u32], id: ClassId) -> Option<[ClassId; 2]> {
     let ways = &classes.get(id).ways;
     Some(ways.get(chosen[id as usize] as usize)?.operands())

@@ -4,14 +4,14 @@ use super::{Extraction, NONE, operands};
 use crate::simplify::classes::{ClassId, ENode};
 
 impl Extraction<'_> {
-    /// Whether the class may take the way: no operand of it depends on the class.
+    /// Returns whether the class may take the way: no operand of it depends on the class.
     pub(super) fn admits(&mut self, id: ClassId, way: ENode) -> bool {
         let (classes, chosen) = (self.classes, &self.chosen);
         self.order
             .admits(id, way.operands(), |id| operands(classes, chosen, id))
     }
 
-    /// Whether every operand has a way or is a leaf.
+    /// Returns whether every operand has a way or is a leaf.
     fn computable(&self, way: ENode) -> bool {
         way.operands()
             .iter()

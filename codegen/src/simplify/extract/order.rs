@@ -82,7 +82,7 @@ impl Order {
         }
     }
 
-    /// Whether a class may read these: none of them depends on it. If so, they come
+    /// Returns whether a class may read these: none of them depends on it. If so, they come
     /// before it from now on. `operands` are those of the ways that are chosen.
     pub(super) fn admits(
         &mut self,
@@ -140,7 +140,7 @@ impl Order {
         self.found = found;
     }
 
-    /// How far the label before a class is away.
+    /// Returns how far the label before a class is away.
     fn room_before(&self, class: ClassId) -> u64 {
         let before = match self.before[class as usize] {
             NONE => 0,
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// Whether a class depends on another, found from nothing but the choice.
+    /// Returns whether a class depends on another, found from nothing but the choice.
     fn reaches(chosen: &[Option<[ClassId; 2]>], from: ClassId, class: ClassId) -> bool {
         let (mut seen, mut stack) = (vec![false; chosen.len()], vec![from]);
         while let Some(id) = stack.pop() {

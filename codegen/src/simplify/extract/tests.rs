@@ -11,7 +11,7 @@ const SCHEDULE: Schedule = Schedule {
     cold: 0.05,
 };
 
-/// What the outputs cost by a choice, found from nothing but the choice;
+/// Returns what the outputs cost by a choice, found from nothing but the choice;
 /// `None` where it goes in a circle.
 fn cost_of(classes: &Classes, choice: &[Option<ENode>]) -> Option<u64> {
     fn visit(

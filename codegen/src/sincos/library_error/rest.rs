@@ -82,7 +82,7 @@ fn last_rounding(size: f64, error: f64, u: f64) -> f64 {
     (u * half).max(error)
 }
 
-/// What the roundings of all steps but the last come to in a result, which is a sum, and
+/// Returns what the roundings of all steps but the last come to in a result, which is a sum, and
 /// what it changes by for a change of ℓ.
 fn passed_on(
     left: &Left,
@@ -116,7 +116,7 @@ fn passed_on(
     Some((sum.high(), slope))
 }
 
-/// Whether a step does not round, from what it reads.
+/// Returns whether a step does not round, from what it reads.
 fn is_exact(steps: &[Step<Literal, Part>], index: usize, [x, y]: [Interval; 2]) -> bool {
     let step = &steps[index];
     let power = |operand: &Own| match operand {

@@ -16,7 +16,7 @@ struct Traced<'t> {
     term: Term,
 }
 
-/// What sine and cosine are computed by from an angle, before they trade places or
+/// Returns what sine and cosine are computed by from an angle, before they trade places or
 /// change their signs.
 pub(crate) fn trace(scalar: ScalarType) -> Kernel {
     let tape = RefCell::new(Vec::new());

@@ -48,7 +48,7 @@ impl Greedy<'_> {
         attempts[0].potential
     }
 
-    /// What is to be settled: the program that was priced last.
+    /// Returns what is to be settled: the program that was priced last.
     pub(super) fn attempt(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Attempt {
         let mut errors = self.errors(&state.nodes, columns);
         let potential = self.potential(&errors);
@@ -95,7 +95,7 @@ impl Greedy<'_> {
         errors
     }
 
-    /// How large errors are, against allowances.
+    /// Returns how large errors are, against allowances.
     pub(super) fn potential(&self, errors: &[f64]) -> Potential {
         work::count(1 + errors.len() / MEASURED);
         let m = errors.len() / self.allowances.len();

@@ -35,7 +35,7 @@ pub(super) struct Wave {
 }
 
 impl Wave {
-    /// How often Re c·e^{i·k·q} counts: a key above zero stands for two mirror images.
+    /// Returns how often Re c·e^{i·k·q} counts: a key above zero stands for two mirror images.
     pub(super) fn times(&self) -> f64 {
         if self.key == 0 { 1.0 } else { 2.0 }
     }
@@ -102,7 +102,7 @@ impl Part {
         factors.iter().all(sane).then(|| factors.iter().product())
     }
 
-    /// How many products its square takes.
+    /// Returns how many products its square takes.
     pub(super) fn pairs(&self) -> usize {
         self.count * self.count
     }
