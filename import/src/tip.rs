@@ -82,11 +82,39 @@ impl Tree<'_, '_, '_> {
         };
         let names: Vec<&str> = tips.iter().take(MAX_NAMES).map(name).collect();
         let mut help = format!("choose the end by --tip: {}", names.join(", "));
-        if holds && self.others.is_none() {
-            help += "; --lock-others 0 holds the fingers";
+        let stands = self.fixed_to(base);
+        let is_loaded = |tip: &usize| self.is_loaded(*tip, &stands, &heights);
+        if self.others.is_none() && tips.iter().any(is_loaded) {
+            help += match holds {
+                true => "; --lock-others 0 holds the fingers",
+                false => "; --lock-others 0 holds all else that hangs on the chain",
+            };
         }
         self.problems.error(&self.urdf.span, message, &help);
         None
+    }
+
+    /// Returns whether joints that move hang on the chain to a link, beside it or behind its
+    /// end; what hangs on the links that stand still does not count.
+    fn is_loaded(&self, tip: usize, stands: &[usize], heights: &BTreeMap<usize, usize>) -> bool {
+        let mut chain = vec![tip];
+        let mut next = Some(tip);
+        // The first of them is the base.
+        while next != stands.first().copied()
+            && let Some(link) = next
+        {
+            next = self.on(link);
+            chain.extend(next);
+        }
+        let moves = |joint: &usize| {
+            let child = self.ends[*joint][1];
+            let height = heights.get(&child).copied().unwrap_or(0);
+            !chain.contains(&child) && (self.step(*joint).is_none() || height > 0)
+        };
+        let links = chain.iter().filter(|link| !stands.contains(link));
+        links
+            .flat_map(|link| self.hanging(*link))
+            .any(|joint| moves(&joint))
     }
 
     /// Returns how many joints move behind each other from a link on, for every link that

@@ -464,3 +464,45 @@ fn the_end_is_asked_for_where_there_are_several() {
             .any(|note| note.message == "the chain ends at link `hand`")
     );
 }
+
+/// Two chains of as many joints: of arms on a torso that moves, one is held; of two frames at
+/// one end, nothing is.
+#[test]
+fn one_of_several_chains_holds_the_others() {
+    let robot = |joints: &[[&str; 3]]| {
+        let joints = joints.iter().map(|[kind, on, link]| {
+            format!(
+                "<joint name='j_{link}' type='{kind}'><parent link='{on}'/><child link='{link}'/>\
+                 <axis xyz='1 0 0'/></joint><link name='{link}'><inertial><mass value='1'/>\
+                 <inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+            )
+        });
+        let joints: String = joints.collect();
+        format!("<robot name='two'><link name='base'/>{joints}</robot>")
+    };
+    let arms = robot(&[
+        ["continuous", "base", "torso"],
+        ["continuous", "torso", "left"],
+        ["continuous", "torso", "right"],
+    ]);
+    let text = refused(&arms, &Options::default());
+    let help = "choose the end by --tip: left, right; --lock-others 0 holds all else that hangs on the chain";
+    assert!(text.contains("2 chains have 2 joints"), "{text}");
+    assert!(text.contains(help), "{text}");
+    let options = Options {
+        tip: Some("right".into()),
+        ..others("0")
+    };
+    assert!(taken(&arms, &options).text.contains("\"j_right\""));
+
+    let frames = robot(&[
+        ["continuous", "base", "arm"],
+        ["fixed", "arm", "front"],
+        ["fixed", "arm", "back"],
+    ]);
+    let text = refused(&frames, &Options::default());
+    assert!(
+        text.contains("choose the end by --tip: front, back\n"),
+        "{text}"
+    );
+}

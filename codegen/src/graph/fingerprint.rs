@@ -124,9 +124,19 @@ impl Points {
             return Field::from_rational(rational).map(|x| Fingerprint([x; POINTS]));
         }
         let mut print = [Field::zero(); POINTS];
+        // Coefficients are the same at every point.
+        let mut residues = Vec::new();
         for (point, x) in print.iter_mut().enumerate() {
             let shared = if point == 1 { 0 } else { point };
-            *x = value.map(&mut Field::from_rational, &mut |angle| {
+            let mut known = residues.clone().into_iter();
+            let mut coefficient = |value: &Rational| {
+                known.next().or_else(|| {
+                    let residue = Field::from_rational(value)?;
+                    residues.push(residue);
+                    Some(residue)
+                })
+            };
+            *x = value.map(&mut coefficient, &mut |angle| {
                 circle(mix([self.seed, shared as u64, 5, hash_angle(angle)]))
             })?;
         }

@@ -9,17 +9,36 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::Rational;
 use super::parse::{self, NumberError};
+use super::small::compare;
 
 /// An angle as the robot file gives it.
 ///
-/// The derived order is that of the representation, for use as a map key; to
+/// Its order is that of the representation, for use as a map key; to
 /// compare sizes use [`Angle::cmp_value`].
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Angle {
     /// A rational multiple of π: `"pi/2"` is ½, `"90deg"` is ½ as well.
     PiTimes(Rational),
     /// A rational number of radians.
     Radians(Rational),
+}
+
+impl Ord for Angle {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Angle::PiTimes(a), Angle::PiTimes(b)) | (Angle::Radians(a), Angle::Radians(b)) => {
+                compare(a, b)
+            }
+            (Angle::PiTimes(_), Angle::Radians(_)) => Ordering::Less,
+            (Angle::Radians(_), Angle::PiTimes(_)) => Ordering::Greater,
+        }
+    }
+}
+
+impl PartialOrd for Angle {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 impl Default for Angle {

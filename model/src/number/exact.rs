@@ -13,6 +13,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::hash::{Hash, Hasher};
 
+use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 use super::small::{compare, product, sum};
@@ -25,7 +26,7 @@ use crate::scalar::SinCosPair;
 pub struct Exact(Form);
 
 /// Canonical: `Polynomial` only where a generator occurs, no zero coefficient.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Eq)]
 enum Form {
     Rational(Arc<Rational>),
     Polynomial(Arc<BTreeMap<Monomial, Rational>>),
@@ -35,7 +36,13 @@ impl Ord for Form {
     fn cmp(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Form::Rational(a), Form::Rational(b)) => compare(a, b),
-            (Form::Polynomial(a), Form::Polynomial(b)) => a.cmp(b),
+            (Form::Polynomial(a), Form::Polynomial(b)) if Arc::ptr_eq(a, b) => Ordering::Equal,
+            (Form::Polynomial(a), Form::Polynomial(b)) => {
+                let terms = a.iter().zip(b.iter());
+                let mut orders = terms.map(|((a, x), (b, y))| a.cmp(b).then_with(|| compare(x, y)));
+                let first = orders.find(|order| order.is_ne());
+                first.unwrap_or_else(|| a.len().cmp(&b.len()))
+            }
             (Form::Rational(_), Form::Polynomial(_)) => Ordering::Less,
             (Form::Polynomial(_), Form::Rational(_)) => Ordering::Greater,
         }
@@ -48,16 +55,39 @@ impl PartialOrd for Form {
     }
 }
 
-/// Hashes of a rational its reduced numerator and denominator: its own hash goes through the
-/// steps of a division with remainder, since it does not count on them being reduced.
+/// Compares and hashes of a rational its reduced numerator and denominator: its own comparison
+/// and hash go through the steps of a division, since they do not count on them being reduced.
+fn parts(value: &Rational) -> (&BigInt, &BigInt) {
+    (value.numer(), value.denom())
+}
+
+impl PartialEq for Form {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Form::Rational(a), Form::Rational(b)) => parts(a) == parts(b),
+            (Form::Polynomial(a), Form::Polynomial(b)) => {
+                let same = |((a, x), (b, y)): ((_, &Rational), (_, &Rational))| {
+                    parts(x) == parts(y) && <Monomial as PartialEq>::eq(a, b)
+                };
+                Arc::ptr_eq(a, b) || a.len() == b.len() && a.iter().zip(b.iter()).all(same)
+            }
+            _ => false,
+        }
+    }
+}
+
 impl Hash for Form {
     fn hash<H: Hasher>(&self, state: &mut H) {
         match self {
-            Form::Rational(value) => {
-                value.numer().hash(state);
-                value.denom().hash(state);
+            Form::Rational(value) => parts(value).hash(state),
+            Form::Polynomial(terms) => {
+                for (monomial, coefficient) in terms.iter() {
+                    (monomial.len(), parts(coefficient)).hash(state);
+                    for power in monomial {
+                        (power.sin, power.cos).hash(state);
+                    }
+                }
             }
-            Form::Polynomial(terms) => terms.hash(state),
         }
     }
 }
@@ -66,11 +96,29 @@ impl Hash for Form {
 pub(super) type Monomial = Vec<Power>;
 
 /// sin(angle)^sin · cos(angle)^cos with sin ∈ {0, 1}.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Power {
     pub(super) angle: Arc<Angle>,
     pub(super) sin: u32,
     pub(super) cos: u32,
+}
+
+impl Ord for Power {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let angles = match Arc::ptr_eq(&self.angle, &other.angle) {
+            true => Ordering::Equal,
+            false => self.angle.cmp(&other.angle),
+        };
+        angles
+            .then(self.sin.cmp(&other.sin))
+            .then(self.cos.cmp(&other.cos))
+    }
+}
+
+impl PartialOrd for Power {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 /// The size of a constant: what arithmetic with it may cost.

@@ -47,7 +47,8 @@ pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {
     match (words(a), words(b)) {
         // Denominators are above zero.
         (Some((p, q)), Some((r, s))) => (p * s).cmp(&(r * q)),
-        _ => a.cmp(b),
+        _ if a.denom() == b.denom() => a.numer().cmp(b.numer()),
+        _ => (a.numer() * b.denom()).cmp(&(b.numer() * a.denom())),
     }
 }
 
@@ -116,6 +117,8 @@ mod tests {
                 assert_eq!(found.denom(), expected.denom(), "{a} {b}");
             }
             assert_eq!(compare(&a, &b), a.cmp(&b), "{a} {b}");
+            let [cube, other] = [a.pow(3), b.pow(3)];
+            assert_eq!(compare(&cube, &other), cube.cmp(&other), "{a} {b}");
             if let Some(double) = nearest_double(&a) {
                 let digits = round_magnitude(&a, 53, -1074, 1024);
                 assert_eq!(double.abs().to_bits(), digits.to_bits(), "{a}");

@@ -3,9 +3,8 @@
 //! Two formulas that agree at a random point of the field are the same
 //! rational function but for a chance of at most degree/p.
 
-use num_integer::Integer;
+use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
 use super::{Divide, Scalar};
 
@@ -34,10 +33,8 @@ impl Field {
 
     /// The residue of a rational, `None` if p divides its denominator.
     pub fn from_rational(x: &BigRational) -> Option<Self> {
-        let p = Self::P.into();
-        let residue = |x: &num_bigint::BigInt| x.mod_floor(&p).to_u64().map(Field);
-        let inverse = residue(x.denom())?.inverse()?;
-        Some(residue(x.numer())?.mul(&inverse))
+        let inverse = residue(x.denom()).inverse()?;
+        Some(residue(x.numer()).mul(&inverse))
     }
 
     /// The residue as an integer in 0 … p − 1.
@@ -74,6 +71,18 @@ impl Field {
         let sin = t.double().mul(&scale);
         let cos = Self::ONE.sub(&square).mul(&scale);
         (sin, cos)
+    }
+}
+
+/// Returns the residue of an integer, word by word: 2⁶⁴ ≡ 8.
+fn residue(x: &BigInt) -> Field {
+    let words = x.iter_u64_digits().rev();
+    let size = words.fold(Field::ZERO, |sum, word| {
+        sum.mul(&Field(8)).add(&Field::new(word))
+    });
+    match x.sign() {
+        Sign::Minus => size.neg(),
+        Sign::Plus | Sign::NoSign => size,
     }
 }
 
@@ -199,5 +208,16 @@ mod tests {
         assert_eq!(residue.mul(&Field::new(3)), Field::from_i64(-1));
         let pole = BigRational::new(BigInt::from(1), BigInt::from(Field::P));
         assert_eq!(Field::from_rational(&pole), None);
+        // Beyond a word: powers of what is a word.
+        for base in [-9_876_543_210_987_654_321_i128, 3] {
+            let large = num_traits::pow(BigInt::from(base), 40);
+            let small = Field::from_rational(&BigInt::from(base).into()).unwrap();
+            let quotient = BigRational::new(-large.clone(), &large + 1);
+            let expected = small
+                .pow(40)
+                .neg()
+                .mul(&small.pow(40).add(&Field::ONE).inverse().unwrap());
+            assert_eq!(Field::from_rational(&quotient), Some(expected));
+        }
     }
 }
