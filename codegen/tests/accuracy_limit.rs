@@ -12,8 +12,13 @@ use dalembert_codegen::workspace::verify::rounding::Rounding;
 
 /// τ by a quick search.
 fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {
+    found(source, Function::InverseDynamics, prefer)
+}
+
+/// A function by a quick search.
+fn found(source: &str, function: Function, prefer: Prefer) -> GeneratedFunction {
     let request = Request {
-        functions: vec![Function::InverseDynamics],
+        functions: vec![function],
         scalars: vec![ScalarType::F64],
         prefer,
         ..Request::default()
@@ -64,6 +69,22 @@ fn what_the_limit_costs_is_little_and_said() {
     assert!(refused.error > 4.0 * refused.taken, "{refused:?}");
     let (few, more) = (cheapest.counts.operations(), taken.counts.operations());
     assert!(few < more && (more - few) * 50 <= few, "{few} and {more}");
+}
+
+/// The cheapest D of this arm breaks the limit in one entry, and what keeps it in all of them
+/// costs an operation more and has a larger largest error: the cheapest is taken, and nothing
+/// is said of it.
+#[test]
+fn what_is_cheaper_and_more_exact_is_taken() {
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../gallery/robots/j2s7s300.toml"
+    );
+    let file = std::fs::read_to_string(file).unwrap();
+    let [taken, cheapest] = [Prefer::Accuracy, Prefer::Operations]
+        .map(|prefer| found(&file, Function::Inertia, prefer));
+    assert_eq!(taken.counts, cheapest.counts);
+    assert_eq!(taken.refused, None);
 }
 
 /// The estimate is of the size of the worst error that f32 code shows.
