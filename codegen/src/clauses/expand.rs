@@ -61,11 +61,12 @@ pub fn expand_from(input: TokenStream, folders: &[&Path], has_batch: bool) -> To
         }
         None => (stub::write(&invocation, source.joints), Vec::new()),
     };
-    let modules = module::assemble(&text, &invocation, &warnings).unwrap_or_else(|error| {
-        let text = format!("the generated text has no tokens: {error}");
-        errors.say(&invocation.name, &text, "");
-        TokenStream::new()
-    });
+    let modules =
+        module::assemble(&text, &invocation, &warnings, has_batch).unwrap_or_else(|error| {
+            let text = format!("the generated text has no tokens: {error}");
+            errors.say(&invocation.name, &text, "");
+            TokenStream::new()
+        });
     let (watch, errors) = (source.watch, errors.into_tokens());
     quote!(#watch #errors #modules)
 }
