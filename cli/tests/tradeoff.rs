@@ -199,7 +199,7 @@ fn variants_are_measured() {
         "0.1",
         "--samples",
         "50",
-        "--measure",
+        "--time",
         "-o",
         &output,
     ]);
@@ -219,6 +219,9 @@ fn variants_are_measured() {
     }
     let head: Vec<&str> = ran.out.lines().next().unwrap().split_whitespace().collect();
     assert!(head.ends_with(&["ns", "time", "front"]), "{}", ran.out);
+    let last = ran.out.lines().last().unwrap();
+    let processor = last.strip_prefix("ns: a call in a loop, on ");
+    assert!(processor.is_some_and(|name| !name.is_empty()), "{last}");
 }
 
 #[test]

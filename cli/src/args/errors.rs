@@ -140,10 +140,10 @@ pub struct TradeoffArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Compile the variants and measure how long a call takes, as a ratio to
-    /// the exact f64 variant in the same run; needs cargo
+    /// Compile the variants and measure how long a call takes, in nanoseconds and as a
+    /// ratio to the exact f64 variant in the same run; needs cargo
     #[arg(long)]
-    pub measure: bool,
+    pub time: bool,
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
     pub effort: Effort,

@@ -86,7 +86,7 @@ impl Compiler {
         match Command::new(&cargo).arg("--version").output() {
             Ok(output) if output.status.success() => Ok(Compiler { cargo }),
             _ => Err(Failure::Input(format!(
-                "error: --measure needs a compiler, and `{cargo} --version` does not run\n  \
+                "error: --time needs a compiler, and `{cargo} --version` does not run\n  \
                  = help: install Rust, or set CARGO to where its cargo is"
             ))),
         }
@@ -148,6 +148,15 @@ impl Compiler {
         }
         Err(failed("the variants cannot be compiled", &last))
     }
+}
+
+/// Returns what the system calls the processor, or its architecture.
+pub fn processor() -> String {
+    let known = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let mut lines = known.lines().filter_map(|line| line.split_once(':'));
+    let name = lines.find(|(key, _)| key.trim() == "model name");
+    name.map_or(env::consts::ARCH, |(_, name)| name.trim())
+        .to_owned()
 }
 
 fn failed(what: &str, why: &[u8]) -> Failure {

@@ -58,7 +58,7 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             Some(output)
         }
     };
-    let compiler = args.measure.then(measure::Compiler::find).transpose()?;
+    let compiler = args.time.then(measure::Compiler::find).transpose()?;
     // Its own tolerance is one of many here.
     let bare = scene.map(Scene::without_tolerance);
     let scene_robot =
@@ -92,9 +92,13 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             SweepError::Rung(why) => Failure::Input(format!("error: {why}")),
         })?;
     drop(steps);
-    if let Some(compiler) = compiler {
-        compiler.measure(&mut points)?;
-    }
+    let processor = match compiler {
+        Some(compiler) => {
+            compiler.measure(&mut points)?;
+            Some(measure::processor())
+        }
+        None => None,
+    };
     mark(&mut points);
     match args.json {
         true => output::print_json(&json!({
@@ -103,9 +107,15 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             "scene": scene.map(|scene| &scene.name),
             "function": exact.function.name(),
             "relative_to": word(relative_to),
+            "processor": processor,
             "variants": points.iter().map(report::json).collect::<Vec<_>>(),
         }))?,
-        false => output::print(&report::table(&points))?,
+        false => {
+            output::print(&report::table(&points))?;
+            if let Some(processor) = &processor {
+                output::print(&format!("\nns: a call in a loop, on {processor}\n"))?;
+            }
+        }
     }
     if let Some(folder) = &output {
         let chart = chart(&reading, scene, exact.function, relative_to, &points);
