@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use source::Crate;
 
-const CRATES: [&str; 13] = [
+const CRATES: [&str; 14] = [
     "model",
     "codegen",
     "macros",
@@ -28,6 +28,7 @@ const CRATES: [&str; 13] = [
     ".",
     "sines",
     "batch",
+    "fit",
     "gallery",
 ];
 

@@ -1,0 +1,221 @@
+//! The triangles of all joints: states go in, states of parts merge, bytes come out.
+//!
+//! A joint's row of Y π = τ is reduced with its torque as the last column,
+//!
+//! ```text
+//! [Y_i τ_i] = Q_i [R_i z_i; 0 ρ_i]
+//! ```
+//!
+//! over the columns alone that are not zero in it. For any π the sum of squared residuals is
+//! ‖R_i π_i − z_i‖² + ρ_i²: weights by the joints' noise, cross-validation and comparisons of
+//! two robots need no second look at the states. What is kept does not grow with them.
+
+mod bytes;
+
+use crate::error::{Error, check};
+use crate::model::{Column, Model};
+use crate::triangle::Triangle;
+
+/// What is kept of any number of states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accumulator {
+    fingerprint: [u8; 32],
+    /// The columns of each joint's row, without the torque.
+    rows: Vec<Vec<usize>>,
+    triangles: Vec<Triangle>,
+    states: u64,
+}
+
+/// R_i, z_i and ρ_i of a joint's row.
+#[derive(Clone, Debug)]
+pub(crate) struct Row<'a> {
+    /// Which columns of the model R_i is over.
+    pub(crate) columns: &'a [usize],
+    /// [R_i z_i; 0 ρ_i], whole rows.
+    pub(crate) factor: Vec<f64>,
+}
+
+impl Row<'_> {
+    /// Returns the entries of row k over all columns of the model, z_i last.
+    pub(crate) fn spread(&self, k: usize, columns: usize) -> Vec<f64> {
+        let width = self.columns.len() + 1;
+        let own = &self.factor[k * width..(k + 1) * width];
+        let mut row = vec![0.0; columns + 1];
+        for (column, value) in self.columns.iter().zip(own) {
+            row[*column] = *value;
+        }
+        row[columns] = own[width - 1];
+        row
+    }
+
+    /// Returns z_i.
+    pub(crate) fn torque(&self) -> Vec<f64> {
+        let width = self.columns.len() + 1;
+        let rows = self.factor.chunks(width).take(width - 1);
+        rows.map(|row| row[width - 1]).collect()
+    }
+
+    /// Returns ρ_i²: the residual that a fit of this joint alone leaves, columns independent.
+    pub(crate) fn rest(&self) -> f64 {
+        let last = self.factor.last().copied().unwrap_or(0.0);
+        last * last
+    }
+}
+
+impl Accumulator {
+    /// Returns the accumulator of no states.
+    pub fn new(model: &Model) -> Accumulator {
+        let rows: Vec<Vec<usize>> = (0..model.joints()).map(|i| model.row(i).to_vec()).collect();
+        Accumulator {
+            fingerprint: *model.fingerprint(),
+            triangles: rows
+                .iter()
+                .map(|row| Triangle::new(row.len() + 1))
+                .collect(),
+            rows,
+            states: 0,
+        }
+    }
+
+    /// Returns the number of states.
+    pub fn states(&self) -> u64 {
+        self.states
+    }
+
+    /// Adds a state: positions, velocities, accelerations and measured torques.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::Value`] and [`Error::OtherModel`]; then nothing is added.
+    pub fn add(
+        &mut self,
+        model: &Model,
+        [q, qd, qdd]: [&[f64]; 3],
+        tau: &[f64],
+    ) -> Result<(), Error> {
+        self.matches(model)?;
+        check("tau", tau, self.rows.len())?;
+        let y = model.regressor(q, qd, qdd)?;
+        self.add_rows(model, &y, tau)
+    }
+
+    /// Adds a state by its regressor over all columns, row by row, as
+    /// [`Model::regressor`] returns it.
+    ///
+    /// # Errors
+    /// As [`Accumulator::add`].
+    pub fn add_rows(&mut self, model: &Model, y: &[f64], tau: &[f64]) -> Result<(), Error> {
+        self.matches(model)?;
+        let width = model.columns().len();
+        check("tau", tau, self.rows.len())?;
+        check("y", y, self.rows.len() * width)?;
+        for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {
+            let y = &y[i * width..(i + 1) * width];
+            let entries = row.iter().map(|k| y[*k]);
+            triangle.push(entries.chain([tau[i]]));
+        }
+        self.states += 1;
+        Ok(())
+    }
+
+    /// Adds a state by what a generated `regressor` returns: rows over the base parameters
+    /// alone; columns of friction and offsets come from the velocities.
+    ///
+    /// The robot that it was generated from has to have the drives' inertias and viscous
+    /// friction that [`Options`](crate::Options) ask for, so that the columns are the same.
+    ///
+    /// # Errors
+    /// As [`Accumulator::add`].
+    pub fn add_generated<const K: usize>(
+        &mut self,
+        model: &Model,
+        y: &[[f64; K]],
+        qd: &[f64],
+        tau: &[f64],
+    ) -> Result<(), Error> {
+        self.matches(model)?;
+        let n = self.rows.len();
+        check("qd", qd, n)?;
+        check("tau", tau, n)?;
+        for (argument, expected, found) in [("y", n, y.len()), ("y[0]", model.base(), K)] {
+            if found != expected {
+                return Err(Error::Length {
+                    argument,
+                    expected,
+                    found,
+                });
+            }
+        }
+        for row in y {
+            check("y", row, K)?;
+        }
+        for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {
+            let entries = row.iter().map(|k| match model.columns()[*k] {
+                Column::Base(k) => y[i][k],
+                Column::Coulomb(joint) => model.coulomb(joint, &qd[joint]),
+                Column::Offset(_) => 1.0,
+            });
+            triangle.push(entries.chain([tau[i]]));
+        }
+        self.states += 1;
+        Ok(())
+    }
+
+    /// Adds all states of another accumulator.
+    ///
+    /// # Errors
+    /// [`Error::OtherModel`].
+    pub fn merge(&mut self, other: &Accumulator) -> Result<(), Error> {
+        if self.fingerprint != other.fingerprint || self.rows != other.rows {
+            return Err(Error::OtherModel);
+        }
+        for (own, other) in self.triangles.iter_mut().zip(&other.triangles) {
+            own.merge(other);
+        }
+        self.states += other.states;
+        Ok(())
+    }
+
+    /// Computes the root mean square of each joint's residual τ − Y π.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::OtherModel`] and, of no states, [`Error::TooFew`].
+    pub fn residual(&self, model: &Model, parameters: &[f64]) -> Result<Vec<f64>, Error> {
+        self.matches(model)?;
+        check("parameters", parameters, model.columns().len())?;
+        if self.states == 0 {
+            return Err(Error::TooFew {
+                joint: 0,
+                states: 0,
+                needed: 0,
+            });
+        }
+        let each = self.factors().into_iter().map(|row| {
+            let width = row.columns.len() + 1;
+            let mut total = row.rest();
+            for r in row.factor.chunks(width).take(width - 1) {
+                let own = row.columns.iter().zip(r);
+                let sum: f64 = own.map(|(k, r)| r * parameters[*k]).sum();
+                total += (sum - r[width - 1]).powi(2);
+            }
+            libm::sqrt(total / self.states as f64)
+        });
+        Ok(each.collect())
+    }
+
+    pub(crate) fn matches(&self, model: &Model) -> Result<(), Error> {
+        match self.fingerprint == *model.fingerprint() {
+            true => Ok(()),
+            false => Err(Error::OtherModel),
+        }
+    }
+
+    /// Returns [R_i z_i; 0 ρ_i] of every joint.
+    pub(crate) fn factors(&self) -> Vec<Row<'_>> {
+        let each = self.rows.iter().zip(&self.triangles);
+        each.map(|(columns, triangle)| Row {
+            columns,
+            factor: triangle.clone().reduced(),
+        })
+        .collect()
+    }
+}

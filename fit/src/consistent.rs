@@ -1,0 +1,235 @@
+//! The nearest bodies that exist.
+//!
+//! Least squares know nothing of bodies: a link may come out with a negative moment. A link
+//! exists exactly if its pseudo-inertia
+//!
+//! ```text
+//! J = [Σ h; hᵀ m],   Σ = ∫ r rᵀ dm,  h = ∫ r dm
+//! ```
+//!
+//! is positive definite (Wensing, Kim and Slotine 2018; for Σ alone Traversaro, Brossette,
+//! Escande and Nori 2016), and a drive if its inertia and friction are positive. Among all
+//! parameters θ of links and drives that do, those are sought whose base parameters are
+//! nearest to the free ones in the metric of the data,
+//!
+//! ```text
+//! min ½ ‖R (M θ − π̂)‖² + μ Σ_i [tr(J_i⁻¹(0) J_i) − log det J_i] + μ Σ_k [a_k/a_k(0) − log a_k]
+//! ```
+//!
+//! for μ → 0. The bracket is the entropic distance of Lee, Wensing and Park 2020 from the
+//! robot file's body: barrier, and choice among the many θ of the same base parameters.
+//! With J = L Lᵀ and G_a = L⁻¹ E_a L⁻ᵀ a step of Newton's method is a least squares problem,
+//! rows R M and √μ G, and is solved as one: nothing is squared.
+
+mod barrier;
+mod body;
+
+use dalembert_codegen::workspace::scene::base::Parameter;
+
+use crate::dense::{apply, back_substitute, dot};
+use crate::error::Error;
+use crate::fit::Fit;
+use crate::model::{Column, Model, place};
+use crate::triangle::Triangle;
+use barrier::Barrier;
+
+/// What is left of the barrier at the end: what it adds to the squared distance is below
+/// 2 μ times four a link and one a drive's parameter.
+const LAST: f64 = 5e-9;
+/// By how much the barrier weakens at once. The objective is self-concordant: steps at one
+/// strength are bounded by (2 − 1 − log 2) times the barrier's parameter, some 50, over what a
+/// step gains, 0.1 or more (Boyd and Vandenberghe 2004, 11.5). At a tenth at once the Panda
+/// needed hundreds.
+const WEAKEN: f64 = 0.5;
+/// Newton steps at one strength of the barrier; 43 are the most that were seen.
+const STEPS: usize = 500;
+
+/// Parameters of bodies and drives that exist.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bodies {
+    /// Of each link the ten of a full regressor: m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz and
+    /// Ixz about the origin of its DH frame.
+    pub links: Vec<[f64; 10]>,
+    /// Rotor inertias; the robot file's where they are not identified.
+    pub armature: Vec<f64>,
+    /// Viscous friction, as well.
+    pub viscous: Vec<f64>,
+    /// Coulomb friction, as well.
+    pub coulomb: Vec<f64>,
+    /// Offsets of the torques; zero where they are not identified.
+    pub offset: Vec<f64>,
+    /// π of these bodies, an entry a column of the model.
+    pub parameters: Vec<f64>,
+    /// ‖R (π − π̂)‖: how far they are from the free parameters, all standard errors together.
+    pub distance: f64,
+    /// The largest |π_k − π̂_k| in standard errors of π̂_k.
+    pub moved: f64,
+    /// Steps of Newton's method that were taken.
+    pub steps: usize,
+}
+
+/// An entry of θ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unknown {
+    /// A link's, its place among ten.
+    Link(usize, usize),
+    Armature(usize),
+    Viscous(usize),
+    Coulomb(usize),
+    Offset(usize),
+}
+
+/// Finds the consistent bodies nearest to what was identified.
+///
+/// # Errors
+/// [`Error::NotConverged`].
+pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
+    let width = model.columns().len();
+    let unknowns = unknowns(model);
+    let map = map(model, &unknowns);
+    let r: Vec<&[f64]> = (fit.factor.chunks(width + 1).take(width))
+        .map(|row| &row[..width])
+        .collect();
+    // R M, and R π̂.
+    let mut metric = vec![0.0; width * unknowns.len()];
+    for (i, row) in r.iter().enumerate() {
+        for (k, r) in row.iter().enumerate().filter(|(_, r)| **r != 0.0) {
+            for (sum, m) in metric[i * unknowns.len()..].iter_mut().zip(&map[k]) {
+                *sum += r * m;
+            }
+        }
+    }
+    let wanted: Vec<f64> = r.iter().map(|row| dot(row, &fit.parameters)).collect();
+
+    let barrier = Barrier::new(model, &unknowns, &fit.noise);
+    let mut theta = barrier.start();
+    let distance = |theta: &[f64]| -> f64 {
+        let rows = apply(&metric, theta).into_iter().zip(&wanted);
+        rows.map(|(x, w)| (x - w).powi(2)).sum()
+    };
+    let parts = (4 * model.joints() + unknowns.len()) as f64;
+    let mut strength = (0.5 * distance(&theta) / parts).max(LAST / WEAKEN);
+    let mut steps = 0;
+    while strength > LAST {
+        strength = (strength * WEAKEN).max(LAST);
+        let value = |theta: &[f64]| {
+            let barrier = barrier.value(theta)?;
+            Some(0.5 * distance(theta) + strength * barrier)
+        };
+        for step in 0.. {
+            if step == STEPS {
+                return Err(Error::NotConverged);
+            }
+            let now = value(&theta).ok_or(Error::NotConverged)?;
+            let along = newton(&metric, &wanted, &barrier, &theta, strength)?;
+            steps += 1;
+            let mut length = 1.0;
+            let next = loop {
+                let next: Vec<f64> = (theta.iter().zip(&along))
+                    .map(|(x, d)| x + length * d)
+                    .collect();
+                match value(&next) {
+                    Some(then) if then <= now => break Some((next, now - then)),
+                    _ if length < 1e-12 => break None,
+                    _ => length *= 0.5,
+                }
+            };
+            // Where rounding hides what is left, there is no better point.
+            let Some((next, gain)) = next else { break };
+            theta = next;
+            // Below the rounding of the value itself there is nothing left to gain.
+            if gain <= (1e-4 * strength).max(1e-14 * now) {
+                break;
+            }
+        }
+    }
+    let distance = libm::sqrt(distance(&theta));
+    Ok(body::bodies(
+        model,
+        fit,
+        &unknowns,
+        &map,
+        &theta,
+        (distance, steps),
+    ))
+}
+
+/// Computes the step of Newton's method, as least squares.
+fn newton(
+    metric: &[f64],
+    wanted: &[f64],
+    barrier: &Barrier,
+    theta: &[f64],
+    strength: f64,
+) -> Result<Vec<f64>, Error> {
+    let count = theta.len();
+    let mut all = Triangle::new(count + 1);
+    for (row, wanted) in metric.chunks(count).zip(wanted) {
+        let rest = wanted - dot(row, theta);
+        all.push(row.iter().copied().chain([rest]));
+    }
+    let root = libm::sqrt(strength);
+    for row in barrier.rows(theta).ok_or(Error::NotConverged)? {
+        all.push(row.iter().map(|x| root * x));
+    }
+    let whole = all.reduced();
+    let stride = count + 1;
+    let r: Vec<f64> = (0..count * count)
+        .map(|i| whole[i / count * stride + i % count])
+        .collect();
+    let z: Vec<f64> = (0..count).map(|i| whole[i * stride + count]).collect();
+    let along = back_substitute(&r, &z);
+    match along.iter().all(|x| x.is_finite()) {
+        true => Ok(along),
+        false => Err(Error::NotConverged),
+    }
+}
+
+/// Returns θ: what the columns of the model are sums of.
+fn unknowns(model: &Model) -> Vec<Unknown> {
+    let n = model.joints();
+    let mut unknowns: Vec<Unknown> = (0..n)
+        .flat_map(|joint| (0..10).map(move |k| Unknown::Link(joint, k)))
+        .collect();
+    for base in 0..model.base() {
+        for (parameter, _) in model.combination(base) {
+            let unknown = unknown(*parameter);
+            if !unknowns.contains(&unknown) {
+                unknowns.push(unknown);
+            }
+        }
+    }
+    unknowns.extend(model.columns().iter().filter_map(|column| match column {
+        Column::Base(_) => None,
+        Column::Coulomb(joint) => Some(Unknown::Coulomb(*joint)),
+        Column::Offset(joint) => Some(Unknown::Offset(*joint)),
+    }));
+    unknowns
+}
+
+fn unknown(parameter: Parameter) -> Unknown {
+    match parameter {
+        Parameter::Link(joint, own) => Unknown::Link(joint, place(own)),
+        Parameter::Armature(joint) => Unknown::Armature(joint),
+        Parameter::Viscous(joint) => Unknown::Viscous(joint),
+    }
+}
+
+/// Returns M, a row a column of the model: π = M θ.
+fn map(model: &Model, unknowns: &[Unknown]) -> Vec<Vec<f64>> {
+    let rows = model.columns().iter().map(|column| {
+        let terms: Vec<(Unknown, f64)> = match column {
+            Column::Base(base) => (model.combination(*base).iter())
+                .map(|(parameter, factor)| (unknown(*parameter), *factor))
+                .collect(),
+            Column::Coulomb(joint) => vec![(Unknown::Coulomb(*joint), 1.0)],
+            Column::Offset(joint) => vec![(Unknown::Offset(*joint), 1.0)],
+        };
+        let entry = |of: &Unknown| {
+            let own = terms.iter().filter(|(unknown, _)| unknown == of);
+            own.map(|(_, factor)| factor).sum()
+        };
+        unknowns.iter().map(entry).collect()
+    });
+    rows.collect()
+}

@@ -1,0 +1,174 @@
+//! The entropic distance of bodies and drives from those of the robot file, with the rows
+//! that it adds to a step of Newton's method.
+
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::Robot;
+
+use super::Unknown;
+use super::body::{Pseudo, moments, of_robot, unit};
+use crate::dense::cholesky;
+use crate::model::Model;
+
+/// The distance, a part a link and a drive's parameter.
+pub(super) struct Barrier {
+    /// L of each link's J = L Lᵀ in the robot file, or of a body near it.
+    links: Vec<(Pseudo, Pseudo)>,
+    /// E_a of each of a link's ten parameters.
+    units: [Pseudo; 10],
+    /// The parameters of drives, and what each is compared with.
+    drives: Vec<Drive>,
+    count: usize,
+}
+
+/// A parameter of a drive.
+enum Drive {
+    /// Positive, at a place of θ, with what it is in the file.
+    Positive(usize, f64),
+    /// Of either sign, with the size that it may well have.
+    Free(usize, f64),
+}
+
+impl Barrier {
+    /// Returns the distance from a model's robot.
+    pub(super) fn new(model: &Model, unknowns: &[Unknown], noise: &[f64]) -> Barrier {
+        let robot: &Robot = model.robot();
+        let drives = unknowns.iter().enumerate().filter_map(|(at, unknown)| {
+            let (joint, file, per) = match *unknown {
+                Unknown::Link(..) => return None,
+                Unknown::Offset(joint) => return Some(Drive::Free(at, noise[joint])),
+                Unknown::Coulomb(joint) => (joint, &robot.joints[joint].coulomb, 1.0),
+                Unknown::Viscous(joint) => {
+                    let limit = model.limits()[joint].velocity;
+                    (joint, &robot.joints[joint].viscous, limit)
+                }
+                Unknown::Armature(joint) => {
+                    let limit = model.limits()[joint].acceleration;
+                    (joint, &robot.joints[joint].armature, limit)
+                }
+            };
+            // What the file takes for zero may be as much as noise hides.
+            let file = f64::nearest_rational(file).max(noise[joint] / per);
+            Some(Drive::Positive(at, file))
+        });
+        Barrier {
+            links: of_robot(robot),
+            units: core::array::from_fn(unit),
+            drives: drives.collect(),
+            count: unknowns.len(),
+        }
+    }
+
+    /// Returns θ of the robot file, with bodies that exist.
+    pub(super) fn start(&self) -> Vec<f64> {
+        let mut theta = vec![0.0; self.count];
+        for (i, (j, _)) in self.links.iter().enumerate() {
+            theta[10 * i..10 * i + 10].copy_from_slice(&moments(j));
+        }
+        for drive in &self.drives {
+            if let Drive::Positive(at, file) = drive {
+                theta[*at] = *file;
+            }
+        }
+        theta
+    }
+
+    /// Computes the distance; `None` where a body or a drive does not exist.
+    pub(super) fn value(&self, theta: &[f64]) -> Option<f64> {
+        let mut total = 0.0;
+        for (i, (_, file)) in self.links.iter().enumerate() {
+            let l = cholesky(&self.pseudo(theta, i))?;
+            let seen = seen_from(file, &l);
+            for (k, row) in seen.iter().enumerate() {
+                total -= 2.0 * libm::log(row[k]);
+                total += row.iter().map(|x| x * x).sum::<f64>();
+            }
+        }
+        for drive in &self.drives {
+            total += match *drive {
+                Drive::Free(at, size) => 0.5 * (theta[at] / size).powi(2),
+                Drive::Positive(at, _) if theta[at].is_nan() || theta[at] <= 0.0 => return None,
+                Drive::Positive(at, file) => theta[at] / file - libm::log(theta[at] / file),
+            };
+        }
+        total.is_finite().then_some(total)
+    }
+
+    /// Computes rows G and the right-hand side, last, of the least squares problem
+    /// ½ ‖G d − c‖² that is the distance to second order.
+    pub(super) fn rows(&self, theta: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let mut rows = Vec::with_capacity(self.count);
+        for (i, (_, file)) in self.links.iter().enumerate() {
+            let l = cholesky(&self.pseudo(theta, i))?;
+            let columns: [Pseudo; 10] = self.units.map(|unit| within(&l, &unit));
+            let seen = seen_from(file, &l);
+            for row in 0..4 {
+                for column in 0..=row {
+                    // Both of two entries that are equal.
+                    let twice = if row == column { 1.0 } else { libm::sqrt(2.0) };
+                    let products = (0..4).map(|k| seen[k][row] * seen[k][column]);
+                    let own = f64::from(u8::from(row == column)) - products.sum::<f64>();
+                    let mut entries = vec![0.0; self.count + 1];
+                    for (k, unit) in columns.iter().enumerate() {
+                        entries[10 * i + k] = twice * unit[row][column];
+                    }
+                    entries[self.count] = twice * own;
+                    rows.push(entries);
+                }
+            }
+        }
+        for drive in &self.drives {
+            let mut entries = vec![0.0; self.count + 1];
+            match *drive {
+                Drive::Free(at, size) => {
+                    entries[at] = 1.0 / size;
+                    entries[self.count] = -theta[at] / size;
+                }
+                Drive::Positive(at, file) => {
+                    entries[at] = 1.0 / theta[at];
+                    entries[self.count] = 1.0 - theta[at] / file;
+                }
+            }
+            rows.push(entries);
+        }
+        Some(rows)
+    }
+
+    fn pseudo(&self, theta: &[f64], link: usize) -> Pseudo {
+        let own = &theta[10 * link..10 * link + 10];
+        let mut sum = [[0.0; 4]; 4];
+        for (unit, value) in self.units.iter().zip(own) {
+            for (sum, unit) in sum.iter_mut().flatten().zip(unit.iter().flatten()) {
+                *sum += value * unit;
+            }
+        }
+        sum
+    }
+}
+
+/// Computes L₀⁻¹ L, a lower triangle as both are.
+fn seen_from(file: &Pseudo, l: &Pseudo) -> Pseudo {
+    solve(file, l)
+}
+
+/// Computes L⁻¹ E L⁻ᵀ.
+fn within(l: &Pseudo, e: &Pseudo) -> Pseudo {
+    let half = solve(l, e);
+    solve(l, &transposed(&half))
+}
+
+/// Computes L⁻¹ B.
+fn solve(l: &Pseudo, b: &Pseudo) -> Pseudo {
+    let mut x = *b;
+    for (i, row) in l.iter().enumerate() {
+        let (known, rest) = x.split_at_mut(i);
+        for (column, entry) in rest[0].iter_mut().enumerate() {
+            let known: f64 = row.iter().zip(&*known).map(|(l, x)| l * x[column]).sum();
+            *entry = (*entry - known) / row[i];
+        }
+    }
+    x
+}
+
+fn transposed(a: &Pseudo) -> Pseudo {
+    core::array::from_fn(|i| core::array::from_fn(|k| a[k][i]))
+}

@@ -1,0 +1,115 @@
+//! What can be wrong with what is given.
+
+use std::fmt;
+
+/// Why something could not be computed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Error {
+    /// The robot has no base parameters that could be written down; the generator's reason.
+    NoBaseParameters(String),
+    /// A slice is not as long as it has to be.
+    Length {
+        /// The argument's name.
+        argument: &'static str,
+        /// Its length if all were well.
+        expected: usize,
+        /// Its length.
+        found: usize,
+    },
+    /// A value is NaN, infinite or beyond 1e100.
+    Value {
+        /// The argument's name.
+        argument: &'static str,
+        /// The place in it, from zero.
+        index: usize,
+        /// What stands there.
+        found: f64,
+    },
+    /// Two accumulators, or one and a model, are over different columns.
+    OtherModel,
+    /// Bytes are no accumulator of this version.
+    Bytes(&'static str),
+    /// There are fewer states than parameters of a joint.
+    TooFew {
+        /// The joint, from zero.
+        joint: usize,
+        /// States accumulated.
+        states: u64,
+        /// States needed.
+        needed: u64,
+    },
+    /// A log can be validated only against others.
+    OneFile,
+    /// An option is out of range: what it has to be.
+    Option(&'static str),
+    /// The search for consistent bodies did not converge.
+    NotConverged,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::NoBaseParameters(why) => f.write_str(why),
+            Error::Length {
+                argument,
+                expected,
+                found,
+            } => write!(f, "`{argument}` has {found} values instead of {expected}"),
+            Error::Value {
+                argument,
+                index,
+                found,
+            } => write!(
+                f,
+                "`{argument}[{index}]` is {found}: a finite number below 1e100 was expected; leave \
+                 such states out"
+            ),
+            Error::OtherModel => f.write_str(
+                "the accumulators are over different columns: use one robot file and the same \
+                 options for all of them",
+            ),
+            Error::Bytes(why) => write!(f, "these bytes are no accumulator: {why}"),
+            Error::TooFew {
+                joint,
+                states,
+                needed,
+            } => write!(
+                f,
+                "joint {} has {needed} parameters at least, and there are {states} states: \
+                 {} or more are needed",
+                joint + 1,
+                needed + 1
+            ),
+            Error::OneFile => {
+                f.write_str("cross-validation needs two logs or more: split the log in time")
+            }
+            Error::Option(expected) => f.write_str(expected),
+            Error::NotConverged => f.write_str(
+                "no consistent bodies were found: scale the robot file's masses to about those \
+                 of the arm and try again",
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// Checks the length of an argument and that all of its values are usable.
+pub(crate) fn check(argument: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
+    if values.len() != expected {
+        return Err(Error::Length {
+            argument,
+            expected,
+            found: values.len(),
+        });
+    }
+    // Squares of what is accumulated have to stay in range.
+    match values.iter().position(|x| x.is_nan() || x.abs() > 1e100) {
+        None => Ok(()),
+        Some(index) => Err(Error::Value {
+            argument,
+            index,
+            found: values[index],
+        }),
+    }
+}

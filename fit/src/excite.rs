@@ -1,0 +1,118 @@
+//! A trajectory that tells the parameters apart.
+//!
+//! Bad excitation is why identification fails: joints that swing one after the other leave
+//! most products of inertia in the noise. Among the [trajectories](crate::fourier) within
+//! the joints' limits one is sought whose regressor W, rows divided by the joints' noise and
+//! columns by their size in the [reference motion](mod@crate::reference), has a small
+//! condition. With A = WᵀW,
+//!
+//! ```text
+//! F = (log tr Aᵖ + log tr A⁻ᵖ) / 2p,   log cond W ≤ F ≤ log cond W + (log k)/p
+//! ```
+//!
+//! is smooth where singular values cross; dF = tr(G dA)/2 with
+//! G = Aᵖ⁻¹/tr Aᵖ − A⁻ᵖ⁻¹/tr A⁻ᵖ, and dW is the derivative of the regressor by q, q̇ and q̈, in
+//! dual numbers through the same formula. Steps go along the gradient and back to the
+//! limits; starts are seeded, and nothing depends on the machine.
+
+mod search;
+
+use crate::error::Error;
+use crate::fourier::Trajectory;
+use crate::model::Model;
+use crate::random::Random;
+use crate::reference::Reference;
+use search::Search;
+
+/// p of the smooth condition.
+const POWER: i32 = 3;
+
+/// How long to look, and for what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effort {
+    /// Sines and cosines of each joint.
+    pub harmonics: usize,
+    /// Times at which the regressor is evaluated, in a period.
+    pub samples: usize,
+    /// Random trajectories that the search begins with.
+    pub starts: usize,
+    /// How many of them, the best first, are improved.
+    pub descents: usize,
+    /// Steps from each of these.
+    pub steps: usize,
+    /// What the starts are drawn from.
+    pub seed: u64,
+}
+
+impl Default for Effort {
+    /// Returns five harmonics at 60 times; 60 starts, 80 steps from each of the best two.
+    fn default() -> Self {
+        Effort {
+            harmonics: 5,
+            samples: 60,
+            starts: 60,
+            descents: 2,
+            steps: 80,
+            seed: 1,
+        }
+    }
+}
+
+/// Finds a trajectory of so many seconds within the joints' limits that has a small condition
+/// where each joint's torque has this noise; returns it with its condition, columns of
+/// length one as in [`Fit::condition`](crate::Fit::condition).
+///
+/// # Errors
+/// [`Error::Option`] for an effort or a period out of range, and [`Error::Length`].
+pub fn excite(
+    model: &Model,
+    noise: &[f64],
+    period: f64,
+    effort: &Effort,
+) -> Result<(Trajectory, f64), Error> {
+    if !(period > 0.0 && period.is_finite()) {
+        return Err(Error::Option(
+            "`period` has to be a positive number of seconds",
+        ));
+    }
+    if !(2..=50).contains(&effort.harmonics) {
+        return Err(Error::Option("an effort has 2 to 50 harmonics"));
+    }
+    if effort.samples < 2 * effort.harmonics || effort.samples > 100_000 {
+        return Err(Error::Option(
+            "an effort has at least two samples a harmonic, and at most 100000",
+        ));
+    }
+    crate::error::check("noise", noise, model.joints())?;
+    if noise.iter().any(|noise| *noise <= 0.0) {
+        return Err(Error::Option(
+            "each joint's noise has to be a positive number",
+        ));
+    }
+    let search = Search {
+        model,
+        noise,
+        samples: effort.samples,
+        reference: Reference::new(model, noise)?,
+    };
+    let mut random = Random::new(effort.seed);
+    let mut starts = Vec::with_capacity(effort.starts);
+    for _ in 0..effort.starts {
+        let start = search.draw(period, effort.harmonics, &mut random);
+        starts.push((search.value(&start)?, start));
+    }
+    // Of equal ones the first that was drawn.
+    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best: Option<(f64, Trajectory)> = None;
+    for start in starts.into_iter().take(effort.descents) {
+        let found = search.descended(start, effort.steps)?;
+        if best.as_ref().is_none_or(|best| found.0 < best.0) {
+            best = Some(found);
+        }
+    }
+    let Some((_, best)) = best else {
+        return Err(Error::Option("an effort has a start, and a descent"));
+    };
+    let condition = search.condition(&best)?;
+    Ok((best, condition))
+}

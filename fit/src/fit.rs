@@ -1,0 +1,243 @@
+//! Parameters with their standard errors.
+//!
+//! The joints' noise comes from the same triangles: σ_i² = ρ_i²/(m − k_i), the residual that a
+//! fit of joint i alone leaves (Gautier 1997, weighted least squares). With rows divided by σ_i
+//! the covariance of π is (RᵀR)⁻¹; R is never multiplied by itself.
+//!
+//! Combinations are then compared with the [reference motion](mod@crate::reference). With R_ref
+//! its factor, the singular values γ of R R_ref⁻¹/√m say how much torque a combination gives in
+//! the data per torque in that motion. Below [`LEAST_EXCITATION`] it is not excited: it
+//! keeps the robot file's value, and its standard error is infinite.
+
+mod noise;
+
+use crate::accumulator::Accumulator;
+use crate::dense::{apply, back_substitute, dot, over, singular};
+use crate::error::{Error, check};
+use crate::model::Model;
+use crate::reference::{Reference, weighted};
+use crate::unexcited::{Unexcited, Weighting, separated};
+
+/// Combinations that give less torque than so much of that in the reference motion are not
+/// excited.
+pub const LEAST_EXCITATION: f64 = 1e-3;
+
+/// What is known of parameters before there are data.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Prior {
+    /// Nothing.
+    #[default]
+    None,
+    /// The robot file's parameters are right within standard errors, one a column, in the
+    /// parameters' units; infinite where nothing is known. A ridge.
+    File(Vec<f64>),
+}
+
+impl Prior {
+    /// Returns what the prior adds to the singular value of a direction of parameters.
+    fn value(&self, direction: &[f64]) -> f64 {
+        match self {
+            Prior::None => 0.0,
+            Prior::File(errors) => {
+                let parts = direction.iter().zip(errors);
+                let squares = parts.map(|(x, error)| (x / error).powi(2));
+                libm::sqrt(squares.sum())
+            }
+        }
+    }
+}
+
+/// Identified parameters.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// π, an entry a column of the model.
+    pub parameters: Vec<f64>,
+    /// Their standard errors; infinite where the data do not tell.
+    pub standard_errors: Vec<f64>,
+    /// σ_i: the noise of each joint's torque, N·m or N.
+    pub noise: Vec<f64>,
+    /// Root mean square of each joint's residual with the robot file's parameters.
+    pub before: Vec<f64>,
+    /// The same with the identified ones, on the same states.
+    pub after: Vec<f64>,
+    /// Condition of the weighted regressor, columns of length one; infinite where columns
+    /// depend on each other in the data.
+    pub condition: f64,
+    /// What the data do not excite.
+    pub unexcited: Vec<Unexcited>,
+    /// Number of states.
+    pub states: u64,
+    /// R of the weighted data, without the prior, and z.
+    pub(crate) factor: Vec<f64>,
+}
+
+/// Identifies the parameters of a model from what was accumulated.
+///
+/// # Errors
+/// [`Error::OtherModel`], [`Error::TooFew`], and of a prior with numbers that are no standard
+/// errors [`Error::Option`] and [`Error::Length`].
+pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Error> {
+    data.matches(model)?;
+    let width = model.columns().len();
+    let noise = noise::noise(data)?;
+    let scales: Vec<f64> = noise.iter().map(|noise| 1.0 / noise).collect();
+    let mut all = weighted(data, width, &scales);
+    let factor = all.clone().reduced();
+    if let Prior::File(errors) = prior {
+        add_prior(model, errors, &mut all)?;
+    }
+    let whole = all.reduced();
+    let stride = width + 1;
+    let r: Vec<f64> = (0..width * width)
+        .map(|i| whole[i / width * stride + i % width])
+        .collect();
+    let z: Vec<f64> = (0..width).map(|i| whole[i * stride + width]).collect();
+
+    let reference = Reference::new(model, &noise)?;
+    let root = libm::sqrt(data.states() as f64);
+    let found = singular(&over(&r, &reference.r, width), width);
+    let before = apply(&reference.r, model.parameters());
+    let least = LEAST_EXCITATION * root;
+    let rounding = 1e-12 * found.values.iter().fold(0.0f64, |a, b| a.max(*b));
+    let mut y = vec![0.0; width];
+    let mut variances = vec![0.0f64; width];
+    let mut directions = Vec::new();
+    for k in 0..width {
+        let (value, direction) = (found.values[k], &found.directions[k]);
+        let parameters = back_substitute(&reference.r, direction);
+        // What the data do not tell a prior may, however weak: then it is most of the value.
+        let excited =
+            value >= least || value >= rounding && 2.0 * prior.value(&parameters) >= value;
+        let along = match excited {
+            true => dot(&found.images[k], &z) / (value * value),
+            false => dot(direction, &before),
+        };
+        for (y, direction) in y.iter_mut().zip(direction) {
+            *y += along * direction;
+        }
+        for (column, part) in parameters.iter().enumerate() {
+            if excited {
+                variances[column] += (part / value).powi(2);
+            } else if (part * reference.norms[column]).abs() > 1e-6 {
+                variances[column] = f64::INFINITY;
+            }
+        }
+        if !excited {
+            directions.push(parameters);
+        }
+    }
+    let weighting = Weighting {
+        model,
+        noise: &noise,
+        reference: &reference,
+    };
+    let directions = separated(directions, &reference.norms);
+    let mut unexcited = weighting.describe(&directions, &r, root)?;
+    unexcited.sort_by(|a, b| a.excitation.total_cmp(&b.excitation));
+    let mut parameters = back_substitute(&reference.r, &y);
+    keep_file(model, &directions, &reference.norms, &mut parameters);
+    Ok(Fit {
+        before: data.residual(model, model.parameters())?,
+        after: data.residual(model, &parameters)?,
+        parameters,
+        standard_errors: variances.into_iter().map(libm::sqrt).collect(),
+        condition: condition(&factor, width),
+        noise,
+        unexcited,
+        states: data.states(),
+        factor,
+    })
+}
+
+/// Takes back what unexcited directions have of the change from the file's parameters, sizes
+/// by `norms`: a parameter that is one of these directions by itself then keeps its value.
+fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: &mut [f64]) {
+    let mut change: Vec<f64> = (parameters.iter().zip(model.parameters()))
+        .zip(norms)
+        .map(|((own, file), norm)| (own - file) * norm)
+        .collect();
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(directions.len());
+    for direction in directions {
+        let mut own: Vec<f64> = direction
+            .iter()
+            .zip(norms)
+            .map(|(x, norm)| x * norm)
+            .collect();
+        // Twice is enough (Giraud, Langou and Rozložník 2005).
+        for _ in 0..2 {
+            for other in &basis {
+                remove(&mut own, other);
+            }
+        }
+        let size = libm::sqrt(dot(&own, &own));
+        if size > 0.0 {
+            own.iter_mut().for_each(|x| *x /= size);
+            remove(&mut change, &own);
+            basis.push(own);
+        }
+    }
+    let file = model.parameters().iter().zip(norms);
+    for ((own, (file, norm)), change) in parameters.iter_mut().zip(file).zip(change) {
+        if *norm > 0.0 {
+            *own = file + change / norm;
+        }
+    }
+}
+
+/// Subtracts the part of a vector along a unit vector.
+fn remove(from: &mut [f64], unit: &[f64]) {
+    let along = dot(from, unit);
+    for (x, unit) in from.iter_mut().zip(unit) {
+        *x -= along * unit;
+    }
+}
+
+fn add_prior(
+    model: &Model,
+    errors: &[f64],
+    all: &mut crate::triangle::Triangle,
+) -> Result<(), Error> {
+    let width = model.columns().len();
+    if errors.len() == width && errors.iter().any(|error| error.is_nan() || *error <= 0.0) {
+        return Err(Error::Option(
+            "standard errors of a prior have to be positive numbers, or infinite",
+        ));
+    }
+    let finite: Vec<f64> = (errors.iter())
+        .map(|error| if error.is_finite() { *error } else { 1.0 })
+        .collect();
+    check("prior", &finite, width)?;
+    for (k, error) in errors.iter().enumerate().filter(|(_, e)| e.is_finite()) {
+        let entry = |column: usize| match column {
+            _ if column == k => 1.0 / error,
+            _ if column == width => model.parameters()[k] / error,
+            _ => 0.0,
+        };
+        all.push((0..=width).map(entry));
+    }
+    Ok(())
+}
+
+/// Computes the condition of R, whole rows with a last column that is not part of it, its
+/// columns scaled to length one.
+pub(crate) fn condition(factor: &[f64], width: usize) -> f64 {
+    let values = singular(&unit_columns(factor, width), width).values;
+    let largest = values.iter().fold(0.0f64, |a, b| a.max(*b));
+    let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+    largest / least
+}
+
+/// Returns R without its last column and row, its columns scaled to length one.
+fn unit_columns(factor: &[f64], width: usize) -> Vec<f64> {
+    let entry = |i: usize, k: usize| factor[i * (width + 1) + k];
+    let norm = |k: usize| -> f64 {
+        let squares = (0..width).map(|i| entry(i, k).powi(2));
+        libm::sqrt(squares.sum())
+    };
+    let norms: Vec<f64> = (0..width).map(norm).collect();
+    let scaled = (0..width * width).map(|i| match norms[i % width] {
+        0.0 => 0.0,
+        norm => entry(i / width, i % width) / norm,
+    });
+    scaled.collect()
+}

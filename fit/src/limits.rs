@@ -1,0 +1,62 @@
+//! How far and how fast joints move.
+
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::{JointKind, Position, Robot};
+
+/// The limits of a joint's motion, in rad or m and seconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Lowest and highest position.
+    pub position: [f64; 2],
+    /// Largest |q̇|.
+    pub velocity: f64,
+    /// Largest |q̈|.
+    pub acceleration: f64,
+}
+
+impl Limits {
+    /// Reads the limits of every joint of a robot. Where the file has none: ±π or ±0.5 m,
+    /// 2 rad/s or 0.5 m/s, 10 rad/s² or 2 m/s².
+    pub fn of(robot: &Robot) -> Vec<Limits> {
+        let each = robot.joints.iter().map(|joint| {
+            let [reach, velocity, acceleration] = match joint.kind {
+                JointKind::Revolute => [core::f64::consts::PI, 2.0, 10.0],
+                JointKind::Prismatic => [0.5, 0.5, 2.0],
+            };
+            let own = &joint.limits;
+            let position = |position: &Position| match position {
+                Position::Angle(angle) => angle.to_f64(),
+                Position::Length(length) => f64::nearest_rational(length),
+            };
+            Limits {
+                position: match &own.position {
+                    Some(ends) => ends.each_ref().map(position),
+                    None => [-reach, reach],
+                },
+                velocity: own
+                    .velocity
+                    .as_ref()
+                    .map_or(velocity, f64::nearest_rational),
+                acceleration: (own.acceleration.as_ref())
+                    .map_or(acceleration, f64::nearest_rational),
+            }
+        });
+        each.collect()
+    }
+
+    /// Returns whether the joint can move.
+    pub(crate) fn moves(&self) -> bool {
+        let all = [self.reach(), self.velocity, self.acceleration];
+        all.iter().all(|limit| *limit > 0.0 && limit.is_finite())
+    }
+
+    /// Returns the middle of the range of positions.
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.position[0] + self.position[1])
+    }
+
+    /// Returns half the range of positions.
+    pub fn reach(&self) -> f64 {
+        0.5 * (self.position[1] - self.position[0])
+    }
+}

@@ -1,0 +1,248 @@
+//! The columns of an arm's regressor, and the regressor at a state.
+//!
+//! The base parameters are those of the generator (Gautier 1991, in closed form with an
+//! elimination for what is left), with the drives' inertias and viscous friction among the
+//! candidates: what no torque tells apart is one parameter. After them come Coulomb
+//! friction, q̇/√(q̇² + w²) times its force at the width w of the robot file, and an offset of
+//! each joint's torque sensor. An offset that another parameter gives as well, as the weight
+//! of a slide that hangs, has no column.
+
+mod derive;
+mod evaluate;
+
+use dalembert_codegen::workspace::function::Quantity;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::scene::base::Parameter;
+use dalembert_model::equations::Arm;
+use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
+use dalembert_model::equations::regressor::LinkParameter;
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::robot::Robot;
+use num_traits::Zero;
+
+use crate::error::Error;
+use crate::limits::Limits;
+use crate::random::{Random, within};
+use derive::candidates;
+
+/// What is identified beside the links' parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Inertias of the drives' rotors.
+    pub armature: bool,
+    /// Viscous friction.
+    pub viscous: bool,
+    /// Coulomb friction.
+    pub coulomb: bool,
+    /// A constant that is added to each measured torque.
+    pub offset: bool,
+    /// Width w of Coulomb friction, rad/s or m/s, of joints of which the file has none.
+    pub coulomb_width: f64,
+}
+
+impl Default for Options {
+    /// Returns all of them, with a width of 0.01.
+    fn default() -> Self {
+        Options {
+            armature: true,
+            viscous: true,
+            coulomb: true,
+            offset: true,
+            coulomb_width: 0.01,
+        }
+    }
+}
+
+/// What a column of the regressor is the torque of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// A base parameter, its place among them.
+    Base(usize),
+    /// Coulomb friction of a joint.
+    Coulomb(usize),
+    /// The offset of a joint's measured torque.
+    Offset(usize),
+}
+
+/// The linear model τ = Y π of an arm.
+#[derive(Clone, Debug)]
+pub struct Model {
+    robot: Robot,
+    options: Options,
+    limits: Vec<Limits>,
+    columns: Vec<Column>,
+    /// Each base parameter as a sum of the robot's own.
+    combinations: Vec<Vec<(Parameter, f64)>>,
+    chain: Chain<f64>,
+    widths: Vec<f64>,
+    /// The columns that are not zero in the row of each joint.
+    rows: Vec<Vec<usize>>,
+    parameters: Vec<f64>,
+    fingerprint: [u8; 32],
+}
+
+impl Model {
+    /// Derives the columns of a robot.
+    ///
+    /// # Errors
+    /// [`Error::NoBaseParameters`] where odd angles between joints make them too long, and
+    /// [`Error::Option`].
+    pub fn new(robot: &Robot, options: &Options) -> Result<Model, Error> {
+        if !(options.coulomb_width > 0.0 && options.coulomb_width.is_finite()) {
+            return Err(Error::Option(
+                "`coulomb_width` has to be a positive number, such as 0.01 rad/s",
+            ));
+        }
+        let limits = Limits::of(robot);
+        if !limits.iter().all(Limits::moves) {
+            return Err(Error::Option(
+                "each joint's limits have to let it move: its range, velocity and acceleration \
+                 have to be more than zero",
+            ));
+        }
+        let n = robot.joints.len();
+        let scene = SceneRobot::whole(&candidates(robot, options));
+        let base = scene.base(Quantity::BaseRegressor);
+        let base = base.map_err(|why| Error::NoBaseParameters(why.to_string()))?;
+        let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
+        let mut skeleton = Skeleton::with_columns(&arm, &[], &base.columns);
+        // The columns are all that is computed: the links' own bodies are not regrouped.
+        skeleton
+            .links
+            .iter_mut()
+            .for_each(|link| link.body = Body::zero());
+        let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+        let each = |terms: &Vec<(Parameter, Exact)>| {
+            let terms = terms.iter();
+            terms.map(|(of, x)| (*of, f64::nearest(x))).collect()
+        };
+        let mut columns: Vec<Column> = (0..base.columns.len()).map(Column::Base).collect();
+        if options.coulomb {
+            columns.extend((0..n).map(Column::Coulomb));
+        }
+        if options.offset {
+            columns.extend((0..n).map(Column::Offset));
+        }
+        let width = |joint: &dalembert_model::robot::Joint| match joint.coulomb_width.is_zero() {
+            true => options.coulomb_width,
+            false => f64::nearest_rational(&joint.coulomb_width),
+        };
+        let mut model = Model {
+            robot: robot.clone(),
+            options: options.clone(),
+            limits,
+            combinations: base.combinations.iter().map(each).collect(),
+            chain: chain.map(f64::nearest),
+            widths: robot.joints.iter().map(width).collect(),
+            rows: vec![(0..columns.len()).collect(); n],
+            columns,
+            parameters: Vec::new(),
+            fingerprint: [0; 32],
+        };
+        model.drop_columns();
+        model.parameters = model.values(&base.values(&arm));
+        model.fingerprint = model.hashed();
+        Ok(model)
+    }
+
+    /// Returns the robot of the file.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Returns what is identified beside the links' parameters.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Returns the joints' limits.
+    pub fn limits(&self) -> &[Limits] {
+        &self.limits
+    }
+
+    /// Returns the number of joints.
+    pub fn joints(&self) -> usize {
+        self.robot.joints.len()
+    }
+
+    /// Returns what each column of Y, and each entry of π, is of.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Returns the number of base parameters; they are the first columns.
+    pub fn base(&self) -> usize {
+        self.combinations.len()
+    }
+
+    /// Returns a base parameter as a sum of parameters of the robot file.
+    pub fn combination(&self, base: usize) -> &[(Parameter, f64)] {
+        &self.combinations[base]
+    }
+
+    /// Returns the columns that are not zero in the row of a joint.
+    pub fn row(&self, joint: usize) -> &[usize] {
+        &self.rows[joint]
+    }
+
+    /// Returns π of the robot file; offsets are zero.
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// Returns what tells models of which the columns differ apart.
+    pub fn fingerprint(&self) -> &[u8; 32] {
+        &self.fingerprint
+    }
+
+    /// Returns a parameter's name: a sum of the robot file's parameters, cut after three.
+    pub fn name(&self, column: usize) -> String {
+        match self.columns[column] {
+            Column::Coulomb(joint) => format!("coulomb{}", joint + 1),
+            Column::Offset(joint) => format!("offset{}", joint + 1),
+            Column::Base(base) => sum(&self.combinations[base]),
+        }
+    }
+}
+
+/// Draws a state within limits, velocities and accelerations scaled by `factor`.
+pub(crate) fn state(limits: &[Limits], factor: f64, random: &mut Random) -> [Vec<f64>; 3] {
+    let mut draw = |of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
+        let each = limits.iter().map(of);
+        each.map(|[middle, largest]| middle + within(random, largest))
+            .collect()
+    };
+    [
+        draw(&|of| [of.middle(), of.reach()]),
+        draw(&|of| [0.0, factor * of.velocity]),
+        draw(&|of| [0.0, factor * of.acceleration]),
+    ]
+}
+
+/// Returns a sum of parameters in words, the first three of it.
+fn sum(terms: &[(Parameter, f64)]) -> String {
+    let mut text = String::new();
+    for (i, (parameter, factor)) in terms.iter().take(3).enumerate() {
+        let sign = match (i, *factor < 0.0) {
+            (0, false) => "",
+            (0, true) => "-",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        };
+        text += sign;
+        if factor.abs() != 1.0 {
+            text += &format!("{} ", factor.abs());
+        }
+        text += &parameter.to_string();
+    }
+    if terms.len() > 3 {
+        text += &format!(" + … ({} more)", terms.len() - 3);
+    }
+    text
+}
+
+/// Returns the place of a link's parameter among the ten of [`LinkParameter::ALL`].
+pub(crate) fn place(parameter: LinkParameter) -> usize {
+    let all = LinkParameter::ALL.iter();
+    all.take_while(|other| **other != parameter).count()
+}

@@ -1,0 +1,90 @@
+//! Which columns a model has, and what tells its columns from others'.
+
+use dalembert_model::number::{Exact, Rational, Rounded};
+use dalembert_model::robot::Robot;
+use num_traits::{One, Zero};
+
+use super::{Column, Model, Options, state};
+use crate::random::Random;
+use crate::triangle::Triangle;
+
+impl Model {
+    /// Finds the columns that are zero in a row whatever the state is, and drops offsets that
+    /// depend on other columns, by random states within limits twice as wide.
+    pub(super) fn drop_columns(&mut self) {
+        let (n, width) = (self.joints(), self.columns.len());
+        let mut random = Random::new(0x6669_7400);
+        let mut largest = vec![0.0f64; n * width];
+        let mut all = Triangle::new(width);
+        for _ in 0..2 * width + 8 {
+            let [q, qd, qdd] = state(&self.limits, 2.0, &mut random);
+            let Ok(y) = self.regressor(&q, &qd, &qdd) else {
+                continue;
+            };
+            for (largest, y) in largest.iter_mut().zip(&y) {
+                *largest = largest.max(y.abs());
+            }
+            y.chunks(width)
+                .for_each(|row| all.push(row.iter().copied()));
+        }
+        let r = all.reduced();
+        let independent = |column: usize| {
+            let norm: f64 = (0..=column).map(|i| r[i * width + column].powi(2)).sum();
+            r[column * width + column] > 1e-9 * libm::sqrt(norm)
+        };
+        let kept: Vec<usize> = (0..width)
+            .filter(|k| !matches!(self.columns[*k], Column::Offset(_)) || independent(*k))
+            .collect();
+        self.columns = kept.iter().map(|k| self.columns[*k]).collect();
+        let scale = |k: usize| (0..n).fold(0.0f64, |max, i| max.max(largest[i * width + k]));
+        for (i, row) in self.rows.iter_mut().enumerate() {
+            // What is nothing but rounding next to the column's largest entry is zero.
+            let felt = kept.iter().enumerate();
+            let felt = felt.filter(|(_, k)| largest[i * width + **k] > 1e-12 * scale(**k));
+            *row = felt.map(|(new, _)| new).collect();
+        }
+    }
+
+    /// Returns π of the robot, its base parameters given.
+    pub(super) fn values(&self, base: &[Exact]) -> Vec<f64> {
+        let each = self.columns.iter().map(|column| match *column {
+            Column::Base(k) => f64::nearest(&base[k]),
+            Column::Coulomb(joint) => f64::nearest_rational(&self.robot.joints[joint].coulomb),
+            Column::Offset(_) => 0.0,
+        });
+        each.collect()
+    }
+
+    /// Returns the hash of the robot without what is identified, with what decides the columns.
+    pub(super) fn hashed(&self) -> [u8; 32] {
+        let mut bare = candidates(&self.robot, &self.options);
+        let count = self.columns.len();
+        bare.name = format!("{:?} {:?} {count}", self.options, self.widths);
+        for joint in &mut bare.joints {
+            joint.name = None;
+            joint.limits = Default::default();
+            joint.mass = Rational::zero();
+            joint.com = Default::default();
+            joint.inertia = joint.inertia.map(|_| Rational::zero());
+        }
+        bare.input_hash()
+    }
+}
+
+/// Returns the robot with the drives whose columns are asked for: every rotor a unit of inertia,
+/// every joint a unit of viscous friction. Coulomb friction is not a base parameter.
+pub(super) fn candidates(robot: &Robot, options: &Options) -> Robot {
+    let mut robot = robot.clone();
+    for joint in &mut robot.joints {
+        joint.coulomb = Rational::zero();
+        for (asked, own) in [
+            (options.armature, &mut joint.armature),
+            (options.viscous, &mut joint.viscous),
+        ] {
+            if asked {
+                *own = Rational::one();
+            }
+        }
+    }
+    robot
+}

@@ -1,0 +1,65 @@
+//! The motion that excitation is measured against: random states within the limits.
+//!
+//! Parameters have different units, so that the condition of a regressor says as much about
+//! kilograms as about the motion. What torque a combination of parameters gives in a log,
+//! against what it gives in this motion, has no unit.
+
+use crate::accumulator::Accumulator;
+use crate::error::Error;
+use crate::model::{Model, state};
+use crate::random::Random;
+use crate::triangle::Triangle;
+
+/// Weighted states' R over all columns, without a torque.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// R, row by row.
+    pub(crate) r: Vec<f64>,
+    /// The norm of each column.
+    pub(crate) norms: Vec<f64>,
+}
+
+impl Reference {
+    /// Evaluates the motion, each joint's row divided by its noise, and divides by the root of
+    /// the number of states.
+    ///
+    /// # Errors
+    /// Those of [`Model::regressor`].
+    pub fn new(model: &Model, noise: &[f64]) -> Result<Reference, Error> {
+        let width = model.columns().len();
+        let mut random = Random::new(0x7265_6600);
+        let mut accumulator = Accumulator::new(model);
+        let zero = vec![0.0; model.joints()];
+        let states = 4 * width + 40;
+        for _ in 0..states {
+            let [q, qd, qdd] = state(model.limits(), 1.0, &mut random);
+            accumulator.add(model, [&q, &qd, &qdd], &zero)?;
+        }
+        let root = libm::sqrt(states as f64);
+        let scales: Vec<f64> = noise.iter().map(|noise| 1.0 / (noise * root)).collect();
+        let all = weighted(&accumulator, width, &scales);
+        let whole = all.reduced();
+        let r: Vec<f64> = (0..width * width)
+            .map(|i| whole[i / width * (width + 1) + i % width])
+            .collect();
+        let norm = |k: usize| {
+            let squares = (0..=k).map(|i| r[i * width + k].powi(2));
+            libm::sqrt(squares.sum())
+        };
+        Ok(Reference {
+            norms: (0..width).map(norm).collect(),
+            r,
+        })
+    }
+}
+
+/// Stacks the joints' triangles over all columns, each times its scale.
+pub(crate) fn weighted(accumulator: &Accumulator, columns: usize, scales: &[f64]) -> Triangle {
+    let mut all = Triangle::new(columns + 1);
+    for (row, scale) in accumulator.factors().iter().zip(scales) {
+        for k in 0..row.columns.len() {
+            all.push(row.spread(k, columns).iter().map(|x| x * scale));
+        }
+    }
+    all
+}

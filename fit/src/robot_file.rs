@@ -1,0 +1,85 @@
+//! The robot that has the bodies and drives that were identified.
+
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::robot::{Inertia, Robot};
+use num_traits::Zero;
+
+use crate::consistent::Bodies;
+use crate::error::Error;
+use crate::model::Model;
+
+/// Returns the model's robot with other bodies and drives;
+/// [`write`](dalembert_model::robot::write()) makes a file of it. Offsets are the sensors',
+/// not the robot's: they are not part of it.
+///
+/// Numbers have 13 digits, or 17 where a body at the border of those that exist needs them.
+///
+/// # Errors
+/// [`Error::Value`] for a number beyond the range of robot files, or a body that does not exist.
+pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
+    let mut robot = model.robot().clone();
+    for (i, joint) in robot.joints.iter_mut().enumerate() {
+        let link = bodies.links.get(i).copied().unwrap_or_default();
+        let (mass, com, inertia) = body(&link, i)?;
+        (joint.mass, joint.com, joint.inertia) = (mass, com, inertia);
+        joint.armature = rounded("armature", i, bodies.armature[i], 12)?;
+        joint.viscous = rounded("viscous", i, bodies.viscous[i], 12)?;
+        joint.coulomb = rounded("coulomb", i, bodies.coulomb[i], 12)?;
+        if joint.has_coulomb() && joint.coulomb_width.is_zero() {
+            joint.coulomb_width = rounded("coulomb_width", i, model.width(i), 16)?;
+        }
+    }
+    Ok(robot)
+}
+
+/// Returns mass, centre of mass and the tensor about it, of the ten moments about the origin.
+fn body(
+    link: &[f64; 10],
+    index: usize,
+) -> Result<(Rational, [Rational; 3], Inertia<Rational>), Error> {
+    let [mass, x, y, z, xx, yy, zz, xy, yz, xz] = *link;
+    let com = [x, y, z].map(|first| first / mass);
+    let origin = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    let square: f64 = com.iter().map(|x| x * x).sum();
+    let about = |i: usize, k: usize| {
+        let own = if i == k { square } else { 0.0 };
+        origin[i][k] - mass * (own - com[i] * com[k])
+    };
+    for digits in [12, 16] {
+        let number = |value: f64| rounded("link", index, value, digits);
+        let tensor = Inertia {
+            xx: number(about(0, 0))?,
+            yy: number(about(1, 1))?,
+            zz: number(about(2, 2))?,
+            xy: number(about(0, 1))?,
+            yz: number(about(1, 2))?,
+            xz: number(about(0, 2))?,
+        };
+        let mass = number(mass)?;
+        if tensor.defect(&mass).is_none() {
+            let [x, y, z] = com;
+            return Ok((mass, [number(x)?, number(y)?, number(z)?], tensor));
+        }
+    }
+    Err(Error::Value {
+        argument: "links",
+        index,
+        found: mass,
+    })
+}
+
+/// Returns a decimal of so many digits after the first.
+fn rounded(
+    argument: &'static str,
+    index: usize,
+    value: f64,
+    digits: usize,
+) -> Result<Rational, Error> {
+    let found = parse_decimal(&format!("{value:.digits$e}"));
+    found.map_err(|_| Error::Value {
+        argument,
+        index,
+        found: value,
+    })
+}

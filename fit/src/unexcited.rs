@@ -1,0 +1,238 @@
+//! Combinations of parameters that data do not tell, and a motion that would.
+
+use std::fmt;
+
+use crate::dense::{apply, dot};
+use crate::error::Error;
+use crate::model::Model;
+use crate::random::Random;
+use crate::reference::Reference;
+
+/// A motion gives at least so much of the reference motion's torque to tell a combination.
+const ENOUGH: f64 = 0.3;
+/// Less than so much is rounding.
+const NOTHING: f64 = 1e-6;
+
+/// A combination of parameters that the data do not excite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unexcited {
+    /// Columns of the model with their factors, the largest contribution first; those that
+    /// contribute less than a hundredth of its torque are left out.
+    pub combination: Vec<(usize, f64)>,
+    /// The same in words.
+    pub name: String,
+    /// Torque in the data per torque in the reference motion.
+    pub excitation: f64,
+    /// What would excite it.
+    pub motion: Motion,
+}
+
+/// A simple motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Standing in different poses.
+    Poses,
+    /// Accelerating a joint from rest, in different poses.
+    Accelerate(usize),
+    /// Turning or sliding a joint at different velocities, in different poses.
+    Move(usize),
+    /// Moving two joints at once.
+    Together(usize, usize),
+    /// All joints moving and accelerating.
+    All,
+    /// No motion within the limits.
+    None,
+}
+
+impl fmt::Display for Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Motion::Poses => f.write_str("hold the arm still in many different poses"),
+            Motion::Accelerate(joint) => write!(
+                f,
+                "accelerate joint {} from rest, in different poses",
+                joint + 1
+            ),
+            Motion::Move(joint) => write!(
+                f,
+                "move joint {} at different velocities, in different poses",
+                joint + 1
+            ),
+            Motion::Together(one, other) => write!(
+                f,
+                "move joints {} and {} at the same time, fast",
+                one + 1,
+                other + 1
+            ),
+            Motion::All => f.write_str("move all joints at the same time, fast"),
+            Motion::None => f.write_str("no motion within the joints' limits tells it"),
+        }
+    }
+}
+
+impl fmt::Display for Unexcited {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: {:.1e} of the torque that it gives in random motion; {}",
+            self.name, self.excitation, self.motion
+        )
+    }
+}
+
+/// Brings directions into echelon form: each has a parameter that no other has, so that as few
+/// as possible stand in each. Sizes are compared after multiplication by `norms`.
+pub(crate) fn separated(mut directions: Vec<Vec<f64>>, norms: &[f64]) -> Vec<Vec<f64>> {
+    for done in 0..directions.len() {
+        let mut pivot = (done, 0, 0.0);
+        for (i, direction) in directions.iter().enumerate().skip(done) {
+            for (k, x) in direction.iter().enumerate() {
+                let size = (x * norms[k]).abs();
+                if size > pivot.2 {
+                    pivot = (i, k, size);
+                }
+            }
+        }
+        let (row, column, _) = pivot;
+        directions.swap(done, row);
+        let own = directions[done].clone();
+        for (i, direction) in directions.iter_mut().enumerate() {
+            if i != done && own[column] != 0.0 {
+                let factor = direction[column] / own[column];
+                for (x, own) in direction.iter_mut().zip(&own) {
+                    *x -= factor * own;
+                }
+                direction[column] = 0.0;
+            }
+        }
+    }
+    directions
+}
+
+/// What torques along a direction of parameters are compared with.
+pub(crate) struct Weighting<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) noise: &'a [f64],
+    pub(crate) reference: &'a Reference,
+}
+
+impl Weighting<'_> {
+    /// Describes directions of parameters by R of the data and the root of their number.
+    pub(crate) fn describe(
+        &self,
+        directions: &[Vec<f64>],
+        r: &[f64],
+        root: f64,
+    ) -> Result<Vec<Unexcited>, Error> {
+        let norm = |r: &[f64], direction: &[f64]| -> f64 {
+            let image = apply(r, direction);
+            libm::sqrt(dot(&image, &image))
+        };
+        let each = directions.iter().map(|x| norm(&self.reference.r, x));
+        let units: Vec<f64> = each.collect();
+        let motions = self.motions(directions, &units)?;
+        let each = directions.iter().zip(units).zip(motions);
+        let each = each.map(|((direction, unit), motion)| {
+            let combination = self.leading(direction);
+            Unexcited {
+                name: named(self.model, &combination),
+                motion,
+                combination,
+                excitation: norm(r, direction) / (root * unit),
+            }
+        });
+        Ok(each.collect())
+    }
+
+    /// Returns the columns that contribute most to a direction, with their factors.
+    fn leading(&self, direction: &[f64]) -> Vec<(usize, f64)> {
+        let size = |column: usize| (direction[column] * self.reference.norms[column]).abs();
+        let mut columns: Vec<usize> = (0..direction.len()).collect();
+        columns.sort_by(|a, b| size(*b).total_cmp(&size(*a)).then(a.cmp(b)));
+        let largest = columns.first().map_or(0.0, |k| size(*k));
+        columns.retain(|k| size(*k) >= 0.01 * largest);
+        let unit = columns.first().map_or(1.0, |k| direction[*k]);
+        columns.iter().map(|k| (*k, direction[*k] / unit)).collect()
+    }
+
+    /// Finds the first of the motions, simple ones before others, that gives enough torque along each
+    /// direction of parameters; where all give less, the one that gives most.
+    fn motions(&self, directions: &[Vec<f64>], units: &[f64]) -> Result<Vec<Motion>, Error> {
+        let n = self.model.joints();
+        let mut motions = vec![Motion::Poses];
+        motions.extend((0..n).map(Motion::Move));
+        motions.extend((0..n).map(Motion::Accelerate));
+        for other in 1..n {
+            motions.extend((0..other).map(|one| Motion::Together(one, other)));
+        }
+        motions.push(Motion::All);
+        let mut best = vec![(Motion::None, NOTHING); directions.len()];
+        for motion in motions {
+            if best.iter().all(|(_, torque)| *torque >= ENOUGH) {
+                break;
+            }
+            let torques = self.torques(directions, motion)?;
+            for ((best, torque), unit) in best.iter_mut().zip(torques).zip(units) {
+                if best.1 < ENOUGH && torque / unit > best.1 {
+                    *best = (motion, torque / unit);
+                }
+            }
+        }
+        Ok(best.into_iter().map(|(motion, _)| motion).collect())
+    }
+
+    /// Computes root mean squares of the weighted torques along directions during a motion.
+    fn torques(&self, directions: &[Vec<f64>], motion: Motion) -> Result<Vec<f64>, Error> {
+        const STATES: usize = 24;
+        let mut random = Random::new(0x6d6f_7600);
+        let width = self.model.columns().len();
+        let mut totals = vec![0.0; directions.len()];
+        for _ in 0..STATES {
+            let [q, mut qd, mut qdd] = crate::model::state(self.model.limits(), 1.0, &mut random);
+            for (i, (qd, qdd)) in qd.iter_mut().zip(&mut qdd).enumerate() {
+                let [moves, accelerates] = match motion {
+                    Motion::Poses | Motion::None => [false, false],
+                    Motion::Accelerate(joint) => [false, i == joint],
+                    Motion::Move(joint) => [i == joint, false],
+                    Motion::Together(one, other) => [i == one || i == other, false],
+                    Motion::All => [true, true],
+                };
+                *qd *= f64::from(u8::from(moves));
+                *qdd *= f64::from(u8::from(accelerates));
+            }
+            let y = self.model.regressor(&q, &qd, &qdd)?;
+            for (total, direction) in totals.iter_mut().zip(directions) {
+                let torques = y.chunks(width).map(|row| dot(row, direction));
+                let weighted = torques
+                    .zip(self.noise)
+                    .map(|(x, noise)| (x / noise).powi(2));
+                *total += weighted.sum::<f64>();
+            }
+        }
+        let root = |total: f64| libm::sqrt(total / STATES as f64);
+        Ok(totals.into_iter().map(root).collect())
+    }
+}
+
+fn named(model: &Model, combination: &[(usize, f64)]) -> String {
+    let mut text = String::new();
+    for (i, (column, factor)) in combination.iter().take(3).enumerate() {
+        if i > 0 {
+            text += if *factor < 0.0 { " - " } else { " + " };
+        }
+        let name = model.name(*column);
+        let name = if name.contains(' ') {
+            format!("({name})")
+        } else {
+            name
+        };
+        text += &match factor.abs() {
+            1.0 => name,
+            factor => format!("{factor:.3} {name}"),
+        };
+    }
+    if combination.len() > 3 {
+        text += &format!(" + … ({} more)", combination.len() - 3);
+    }
+    text
+}

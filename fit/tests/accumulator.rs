@@ -1,0 +1,206 @@
+//! Parts that merge give what the whole gives, and bytes come back.
+
+use dalembert_fit::random::Random;
+use dalembert_fit::{Accumulator, Error, Model, Options, Prior, fit};
+
+use crate::support::{ARMS, State, accumulated, file, guess, model, states, torques, truth};
+
+/// The states in contiguous parts, each in batches, merged from the first to the last.
+fn in_parts(
+    model: &Model,
+    both: &[(&State, &Vec<f64>)],
+    parts: usize,
+    batch: usize,
+) -> Accumulator {
+    let mut all = Accumulator::new(model);
+    for part in both.chunks(both.len().div_ceil(parts)) {
+        let mut own = Accumulator::new(model);
+        for batch in part.chunks(batch) {
+            let mut partial = Accumulator::new(model);
+            for (state, tau) in batch {
+                partial.add_rows(model, &state.y, tau).unwrap();
+            }
+            own.merge(&partial).unwrap();
+        }
+        // As it travels between machines.
+        let read = Accumulator::from_bytes(model, &own.to_bytes()).unwrap();
+        all.merge(&read).unwrap();
+    }
+    all
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let norm = |x: &mut dyn Iterator<Item = f64>| x.map(|x| x * x).sum::<f64>().sqrt();
+    norm(&mut a.iter().zip(b).map(|(a, b)| a - b)) / norm(&mut b.iter().copied())
+}
+
+/// Nor does the order of states. Columns that depend on each other in one joint's row, as some
+/// of the PUMA's do, leave rows of rounding in its triangle: these must not count as fitted.
+#[test]
+fn partitions_do_not_matter() {
+    for name in ARMS {
+        let truth = truth(name);
+        let model = model(&guess(&truth));
+        let right = crate::support::true_parameters(&truth);
+        let states = states(&model, 1500, 1);
+        let mut random = Random::new(2);
+        let tau: Vec<Vec<f64>> = (states.iter())
+            .map(|state| {
+                let mut tau = torques(&state.y, &right);
+                tau.iter_mut()
+                    .for_each(|x| *x += dalembert_fit::random::normal(&mut random));
+                tau
+            })
+            .collect();
+        let both: Vec<_> = states.iter().zip(&tau).collect();
+        let reversed: Vec<_> = both.iter().rev().copied().collect();
+        let whole = in_parts(&model, &both, 1, 1500);
+        let wanted = fit(&model, &whole, &Prior::None).unwrap();
+        for (of, parts, batch) in [
+            (&both, 1, 333),
+            (&both, 2, 1500),
+            (&both, 3, 97),
+            (&both, 7, 333),
+            (&both, 7, 41),
+            (&reversed, 3, 97),
+        ] {
+            let merged = in_parts(&model, of, parts, batch);
+            assert_eq!(merged.states(), 1500);
+            let found = fit(&model, &merged, &Prior::None).unwrap();
+            for (what, a, b) in [
+                ("noise", &found.noise, &wanted.noise),
+                ("residuals", &found.after, &wanted.after),
+                ("parameters", &found.parameters, &wanted.parameters),
+                ("errors", &found.standard_errors, &wanted.standard_errors),
+            ] {
+                let distance = distance(a, b);
+                assert!(
+                    distance < 1e-12,
+                    "{name}, {parts} parts, {what}: {distance:e}"
+                );
+            }
+        }
+        // Twice the same is the same to the last bit.
+        let again = in_parts(&model, &both, 3, 97).to_bytes();
+        assert_eq!(again, in_parts(&model, &both, 3, 97).to_bytes());
+    }
+}
+
+/// Rows of a generated `regressor`, which has base parameters alone, give what `add` gives.
+#[test]
+fn rows_of_generated_regressors_are_completed() {
+    const K: usize = 14;
+    let robot = file("planar3r");
+    let model = model(&robot);
+    assert_eq!(model.base(), K);
+    let [mut added, mut generated] = [(); 2].map(|()| Accumulator::new(&model));
+    let width = model.columns().len();
+    for state in states(&model, 100, 5) {
+        let tau = torques(&state.y, model.parameters());
+        added
+            .add(&model, [&state.q, &state.qd, &state.qdd], &tau)
+            .unwrap();
+        let rows: Vec<[f64; K]> = (state.y.chunks(width))
+            .map(|row| row[..K].try_into().unwrap())
+            .collect();
+        generated
+            .add_generated(&model, &rows, &state.qd, &tau)
+            .unwrap();
+        let short = generated.add_generated(&model, &rows[1..], &state.qd, &tau);
+        assert!(matches!(short, Err(Error::Length { argument: "y", .. })));
+    }
+    assert_eq!(added, generated);
+}
+
+/// Residuals from the triangles are those of a second look at the states.
+#[test]
+fn residuals_need_no_second_look() {
+    let truth = truth("puma560");
+    let model = model(&guess(&truth));
+    let states = states(&model, 300, 3);
+    let right = crate::support::true_parameters(&truth);
+    let mut random = Random::new(4);
+    let data = accumulated(&model, &states, &right, Some(&mut random));
+    let found = data.residual(&model, model.parameters()).unwrap();
+    let mut random = Random::new(4);
+    let mut squares = [0.0; 6];
+    for state in &states {
+        let [tau, own] = [&right[..], model.parameters()].map(|p| torques(&state.y, p));
+        for (i, square) in squares.iter_mut().enumerate() {
+            let noise = crate::support::noise(i) * dalembert_fit::random::normal(&mut random);
+            *square += (tau[i] + noise - own[i]).powi(2);
+        }
+    }
+    for (found, square) in found.iter().zip(squares) {
+        let wanted = (square / 300.0).sqrt();
+        assert!((found - wanted).abs() < 1e-11 * wanted, "{found} {wanted}");
+    }
+}
+
+#[test]
+fn bytes_are_refused_that_are_not_its_own() {
+    let model = model(&file("puma560"));
+    let data = accumulated(&model, &states(&model, 90, 1), model.parameters(), None);
+    let bytes = data.to_bytes();
+    // Whatever the number of states.
+    assert!(bytes.len() < 25_000, "{}", bytes.len());
+    for length in 0..bytes.len() {
+        if length % 97 == 0 || length < 60 {
+            let read = Accumulator::from_bytes(&model, &bytes[..length]);
+            assert!(matches!(read, Err(Error::Bytes(_))), "{length}");
+        }
+    }
+    let mut longer = bytes.clone();
+    longer.push(0);
+    assert!(matches!(
+        Accumulator::from_bytes(&model, &longer),
+        Err(Error::Bytes(_))
+    ));
+    let mut newer = bytes.clone();
+    newer[6] = 2;
+    let said = Accumulator::from_bytes(&model, &newer)
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("version"), "{said}");
+    let mut infinite = bytes.clone();
+    let end = infinite.len();
+    infinite[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
+    assert!(matches!(
+        Accumulator::from_bytes(&model, &infinite),
+        Err(Error::Bytes(_))
+    ));
+    let other = Options {
+        offset: false,
+        ..Options::default()
+    };
+    let other = Model::new(&file("puma560"), &other).unwrap();
+    assert_eq!(
+        Accumulator::from_bytes(&other, &bytes),
+        Err(Error::OtherModel)
+    );
+    assert_eq!(
+        Accumulator::new(&other).merge(&data),
+        Err(Error::OtherModel)
+    );
+}
+
+/// The same columns, other masses: logs of one arm may be fitted from any file of it.
+#[test]
+fn masses_of_the_file_do_not_matter_to_the_accumulator() {
+    let truth = truth("ur10");
+    let [one, other] = [model(&truth), model(&guess(&truth))];
+    assert_eq!(one.fingerprint(), other.fingerprint());
+}
+
+#[test]
+fn a_state_that_is_refused_changes_nothing() {
+    let model = model(&file("puma560"));
+    let mut data = Accumulator::new(&model);
+    let six = [0.1; 6];
+    let bad = [0.1, 0.1, f64::INFINITY, 0.1, 0.1, 0.1];
+    assert!(data.add(&model, [&six, &six, &six], &bad).is_err());
+    assert!(data.add(&model, [&six, &bad, &six], &six).is_err());
+    assert_eq!(data, Accumulator::new(&model));
+    let few = fit(&model, &data, &Prior::None).unwrap_err();
+    assert!(few.to_string().contains("there are 0 states"), "{few}");
+}

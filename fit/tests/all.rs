@@ -1,0 +1,12 @@
+//! One program of all test files.
+
+mod accumulator;
+mod consistent;
+mod differentiate;
+mod excite;
+mod identified;
+mod regressor;
+mod statistics;
+mod support;
+mod unexcited;
+mod watch;

@@ -1,0 +1,76 @@
+//! From logs to a robot file, and logs that the fit has not seen.
+
+use dalembert_fit::random::Random;
+use dalembert_fit::{Error, Prior, consistent, cross_validation, fit, identified};
+use dalembert_model::read::parse;
+use dalembert_model::robot::write;
+
+use crate::support::{ARMS, accumulated, guess, model, noise, states, true_parameters, truth};
+
+/// The file is read again, and its parameters are those of the bodies.
+#[test]
+fn the_new_robot_file_has_the_parameters() {
+    for name in ARMS {
+        let truth = truth(name);
+        let model = model(&guess(&truth));
+        let mut random = Random::new(41);
+        let right = true_parameters(&truth);
+        let data = accumulated(&model, &states(&model, 400, 42), &right, Some(&mut random));
+        let free = fit(&model, &data, &Prior::None).unwrap();
+        let bodies = consistent(&model, &free).unwrap();
+        let text = write(&identified(&model, &bodies).unwrap());
+        let read = parse(&text, &Default::default()).unwrap();
+        let again = crate::support::model(&read.robot);
+        assert_eq!(again.fingerprint(), model.fingerprint());
+        for (k, wanted) in bodies.parameters.iter().enumerate() {
+            if model.name(k).starts_with("offset") {
+                continue;
+            }
+            let found = again.parameters()[k];
+            let error = (found - wanted).abs();
+            assert!(
+                error < 1e-9 * (1.0 + wanted.abs()),
+                "{}: {found} {wanted}",
+                model.name(k)
+            );
+        }
+        let after = data.residual(&model, &bodies.parameters).unwrap();
+        for (i, after) in after.iter().enumerate() {
+            assert!(*after < 1.15 * noise(i), "{name}: {after}");
+        }
+    }
+}
+
+#[test]
+fn logs_that_were_left_out_are_predicted() {
+    let truth = truth("panda");
+    let model = model(&guess(&truth));
+    let right = true_parameters(&truth);
+    let files: Vec<_> = (0..4)
+        .map(|file| {
+            let mut random = Random::new(50 + file);
+            accumulated(
+                &model,
+                &states(&model, 300, 60 + file),
+                &right,
+                Some(&mut random),
+            )
+        })
+        .collect();
+    let found = cross_validation(&model, &files, &Prior::None).unwrap();
+    assert_eq!(found.len(), 4);
+    for file in &found {
+        for i in 0..7 {
+            assert!(
+                file.after[i] < 1.2 * noise(i),
+                "{} {}",
+                file.after[i],
+                noise(i)
+            );
+            assert!(file.after[i] > 0.8 * noise(i));
+            assert!(file.before[i] > 2.0 * file.after[i]);
+        }
+    }
+    let one = cross_validation(&model, &files[..1], &Prior::None);
+    assert_eq!(one, Err(Error::OneFile));
+}

@@ -1,0 +1,135 @@
+//! Arms whose parameters are known, and what is taken for them at first.
+
+use dalembert_fit::random::{Random, normal, within};
+use dalembert_fit::{Accumulator, Model, Options};
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::read::parse;
+use dalembert_model::robot::{Inertia, Robot};
+
+pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
+
+/// An arm of the generated ones.
+pub fn file(name: &str) -> Robot {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
+    let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
+    parse(&text, &Default::default()).unwrap().robot
+}
+
+pub fn number(value: f64) -> Rational {
+    parse_decimal(&format!("{value:.12e}")).unwrap()
+}
+
+/// The arm with bodies that exist, rotors and friction.
+pub fn truth(name: &str) -> Robot {
+    let mut robot = file(name);
+    for (i, joint) in robot.joints.iter_mut().enumerate() {
+        let size = 1.0 / (1.0 + i as f64);
+        if joint.mass == number(0.0) {
+            joint.mass = number(2.0);
+        }
+        let mut added = number(1e-3);
+        // Off the border: a body that barely exists would not survive rounding.
+        joint.inertia = raised(&joint.inertia, &number(1e-4));
+        while joint.inertia.defect(&joint.mass).is_some() {
+            joint.inertia = raised(&joint.inertia, &added);
+            added = &added + &added;
+        }
+        joint.armature = number(0.3 * size);
+        joint.viscous = number(1.5 * size);
+        joint.coulomb = number(4.0 * size);
+        joint.coulomb_width = number(0.02);
+    }
+    robot
+}
+
+fn raised(tensor: &Inertia<Rational>, by: &Rational) -> Inertia<Rational> {
+    Inertia {
+        xx: &tensor.xx + by,
+        yy: &tensor.yy + by,
+        zz: &tensor.zz + by,
+        ..tensor.clone()
+    }
+}
+
+/// The arm as a data sheet has it: masses and centres a fifth wrong, no friction.
+pub fn guess(truth: &Robot) -> Robot {
+    let mut robot = truth.clone();
+    let mut random = Random::new(11);
+    for joint in &mut robot.joints {
+        joint.mass = &joint.mass * &number(1.0 + within(&mut random, 0.2));
+        for com in &mut joint.com {
+            *com = &*com * &number(1.0 + within(&mut random, 0.2));
+        }
+        for of in [&mut joint.armature, &mut joint.viscous, &mut joint.coulomb] {
+            *of = number(0.0);
+        }
+    }
+    robot
+}
+
+pub fn model(robot: &Robot) -> Model {
+    Model::new(robot, &Options::default()).unwrap()
+}
+
+/// A state with its regressor.
+pub struct State {
+    pub q: Vec<f64>,
+    pub qd: Vec<f64>,
+    pub qdd: Vec<f64>,
+    pub y: Vec<f64>,
+}
+
+/// Random states within the limits.
+pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
+    let mut random = Random::new(seed);
+    let mut draw = |largest: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (0..model.joints())
+            .map(|i| within(&mut random, largest(i)))
+            .collect()
+    };
+    let each = (0..count).map(|_| {
+        let q = draw(&|_| 2.5);
+        let qd = draw(&|i| model.limits()[i].velocity);
+        let qdd = draw(&|i| model.limits()[i].acceleration);
+        let y = model.regressor(&q, &qd, &qdd).unwrap();
+        State { q, qd, qdd, y }
+    });
+    each.collect()
+}
+
+/// π of the true arm over the columns of a model of it.
+pub fn true_parameters(truth: &Robot) -> Vec<f64> {
+    model(truth).parameters().to_vec()
+}
+
+/// Y π
+pub fn torques(y: &[f64], parameters: &[f64]) -> Vec<f64> {
+    let row = |row: &[f64]| row.iter().zip(parameters).map(|(y, p)| y * p).sum();
+    y.chunks(parameters.len()).map(row).collect()
+}
+
+/// The noise of each joint's torque, N·m.
+pub fn noise(joint: usize) -> f64 {
+    0.5 / (1.0 + joint as f64)
+}
+
+/// Accumulates states with the torques of `parameters` and noise.
+pub fn accumulated(
+    model: &Model,
+    states: &[State],
+    parameters: &[f64],
+    mut seed: Option<&mut Random>,
+) -> Accumulator {
+    let mut data = Accumulator::new(model);
+    for state in states {
+        let mut tau = torques(&state.y, parameters);
+        if let Some(random) = seed.as_deref_mut() {
+            for (i, tau) in tau.iter_mut().enumerate() {
+                *tau += noise(i) * normal(random);
+            }
+        }
+        data.add_rows(model, &state.y, &tau).unwrap();
+    }
+    data
+}

@@ -1,0 +1,244 @@
+//! A simulated arm under computed torque: collisions are found, and its payload.
+
+use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
+use dalembert_fit::{
+    Accumulator, Differentiator, Effort, Model, Prior, Trajectory, Watch, differentiate, excite,
+    fit,
+};
+use dalembert_model::robot::Robot;
+
+use crate::support::{guess, model, noise, number, torques, true_parameters, truth};
+
+const PERIOD: f64 = 1e-3;
+
+/// The PUMA on an exciting trajectory of 8 s, again and again.
+struct Scene {
+    truth: Robot,
+    model: Model,
+    trajectory: Trajectory,
+    filter: Differentiator,
+}
+
+impl Scene {
+    fn new() -> Scene {
+        let truth = truth("puma560");
+        let model = model(&guess(&truth));
+        let effort = Effort {
+            starts: 8,
+            descents: 1,
+            steps: 10,
+            ..Effort::default()
+        };
+        let (trajectory, _) = excite(&model, &[1.0; 6], 8.0, &effort).unwrap();
+        Scene {
+            truth,
+            model,
+            trajectory,
+            filter: Differentiator::for_motion(PERIOD, 4.0).unwrap(),
+        }
+    }
+
+    fn record(
+        &self,
+        arms: Vec<(f64, Robot)>,
+        collisions: &[Collision],
+        seconds: f64,
+        seed: u64,
+    ) -> Log {
+        let controlled = Controlled {
+            arms,
+            controller: guess(&self.truth),
+            bandwidth: 20.0,
+            collisions: collisions.to_vec(),
+        };
+        let recording = Recording {
+            period: PERIOD,
+            states: (seconds / PERIOD) as usize,
+            noise: (0..6).map(noise).collect(),
+            resolution: 2.0 * std::f64::consts::PI / 131_072.0,
+            seed,
+        };
+        control(&controlled, &self.trajectory, &recording).unwrap()
+    }
+
+    /// Calls with time, regressor and torques of each state, rates from the encoders.
+    fn each(&self, log: &Log, mut use_it: impl FnMut(f64, &[f64], &[f64])) {
+        let joints: Vec<[Vec<f64>; 3]> = (0..6)
+            .map(|i| {
+                let q: Vec<f64> = log.q.iter().map(|q| q[i]).collect();
+                differentiate(&self.filter, &q).unwrap()
+            })
+            .collect();
+        for k in 0..joints[0][0].len() {
+            let [q, qd, qdd] =
+                [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect::<Vec<_>>());
+            let y = self.model.regressor(&q, &qd, &qdd).unwrap();
+            let at = k + self.filter.half();
+            use_it(at as f64 * PERIOD, &y, &log.tau[at]);
+        }
+    }
+}
+
+/// What a watch says at each time of a log, and its level there.
+fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)> {
+    let right = true_parameters(&scene.truth);
+    let sigma: Vec<f64> = (0..6).map(noise).collect();
+    let mut watch = Watch::new(&sigma, 1.0, bar).unwrap();
+    let mut said = Vec::new();
+    scene.each(log, |time, y, tau| {
+        let predicted = torques(y, &right);
+        let residuals: Vec<f64> = tau.iter().zip(&predicted).map(|(t, p)| t - p).collect();
+        let alarm = watch.push(&residuals).unwrap();
+        said.push((time, alarm, watch.level()));
+    });
+    said
+}
+
+/// Holds what a watch finds to the two collisions of each log of so many seconds, and returns
+/// the number of false alarms. Its bar is twice the level of a log without collisions.
+fn false_alarms(logs: u64, seconds: f64) -> usize {
+    let scene = Scene::new();
+    let arms = vec![(0.0, scene.truth.clone())];
+    let quiet = scene.record(arms.clone(), &[], 16.0, 999);
+    let level = watched(&scene, &quiet, 1e9)
+        .iter()
+        .fold(0.0f64, |max, said| max.max(said.2));
+    let push = |start: f64, joint: usize, peak: f64| {
+        let mut torque = vec![0.0; 6];
+        torque[joint] = peak;
+        Collision {
+            start,
+            duration: 0.1,
+            torque,
+        }
+    };
+    // Of the second joint a tenth of its weight, of the fifth ten times its noise.
+    let collisions = [push(0.41 * seconds, 1, 6.0), push(0.77 * seconds, 4, -1.0)];
+    println!("level {level:.1}");
+    let near = |one: &Collision, time: f64| time > one.start - 0.2 && time < one.start + 0.4;
+    let mut others = 0;
+    for seed in 0..logs {
+        let log = scene.record(arms.clone(), &collisions, seconds, seed);
+        let said = watched(&scene, &log, 2.0 * level);
+        let alarms: Vec<f64> = said
+            .iter()
+            .filter(|said| said.1.is_some())
+            .map(|x| x.0)
+            .collect();
+        for one in &collisions {
+            assert!(
+                alarms.iter().any(|time| near(one, *time)),
+                "missed {one:?}: {alarms:?}"
+            );
+        }
+        let far = |time: &&f64| !collisions.iter().any(|one| near(one, **time));
+        others += alarms.iter().filter(far).count();
+    }
+    println!("{} collisions found, {others} false alarms", 2 * logs);
+    others
+}
+
+#[test]
+fn collisions_are_found_and_nothing_else() {
+    assert_eq!(false_alarms(1, 20.0), 0);
+}
+
+#[test]
+#[ignore = "an hour of an arm's time, some minutes of ours: a step of `.ci/run`"]
+fn an_hour_has_one_false_alarm_at_most() {
+    assert!(false_alarms(60, 60.0) <= 1);
+}
+
+/// A payload that is taken up in the middle of a log is another arm: each half has its own
+/// parameters, within standard errors, and far from the other's.
+#[test]
+fn a_payload_is_found() {
+    let scene = Scene::new();
+    let mut loaded = scene.truth.clone();
+    let hand = loaded.joints.last_mut().unwrap();
+    hand.mass = &hand.mass + &number(1.5);
+    let arms = vec![(0.0, scene.truth.clone()), (10.0, loaded.clone())];
+    let log = scene.record(arms, &[], 20.0, 5);
+    let mut halves = [(); 2].map(|()| Accumulator::new(&scene.model));
+    scene.each(&log, |time, y, tau| {
+        // What the filter's window mixes belongs to neither.
+        if (time - 10.0).abs() > 1.0 {
+            let half = usize::from(time > 10.0);
+            halves[half].add_rows(&scene.model, y, tau).unwrap();
+        }
+    });
+    let right = [&scene.truth, &loaded].map(true_parameters);
+    let away = |half: usize, from: usize| -> f64 {
+        let found = fit(&scene.model, &halves[half], &Prior::None).unwrap();
+        let parts = found.parameters.iter().zip(&right[from]);
+        let parts = parts.zip(&found.standard_errors);
+        let squares: f64 = parts.map(|((x, r), e)| ((x - r) / e).powi(2)).sum();
+        (squares / right[from].len() as f64).sqrt()
+    };
+    for half in 0..2 {
+        let [own, other] = [away(half, half), away(half, 1 - half)];
+        println!("half {half}: {own:.2} standard errors from its own, {other:.1} from the other");
+        assert!(own < 3.0 && other > 10.0 * own, "{own} {other}");
+    }
+}
+
+#[test]
+fn scenes_and_watches_that_cannot_be_are_refused() {
+    let scene = Scene::new();
+    let good = Controlled {
+        arms: vec![(0.0, scene.truth.clone())],
+        controller: scene.truth.clone(),
+        bandwidth: 20.0,
+        collisions: Vec::new(),
+    };
+    let recording = Recording {
+        period: PERIOD,
+        states: 10,
+        noise: vec![0.1; 6],
+        resolution: 0.0,
+        seed: 1,
+    };
+    let said = |controlled: &Controlled, recording: &Recording| {
+        let log = control(controlled, &scene.trajectory, recording);
+        log.map(|log| log.q.len()).map_err(|why| why.to_string())
+    };
+    assert_eq!(said(&good, &recording), Ok(10));
+    let nobody = Controlled {
+        arms: Vec::new(),
+        ..good.clone()
+    };
+    assert!(said(&nobody, &recording).unwrap_err().contains("beginning"));
+    let other = Controlled {
+        arms: vec![(0.0, crate::support::file("panda"))],
+        ..good.clone()
+    };
+    let why = said(&other, &recording).unwrap_err();
+    assert_eq!(why, "`arms` has 7 values instead of 6");
+    let short = Collision {
+        start: 0.0,
+        duration: 0.1,
+        torque: vec![1.0],
+    };
+    let short = Controlled {
+        collisions: vec![short],
+        ..good.clone()
+    };
+    assert!(said(&short, &recording).unwrap_err().contains("collisions"));
+    // So fast that the period is too long for it: the arm runs away, and nothing is recorded.
+    let fast = Controlled {
+        bandwidth: 1e5,
+        ..good.clone()
+    };
+    let long = Recording {
+        states: 1000,
+        ..recording
+    };
+    assert!(said(&fast, &long).unwrap_err().contains("qdd"));
+    assert!(Watch::new(&[0.0], 1.0, 10.0).is_err());
+    assert!(Watch::new(&[1.0], f64::NAN, 10.0).is_err());
+    let mut watch = Watch::new(&[1.0, 2.0], 1.0, 10.0).unwrap();
+    assert!(watch.push(&[1.0]).is_err());
+    // Five noises less one a state: over ten at the third.
+    let said: Vec<_> = (0..4).map(|_| watch.push(&[0.0, -10.0]).unwrap()).collect();
+    assert_eq!(said, [None, None, Some(1), None]);
+}
