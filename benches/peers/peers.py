@@ -211,4 +211,5 @@ def main():
         run(*rest)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,5 +1,6 @@
-/* Times or runs one function that CasADi wrote; compiled with its source named by
- * -DSOURCE, its name by -DNAME, joints by -DJOINTS and results by -DRESULTS.
+/* Times or runs one function in C; compiled with its source named by -DSOURCE, its name by
+ * -DNAME, joints by -DJOINTS and results by -DRESULTS. It is CasADi's, with -DPINOCCHIO
+ * Pinocchio's, or with -DOURS=1 or 3 ours with so many arrays of results.
  *
  * `values STATES` prints the results at the states, a line each; `time STATES` the
  * nanoseconds a state, the median of many batches. */
@@ -21,6 +22,23 @@ static int order(const void* a, const void* b) {
   return (x > y) - (x < y);
 }
 
+#if defined(OURS)
+static void run(const double* state) {
+  const double *qd = state + JOINTS, *x = state + 2 * JOINTS;
+#if OURS == 3
+  NAME(state, qd, x, results, results + JOINTS * JOINTS, results + 2 * JOINTS * JOINTS);
+#else
+  NAME(state, qd, x, results);
+#endif
+}
+#elif defined(PINOCCHIO)
+static void run(const double* state) {
+  const double* in[1] = {state};
+  double* out[1] = {results};
+  struct LangCAtomicFun none = {0};
+  NAME(in, out, none);
+}
+#else
 static void run(const double* state) {
   static casadi_int iw[1024];
   static double w[65536];
@@ -28,6 +46,7 @@ static void run(const double* state) {
   double* res[8] = {results};
   NAME(arg, res, iw, w, 0);
 }
+#endif
 
 static double now(void) {
   struct timespec t;
@@ -36,9 +55,12 @@ static double now(void) {
 }
 
 int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+#if !defined(OURS) && !defined(PINOCCHIO)
   casadi_int arg, res, iw, w;
   GLUE(NAME, _work)(&arg, &res, &iw, &w);
-  if (argc != 3 || arg > 8 || res > 8 || iw > 1024 || w > 65536) return 2;
+  if (arg > 8 || res > 8 || iw > 1024 || w > 65536) return 2;
+#endif
   FILE* file = fopen(argv[2], "r");
   if (!file) return 2;
   int count = 0;

@@ -261,10 +261,17 @@ impl Generator {
     }
 
     /// Sets the language of the file: [`Language::C`] writes one header of C99, which C++ reads
-    /// too, with the functions of all scalars.
+    /// too, with the functions of all scalars, and [`Language::Cuda`] one for host and device.
     #[must_use]
     pub fn language(mut self, language: Language) -> Self {
         self.request.language = language;
+        self
+    }
+
+    /// Sets whether functions in C have contracts in ACSL, for Frama-C.
+    #[must_use]
+    pub fn acsl(mut self, acsl: bool) -> Self {
+        self.request.acsl = acsl;
         self
     }
 

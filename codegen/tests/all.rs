@@ -1,6 +1,7 @@
 //! One program of all test files: they share what they link, and both cores.
 
 mod accuracy_limit;
+mod acsl;
 mod arguments;
 mod bars;
 mod bundles;
@@ -15,6 +16,7 @@ mod certify_random;
 mod certify_sines;
 mod certify_work;
 mod coulomb;
+mod cuda;
 mod entries;
 mod extremes;
 mod floating;

@@ -9,6 +9,7 @@ use dalembert_codegen::workspace::edits::text::{read_edit, write_edit};
 use dalembert_codegen::workspace::edits::{Edit, EditSite, Stage, difference};
 use dalembert_codegen::workspace::falsify::falsify;
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
 use dalembert_codegen::workspace::graph::Folding;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Program, ScalarType};
@@ -17,6 +18,25 @@ use dalembert_codegen::workspace::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
 
 use crate::support;
+
+/// What is of no joint is held to the tolerance too: of an energy not everything goes.
+#[test]
+fn an_energy_is_within_the_tolerance() {
+    let scene = "[scene.near]\ntolerance = { value = [1e-2, 5e-2], relative_to = \"range\" }\n\
+        box = { velocity = [1, 3], acceleration = [3, 3] }\n";
+    let mut planar = support::reading_with("planar2r", scene);
+    let request = Request {
+        functions: vec![Function::KineticEnergy],
+        scene: Some(planar.scenes.remove(0)),
+        ..Request::default()
+    };
+    let generated = generate(&planar.robot, &request).unwrap();
+    let admitted = generated.functions[0].admitted.as_ref().unwrap();
+    for certificate in &admitted.certificates {
+        let bound = certificate.bounds[0].total();
+        assert!(bound <= 1e-2 && bound > 0.0, "{bound}");
+    }
+}
 
 fn robot() -> Robot {
     let mut robot = support::robot("planar3r");

@@ -50,9 +50,14 @@ pub struct GenerateArgs {
     #[arg(long, help_heading = CODE)]
     pub contents: bool,
     /// The language of the code: `rust`, a module for each scalar; `c`, one header of C99 that
-    /// C++ reads too
+    /// C++ reads too; `cuda`, one header of functions for host and device, and kernels with
+    /// `--entries batch`
     #[arg(long, value_name = "NAME", default_value = "rust", value_parser = language_parser())]
     pub language: Language,
+    /// Write contracts in ACSL above functions in C, for Frama-C: the box, what is written, and
+    /// the certified bounds
+    #[arg(long, help_heading = CODE)]
+    pub acsl: bool,
     /// Which variants of each function to print, each choice with those before it:
     /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`,
     /// for several states at once; `batch`, for slices of states (needs the crate

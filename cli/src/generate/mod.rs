@@ -28,6 +28,7 @@ use files::Files;
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     request.language = args.language;
+    request.acsl = args.acsl;
     request.entries = args.entries;
     request.interface = args.interface;
     if args.contents {

@@ -98,15 +98,13 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
             if above { value.next_down() } else { value }
         })
     };
+    // What is of no joint, such as an energy, is held to the strictest.
+    let strictest = rows.iter().copied().map(of).reduce(f64::min);
     let mut all = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(sizes) {
-            all.push(
-                quantity
-                    .joints(index, rows, sizes)
-                    .map(of)
-                    .fold(f64::INFINITY, f64::min),
-            );
+            let own = quantity.joints(index, rows, sizes).map(of);
+            all.push(own.reduce(f64::min).or(strictest).unwrap_or(0.0));
         }
     }
     all

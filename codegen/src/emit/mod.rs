@@ -13,6 +13,7 @@
 //! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
 //!   its load are, and gravity where it is an argument; `friction`: Coulomb friction
 
+mod acsl;
 pub(crate) mod arguments;
 mod escape;
 pub(crate) mod figures;

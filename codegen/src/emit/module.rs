@@ -13,13 +13,17 @@ use super::{Interface, arguments, fused, interface, parameters, sines, variant};
 use crate::emit::GeneratedFunction;
 use crate::language::entries::angles::Angles;
 use crate::language::entries::{self, Around};
-use crate::language::{Entries, Printed, function, result};
+use crate::language::{Entries, Language, Printed, function, result};
 use crate::program::{Lowered, ScalarType};
 use crate::scene::SceneRobot;
 
 /// How a robot's modules are printed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ModuleOptions<'a> {
+    /// The language of the text.
+    pub language: Language,
+    /// Whether functions have contracts.
+    pub acsl: bool,
     /// One module each.
     pub scalars: &'a [ScalarType],
     /// Where the sines and roots are that functions call.

@@ -11,14 +11,13 @@ use super::variant::held;
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::language::c99::{Names, float};
-use crate::language::dialect::Dialect;
 use crate::program::ScalarType;
 use crate::scene::SceneRobot;
 use crate::sincos;
 
 /// The ranges of each argument's entries; none for those that nothing bounds.
 pub(super) struct StateBox {
-    columns: Vec<(Argument, Vec<Option<Interval>>)>,
+    pub(super) columns: Vec<(Argument, Vec<Option<Interval>>)>,
 }
 
 impl StateBox {
@@ -102,10 +101,22 @@ impl StateBox {
 }
 
 impl StateBox {
+    /// Returns the ends of an entry of an argument, if anything bounds it.
+    pub(super) fn ends(
+        &self,
+        argument: Argument,
+        index: usize,
+        scalar: ScalarType,
+    ) -> Option<[String; 2]> {
+        let (_, column) = self.columns.iter().find(|(own, _)| *own == argument)?;
+        let range = column.get(index).copied().flatten()?;
+        Some(ends(Some(range), scalar))
+    }
+
     /// Prints the function of C that asks.
     pub(super) fn write_c(&self, text: &mut String, scalar: ScalarType, names: &Names) {
         let (float, restrict) = (float(scalar), names.constant("RESTRICT"));
-        let dialect = Dialect::c99(scalar);
+        let dialect = names.dialect();
         let parameters = self.columns.iter().map(|(argument, column)| {
             let (name, length) = (argument.name(), column.len());
             format!("const {float} {name}[{restrict} {length}]")
@@ -116,7 +127,8 @@ impl StateBox {
             text,
             "\n/* Whether a state is where the functions hold, ends included: 1 or 0. The error bounds\n \
              * hold only there. A state with a NaN is not inside. */\n\
-             static inline int {}({})\n{{\n    int inside = 1;\n",
+             {} int {}({})\n{{\n    int inside = 1;\n",
+            dialect.function,
             names.of("in_box"),
             parameters.join(", ")
         );

@@ -15,6 +15,8 @@ use crate::language::{Entries, Language};
 pub enum Lacks {
     /// A way to call functions.
     Entries(Entries),
+    /// Contracts; of C it lacks them for batches only.
+    Contracts,
     /// Traits.
     Traits,
     /// The contents of a module: there is one header.
@@ -31,6 +33,10 @@ impl fmt::Display for Lacks {
                 "it has no entries `{}`: ask for `single` or `batch`",
                 entries.name()
             ),
+            Lacks::Contracts => f.write_str(
+                "it has no contracts here: functions of one state in `c` have them, so ask for that \
+                 language and the entries `single`, or leave `--acsl` out",
+            ),
             Lacks::Traits => f.write_str("it has no traits: leave the interface out"),
             Lacks::Contents => f.write_str(
                 "it has no modules, and one header for all scalars: leave `contents` out",
@@ -46,6 +52,10 @@ impl fmt::Display for Lacks {
 
 /// Refuses what the language lacks.
 pub(super) fn check(robot: &Robot, request: &Request, functions: &[Function]) -> Result<(), Lacks> {
+    let has_contracts = request.language == Language::C && request.entries == Entries::Single;
+    if request.acsl && !has_contracts {
+        return Err(Lacks::Contracts);
+    }
     if request.language == Language::Rust {
         return Ok(());
     }

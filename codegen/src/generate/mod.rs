@@ -158,6 +158,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let codes: Vec<Vec<Lowered>> = scalars.iter().map(in_scalar).collect();
     let name = request.module_name(robot);
     let options = ModuleOptions {
+        language: request.language,
+        acsl: request.acsl,
         scalars: &scalars,
         path: &request.math.path,
         entries: request.entries,
@@ -169,7 +171,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     };
     let write = match request.language {
         Language::Rust => module::write,
-        Language::C => header::write,
+        Language::C | Language::Cuda => header::write,
     };
     let text = write(robot, &scene_robot, &functions, &codes, &options);
     let angles = module::angles(robot.joints.len(), &functions);
@@ -177,7 +179,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     for (&scalar, codes) in scalars.iter().zip(&codes) {
         for (generated, code) in functions.iter().zip(codes) {
             let section = match (request.language, request.layout) {
-                (Language::C, _) | (_, Layout::Contents) => Some(text.as_str()),
+                (Language::C | Language::Cuda, _) | (_, Layout::Contents) => Some(text.as_str()),
                 (Language::Rust, Layout::Modules) => {
                     module::section(&text, &module::name(&name, scalar, &scalars))
                 }
@@ -373,8 +375,8 @@ fn read_back(
     };
     let read = match request.language {
         Language::Rust => Lowered::parse_entries(section, &printed, request.entries, &around),
-        Language::C => {
-            let names = Names::new(name, scalar);
+        Language::C | Language::Cuda => {
+            let names = Names::new(name, request.language, scalar);
             Lowered::parse_c(section, &printed, request.entries, &names)
         }
     };

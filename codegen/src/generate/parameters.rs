@@ -7,7 +7,7 @@ use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 use super::request::Request;
 use crate::approximate::error::Unbounded;
 use crate::function::{Argument, Function};
-use crate::language::Entries;
+use crate::language::{Entries, Language};
 use crate::portfolio::Start;
 use crate::scene::SceneRobot;
 
@@ -18,7 +18,7 @@ pub enum ParameterError {
     Unregrouped(Function),
     /// A textbook's formulation has no regrouped parameters.
     Formulation(Start),
-    /// Batches have arguments with an entry a joint.
+    /// Batches in Rust have arguments with an entry a joint.
     Batch(RuntimeParameter),
     /// The scene says what gravity is.
     Gravity {
@@ -84,7 +84,8 @@ pub(super) fn check(request: &Request, scene_robot: &SceneRobot) -> Result<(), P
             return Err(ParameterError::Tolerance(function, argument));
         }
     }
-    if request.entries == Entries::Batch {
+    // In other languages a batch has columns of any argument.
+    if request.language == Language::Rust && request.entries == Entries::Batch {
         return Err(ParameterError::Batch(first));
     }
     let given = scene.filter(|scene| scene.gravity.is_some());

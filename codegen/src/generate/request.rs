@@ -81,6 +81,8 @@ pub struct Request {
     pub scalars: Vec<ScalarType>,
     /// The language of the text.
     pub language: Language,
+    /// Whether functions in C have contracts in ACSL, for Frama-C.
+    pub acsl: bool,
     /// The formulation to start from.
     pub start: Start,
     /// How much work the simplifier may do for functions that are not in the
@@ -175,6 +177,7 @@ impl Default for Request {
             functions: Function::by_default(),
             scalars: ScalarType::ALL.to_vec(),
             language: Language::default(),
+            acsl: false,
             start: Start::Auto,
             effort: Effort::Quick,
             prefer: Prefer::Accuracy,

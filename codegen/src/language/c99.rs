@@ -1,5 +1,5 @@
-//! Functions in C99, which C++ reads too: one flat `static inline` function each, matrices
-//! row by row.
+//! Functions in C99, which C++ reads too, and in CUDA: one flat function each, matrices row by
+//! row.
 //!
 //! ```text
 //! static inline void arm_gravity(const double q[ARM_RESTRICT 2], double c[ARM_RESTRICT 2])
@@ -20,16 +20,16 @@ use dalembert_sines::{LARGEST, LARGEST_F32};
 use super::dialect::Dialect;
 use super::function::reads;
 use super::scope::Scope;
-use super::{Printed, speed};
+use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::kernel::{Kernel, Term, Value};
-use crate::program::{AngleSum, Library, Literal, Lowered, ScalarType};
+use crate::program::{AngleSum, Library, Lowered, ScalarType};
 
 /// The most characters of a name: compilers need not tell longer ones apart.
 pub(crate) const LONGEST: usize = 31;
 
 /// Words that are shortened in names that would be too long.
-const SHORT: [(&str, &str); 10] = [
+const SHORT: [(&str, &str); 14] = [
     ("inverse", "inv"),
     ("forward", "fwd"),
     ("dynamics", "dyn"),
@@ -40,21 +40,40 @@ const SHORT: [(&str, &str); 10] = [
     ("equation", "eq"),
     ("passivity", "pass"),
     ("regressor", "regr"),
+    ("kinetic", "kin"),
+    ("potential", "pot"),
+    ("energy", "en"),
+    ("momentum", "mom"),
 ];
 
-/// The names of one scalar's functions in a header.
+/// The names of one scalar's functions in a header of a language.
 #[derive(Clone, Debug)]
 pub struct Names {
     base: String,
+    language: Language,
     scalar: ScalarType,
 }
 
 impl Names {
     /// The names of a module's functions in a scalar.
-    pub fn new(base: &str, scalar: ScalarType) -> Names {
+    pub fn new(base: &str, language: Language, scalar: ScalarType) -> Names {
         Names {
             base: base.to_owned(),
+            language,
             scalar,
+        }
+    }
+
+    /// The language.
+    pub(super) fn language(&self) -> Language {
+        self.language
+    }
+
+    /// How its functions are written.
+    pub(crate) fn dialect(&self) -> Dialect {
+        match self.language {
+            Language::Cuda => Dialect::cuda(self.scalar),
+            Language::C | Language::Rust => Dialect::c99(self.scalar),
         }
     }
 
@@ -91,7 +110,9 @@ impl Dialect {
         };
         Dialect {
             scalar,
+            function: "static inline",
             declaration,
+            product: "{} * {}",
             fused,
             negative: "-{}",
             literal,
@@ -186,7 +207,8 @@ pub(crate) fn head(printed: &Printed<'_>, names: &Names, is_told: bool) -> Strin
         }
     }
     format!(
-        "static inline {result} {}({})",
+        "{} {result} {}({})",
+        names.dialect().function,
         names.of(&name),
         parameters.join(", ")
     )
@@ -220,7 +242,7 @@ pub(crate) fn single(printed: &Printed<'_>, names: &Names) -> String {
 }
 
 /// Whether sines are of the crate's algorithm, which calls others for angles that are far.
-pub(crate) fn is_together(code: &Lowered) -> bool {
+fn is_together(code: &Lowered) -> bool {
     code.library == Library::Together && code.trig.iter().any(|trig| trig.kernel.is_none())
 }
 
@@ -238,6 +260,12 @@ pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
     fields.collect()
 }
 
+/// Whether the function is told whether angles may be far: in batches that are vectors, where
+/// calls would be in the way.
+pub(crate) fn is_told(code: &Lowered, names: &Names) -> bool {
+    names.language == Language::C && is_together(code)
+}
+
 /// Arguments that the code does not read.
 pub(crate) fn unread(printed: &Printed<'_>) -> Vec<Argument> {
     let arguments = printed.arguments.iter().copied();
@@ -253,7 +281,7 @@ pub(crate) fn kernel_name(angle: AngleSum, step: usize) -> String {
 
 /// Prints the function.
 pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
-    let (code, dialect) = (printed.code, Dialect::c99(printed.code.scalar));
+    let (code, dialect) = (printed.code, names.dialect());
     let far = FAR[usize::from(is_told)];
     let mut text = format!("{}\n{{\n", head(printed, names, is_told));
     let mut line = |line: &str| {
@@ -328,7 +356,7 @@ fn kernel_lines<'k>(
 ) -> impl Iterator<Item = String> + 'k {
     kernel.steps.iter().enumerate().map(move |(index, step)| {
         let [left, right] = [step.left, step.right].map(|t| term(t, angle, argument, dialect));
-        let value = format!("{left} {} {right}", step.operation.symbol());
+        let value = dialect.operation(step.operation, &left, &right);
         dialect.declare(&kernel_name(angle, index), &value)
     })
 }
@@ -344,113 +372,6 @@ fn term(term: Term, angle: AngleSum, argument: &str, dialect: Dialect) -> String
         Term::Constant(value) => dialect.literal(value),
         Term::Step(step) => kernel_name(angle, step),
     }
-}
-
-/// Prints the function of any number of states, in columns: entry i of state s is at
-/// `i * n + s`.
-pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
-    let (function, sizes) = (printed.function, printed.sizes);
-    let float = float(printed.code.scalar);
-    let [restrict, simd] = ["RESTRICT", "SIMD"].map(|word| names.constant(word));
-    let is_told = is_together(printed.code);
-    let (single, name) = (
-        names.of(function.name()),
-        names.of(&format!("{function}_batch")),
-    );
-    let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
-    let (mut gathered, mut stored) = (String::new(), String::new());
-    let at = |index: usize| match index {
-        0 => "s".to_owned(),
-        1 => "n + s".to_owned(),
-        more => format!("({more}U * n) + s"),
-    };
-    for argument in printed.arguments {
-        let (name, length) = (argument.name(), argument.length(sizes));
-        parameters.push(format!("const {float} *{restrict} {name}"));
-        let entries = (0..length).map(|index| format!("{name}[{}]", at(index)));
-        let entries: Vec<String> = entries.collect();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            gathered,
-            "        const {float} {name}_s[{length}] = {{{}}};",
-            entries.join(", ")
-        );
-        passed.push(format!("{name}_s"));
-    }
-    for quantity in function.quantities() {
-        parameters.push(format!("{float} *{restrict} {}", quantity.field()));
-    }
-    let call = |passed: &[String], is_told: bool| {
-        let (called, passed) = (names.of(&format!("{function}_any")), passed.join(", "));
-        match is_told {
-            true => format!("{called}(0, {passed})"),
-            false => format!("{single}({passed})"),
-        }
-    };
-    let field = function.quantities()[0].field();
-    let before = if is_number(function) {
-        format!("{field}[s] = ")
-    } else {
-        String::new()
-    };
-    if !is_number(function) {
-        let mut of = "";
-        if is_bundle(function) {
-            let kind = structure_name(function, names);
-            let _ = writeln!(gathered, "        {kind} result_s;");
-            passed.push("&result_s".to_owned());
-            of = "result_s.";
-        }
-        for quantity in function.quantities() {
-            let (field, length) = (quantity.field(), quantity.len(sizes));
-            let after = if is_bundle(function) { "" } else { "_s" };
-            if !is_bundle(function) {
-                let _ = writeln!(gathered, "        {float} {field}_s[{length}];");
-                passed.push(format!("{field}_s"));
-            }
-            for index in 0..length {
-                let place = at(index);
-                let _ = writeln!(
-                    stored,
-                    "        {field}[{place}] = {of}{field}{after}[{index}];"
-                );
-            }
-        }
-    }
-    let body = |is_told: bool, when: &str| {
-        format!(
-            "    for (s = 0U; s < n; ++s) {{\n{gathered}{when}        {before}{};\n{stored}    }}\n",
-            call(&passed, is_told)
-        )
-    };
-    // Where an angle may be far, once more: no joint is that far whose sums are not.
-    let mut again = String::new();
-    if is_told {
-        let far = Dialect::c99(printed.code.scalar).literal(Literal(far(printed.code)));
-        let f = printed.code.scalar.math_suffix();
-        let near = (0..sizes.joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
-        let near: Vec<String> = near.collect();
-        let when = format!(
-            "        if ({}) {{\n            continue;\n        }}\n",
-            near.join(" && ")
-        );
-        again = body(false, &when);
-    }
-    format!(
-        "/* {single} at n states, in columns: entry i of state s stands at i * n + s. Each state\n \
-         * has the results that it has alone, bit for bit. */\n\
-         #if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n\
-         static inline void {name}({})\n{{\n    size_t s;\n    {simd}\n{}{again}}}\n",
-        parameters.join(", "),
-        body(is_told, "")
-    )
-}
-
-/// As far as joints may turn for all angles, sums of them too, to be those that sines are
-/// computed of without a library.
-fn far(code: &Lowered) -> f64 {
-    let terms = code.trig.iter().map(|trig| trig.angle.terms().count());
-    largest(code.scalar) / terms.max().unwrap_or(1).next_power_of_two() as f64
 }
 
 /// Up to this magnitude sines are computed without a library.

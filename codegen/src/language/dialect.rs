@@ -10,8 +10,12 @@ use crate::program::{Literal, Lowered, Operand, Operation, ScalarType};
 pub(crate) struct Dialect {
     /// The scalar that literals and calls are of.
     pub scalar: ScalarType,
+    /// What a function of the file begins with, before its result.
+    pub function: &'static str,
     /// The line that gives a value its name: name, value.
     pub declaration: &'static str,
+    /// A product: two factors.
+    pub product: &'static str,
     /// A product and the sum that takes it: two factors, addend.
     pub fused: &'static str,
     /// A factor that is negated.
@@ -27,7 +31,9 @@ impl Dialect {
     pub(crate) const fn rust(scalar: ScalarType) -> Dialect {
         Dialect {
             scalar,
+            function: "pub fn",
             declaration: "let {} = {};",
+            product: "{} * {}",
             fused: "{}.mul_add({}, {})",
             negative: "(-{})",
             literal: "{}",
@@ -38,6 +44,28 @@ impl Dialect {
     /// The line that gives a value its name.
     pub(crate) fn declare(&self, name: &str, value: &str) -> String {
         filled(self.declaration, &[name, value])
+    }
+
+    /// An operation on two operands.
+    pub(crate) fn operation(&self, operation: Operation, left: &str, right: &str) -> String {
+        match operation {
+            Operation::Mul => filled(self.product, &[left, right]),
+            other => format!("{left} {} {right}", other.symbol()),
+        }
+    }
+
+    /// Reads an operation on two operands.
+    pub(crate) fn read_operation<'t>(&self, value: &'t str) -> Option<(Operation, [&'t str; 2])> {
+        let is_word = |words: &[&str; 2]| words.iter().all(|word| !word.contains([' ', '(']));
+        if let Some(words) = holes(self.product, value).filter(is_word) {
+            return Some((Operation::Mul, words));
+        }
+        let words: Vec<&str> = value.split(' ').collect();
+        let &[left, symbol, right] = words.as_slice() else {
+            return None;
+        };
+        let operation = Operation::from_symbol(symbol)?;
+        (operation != Operation::Mul).then_some((operation, [left, right]))
     }
 
     /// A call of a library's function.
@@ -84,7 +112,7 @@ impl Dialect {
         let value = match fusion(&code.steps, index) {
             None => {
                 let (left, right) = (self.operand(&step.left), self.operand(&step.right));
-                format!("{left} {} {right}", step.operation.symbol())
+                self.operation(step.operation, &left, &right)
             }
             Some(Fusion {
                 product,

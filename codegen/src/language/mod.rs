@@ -1,7 +1,8 @@
 //! Programs as flat text of a language, printed and read back.
 //!
 //! - [`dialect`]: how a language writes a line, one table for printing and reading
-//! - [`c99`]: functions in C
+//! - [`c99`]: functions in C, and [`mod@cuda`] what CUDA has besides
+//! - [`columns`]: functions of any number of states in both
 //! - [`function`]: one program as one function
 //! - [`entries`]: more ways to call it, which share its arithmetic
 //! - [`result`]: the array or the struct that it ends with
@@ -13,13 +14,15 @@
 //! - [`read`]: the printed text, and whether it is the program
 
 pub(crate) mod c99;
+pub(crate) mod columns;
+pub(crate) mod cuda;
 pub(crate) mod dialect;
 pub(crate) mod entries;
 pub(crate) mod function;
 pub(crate) mod parts;
 pub(crate) mod read;
 pub(crate) mod result;
-mod scope;
+pub(crate) mod scope;
 mod sines;
 mod speed;
 mod trig;
@@ -36,17 +39,20 @@ pub enum Language {
     Rust,
     /// C99, which C++ reads too: one header.
     C,
+    /// CUDA: one header of functions for host and device, and of kernels.
+    Cuda,
 }
 
 impl Language {
     /// All, the default first.
-    pub const ALL: [Language; 2] = [Language::Rust, Language::C];
+    pub const ALL: [Language; 3] = [Language::Rust, Language::C, Language::Cuda];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Language::Rust => "rust",
             Language::C => "c",
+            Language::Cuda => "cuda",
         }
     }
 }

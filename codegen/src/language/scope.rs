@@ -5,7 +5,7 @@ use crate::program::{AngleSum, LoweredTrig};
 
 /// How lines of a scope begin and what they call a value.
 #[derive(Clone, Copy)]
-pub(super) struct Scope {
+pub(crate) struct Scope {
     /// Before every line.
     pub(super) indent: &'static str,
     /// How a value gets its name: a lane's is an entry of an array that is there.
@@ -16,7 +16,7 @@ pub(super) struct Scope {
 
 impl Scope {
     /// In a function of one state.
-    pub(super) const STATE: Scope = Scope {
+    pub(crate) const STATE: Scope = Scope {
         indent: "    ",
         binding: "let ",
         lane: "",
@@ -39,7 +39,7 @@ impl Scope {
     }
 
     /// A sum of angles, term by term.
-    pub(super) fn sum(self, angle: AngleSum) -> String {
+    pub(crate) fn sum(self, angle: AngleSum) -> String {
         let mut sum = String::new();
         for (index, (joint, negative)) in angle.terms().enumerate() {
             sum += match (index, negative) {

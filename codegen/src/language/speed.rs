@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use crate::language::dialect::Dialect;
 use crate::program::text::input_name;
-use crate::program::{Input, Literal, Lowered};
+use crate::program::{Input, Literal, Lowered, Operation};
 
 /// Prints those that are read. Roots are correctly rounded, whoever computes them.
 pub(super) fn write(text: &mut String, dialect: Dialect, code: &Lowered, path: &str) {
@@ -17,7 +17,9 @@ pub(super) fn write(text: &mut String, dialect: Dialect, code: &Lowered, path: &
     for own in &code.speeds {
         let (name, joint) = (input_name(Input::PerSpeed(own.joint)), own.joint);
         let square = dialect.literal(own.square);
-        let sum = format!("qd[{joint}] * qd[{joint}] + {square}");
+        let speed = format!("qd[{joint}]");
+        let product = dialect.operation(Operation::Mul, &speed, &speed);
+        let sum = format!("{product} + {square}");
         let value = format!("{one} / {}", dialect.call(path, "sqrt", &sum));
         // Writing to a string cannot fail.
         let _ = writeln!(text, "    {}", dialect.declare(&name, &value));

@@ -85,7 +85,7 @@ impl Block {
             name,
             &format!("{}{}", self.prefix, self.kernel.steps.len() + 1),
         )?;
-        let step = one_operation(value, |word| self.term(word, dialect))?;
+        let step = one_operation(value, dialect, |word| self.term(word, dialect))?;
         if matches!(step.operation, Operation::Div | Operation::Fused) {
             return Err(format!("`{value}` is no operation of a polynomial"));
         }
@@ -113,20 +113,17 @@ impl Block {
 /// Reads two operands and a symbol.
 pub(super) fn one_operation<I>(
     value: &str,
+    dialect: Dialect,
     operand: impl Fn(&str) -> Result<Operand<Literal, I>, String>,
 ) -> Result<Step<Literal, I>, String> {
-    let words: Vec<&str> = value.split(' ').collect();
-    let operation = words
-        .get(1)
-        .and_then(|symbol| Operation::from_symbol(symbol));
-    match (words.as_slice(), operation) {
-        (&[left, _, right], Some(operation)) => Ok(Step {
-            operation,
-            left: operand(left)?,
-            right: operand(right)?,
-        }),
-        _ => Err(format!("`{value}` is not one operation")),
-    }
+    let (operation, [left, right]) = dialect
+        .read_operation(value)
+        .ok_or_else(|| format!("`{value}` is not one operation"))?;
+    Ok(Step {
+        operation,
+        left: operand(left)?,
+        right: operand(right)?,
+    })
 }
 
 /// Reads a result: a negative literal is a literal, a negated value is negated.

@@ -5,8 +5,9 @@ use super::block::{Block, output, trig};
 use super::entries::same;
 use super::reader::Reader;
 use super::{TextError, at, expect};
-use crate::language::c99::{FAR, Names, batch, head, single, targets};
-use crate::language::dialect::{Dialect, holes};
+use crate::language::c99::{FAR, Names, head, single, targets};
+use crate::language::columns::batch;
+use crate::language::dialect::holes;
 use crate::language::scope::Scope;
 use crate::language::{Entries, Printed};
 use crate::program::{AngleSum, Library, Lowered};
@@ -23,7 +24,6 @@ impl Lowered {
         entries: Entries,
         names: &Names,
     ) -> Result<Lowered, TextError> {
-        let dialect = Dialect::c99(printed.code.scalar);
         let all: Vec<&str> = text.lines().map(str::trim).collect();
         let heads = [true, false].map(|is_told| head(printed, names, is_told));
         let found = heads
@@ -43,7 +43,7 @@ impl Lowered {
             expect(line, expected).map_err(at(number))?;
         }
         let mut reader = CReader {
-            reader: Reader::new(dialect),
+            reader: Reader::new(names.dialect()),
             names,
             far: FAR[usize::from(is_told)],
             block: None,
@@ -61,7 +61,7 @@ impl Lowered {
                         },
                         names,
                     );
-                    let start = text.find("static inline").unwrap_or_default();
+                    let start = text.find("\nstatic ").map_or(0, |end| end + 1);
                     let head = text[start..].lines().next().unwrap_or_default();
                     let place = all.iter().position(|line| *line == head);
                     let place = place.ok_or_else(|| at(0)(format!("there is no `{head}`")))?;

@@ -83,11 +83,12 @@ impl<'a> Reader<'a> {
         if let Some(words) = holes(self.dialect.fused, value) {
             return self.fused(name, value, words);
         }
-        if self.is_of_sines(value) {
+        let is_operation = self.dialect.read_operation(value).is_some();
+        if !is_operation && self.is_of_sines(value) {
             return self.sines(name, value);
         }
         self.next(name, 1)?;
-        let step = one_operation(value, |word| self.operand(word))?;
+        let step = one_operation(value, self.dialect, |word| self.operand(word))?;
         self.program.steps.push(step);
         Ok(())
     }
@@ -159,10 +160,9 @@ impl<'a> Reader<'a> {
         let call = value.strip_prefix(&self.dialect.literal(Literal(1.0)));
         let call = call.and_then(|call| call.strip_prefix(" / "));
         let (function, sum) = call.and_then(|call| self.called(call)).ok_or_else(not)?;
-        let words: Vec<&str> = sum.split(' ').collect();
-        let [left, "*", right, "+", square] = words[..] else {
-            return Err(not());
-        };
+        let words = sum.rsplit_once(" + ");
+        let (product, square) = words.ok_or_else(not)?;
+        let [left, right] = holes(self.dialect.product, product).ok_or_else(not)?;
         let joint = index_of(left, "qd").filter(|_| left == right && function == "sqrt");
         let square = self.dialect.read_literal(square);
         let (joint, square) = joint.zip(square).ok_or_else(not)?;

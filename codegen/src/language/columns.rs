@@ -1,0 +1,165 @@
+//! Functions of any number of states in C and CUDA, in columns: entry i of state s stands at
+//! `i * n + s`.
+
+use std::fmt::Write;
+
+use super::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
+use super::{Language, Printed};
+use crate::program::{Literal, Lowered};
+
+/// The parts of a function of any number of states.
+struct Columns {
+    /// After the number of states.
+    parameters: Vec<String>,
+    /// The lines that take a state out of the columns, and make room for its results.
+    gathered: String,
+    /// What the function of one state is called with.
+    passed: Vec<String>,
+    /// The lines that write its results.
+    stored: String,
+}
+
+impl Columns {
+    /// Entry i of state s is at `i * n + s`.
+    fn of(printed: &Printed<'_>, names: &Names, restrict: &str) -> Columns {
+        let (function, sizes) = (printed.function, printed.sizes);
+        let float = float(printed.code.scalar);
+        let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
+        let (mut gathered, mut stored) = (String::new(), String::new());
+        let at = |index: usize| match index {
+            0 => "s".to_owned(),
+            1 => "n + s".to_owned(),
+            more => format!("({more}U * n) + s"),
+        };
+        for argument in printed.arguments {
+            let (name, length) = (argument.name(), argument.length(sizes));
+            parameters.push(format!("const {float} *{restrict} {name}"));
+            let entries = (0..length).map(|index| format!("{name}[{}]", at(index)));
+            let entries: Vec<String> = entries.collect();
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                gathered,
+                "        const {float} {name}_s[{length}] = {{{}}};",
+                entries.join(", ")
+            );
+            passed.push(format!("{name}_s"));
+        }
+        for quantity in function.quantities() {
+            parameters.push(format!("{float} *{restrict} {}", quantity.field()));
+        }
+        if !is_number(function) {
+            let mut of = "";
+            if is_bundle(function) {
+                let kind = structure_name(function, names);
+                let _ = writeln!(gathered, "        {kind} result_s;");
+                passed.push("&result_s".to_owned());
+                of = "result_s.";
+            }
+            for quantity in function.quantities() {
+                let (field, length) = (quantity.field(), quantity.len(sizes));
+                let after = if is_bundle(function) { "" } else { "_s" };
+                if !is_bundle(function) {
+                    let _ = writeln!(gathered, "        {float} {field}_s[{length}];");
+                    passed.push(format!("{field}_s"));
+                }
+                for index in 0..length {
+                    let place = at(index);
+                    let _ = writeln!(
+                        stored,
+                        "        {field}[{place}] = {of}{field}{after}[{index}];"
+                    );
+                }
+            }
+        }
+        Columns {
+            parameters,
+            gathered,
+            passed,
+            stored,
+        }
+    }
+
+    /// The lines that call the function of one state, and write its results; of one that is told
+    /// whether angles may be far, by another name.
+    fn call(&self, printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
+        let (function, passed) = (printed.function, self.passed.join(", "));
+        let call = match is_told {
+            true => format!("{}(0, {passed})", names.of(&format!("{function}_any"))),
+            false => format!("{}({passed})", names.of(function.name())),
+        };
+        let before = match is_number(function) {
+            true => format!("{}[s] = ", function.quantities()[0].field()),
+            false => String::new(),
+        };
+        format!("        {before}{call};\n{}", self.stored)
+    }
+}
+
+/// Prints the function of any number of states, in columns: entry i of state s is at
+/// `i * n + s`. gcc makes no vectors without masks where it first computes (`tree-pre`) what
+/// follows of an angle that is far.
+pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
+    if names.language() == Language::Cuda {
+        return kernel(printed, names);
+    }
+    let [restrict, simd] = ["RESTRICT", "SIMD"].map(|word| names.constant(word));
+    let (is_told, function) = (is_told(printed.code, names), printed.function);
+    let columns = Columns::of(printed, names, &restrict);
+    let gathered = &columns.gathered;
+    let body = |is_told: bool, when: &str| {
+        let call = columns.call(printed, names, is_told);
+        format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
+    };
+    // Where an angle may be far, once more: no joint is that far whose sums are not.
+    let mut again = String::new();
+    if is_told {
+        let far = names.dialect().literal(Literal(far(printed.code)));
+        let f = printed.code.scalar.math_suffix();
+        let joints = 0..printed.sizes.joints;
+        let near = joints.map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
+        let near: Vec<String> = near.collect();
+        let when = format!(
+            "        if ({}) {{\n            continue;\n        }}\n",
+            near.join(" && ")
+        );
+        again = body(false, &when);
+    }
+    format!(
+        "/* {} at n states, in columns: entry i of state s stands at i * n + s. Each state\n \
+         * has the results that it has alone, bit for bit. */\n\
+         #if defined(__clang__)\n__attribute__((flatten))\n#elif defined(__GNUC__)\n\
+         __attribute__((flatten, optimize(\"no-tree-pre\")))\n#endif\n\
+         static inline void {}({})\n{{\n    size_t s;\n    {simd}\n{}{again}}}\n",
+        names.of(function.name()),
+        names.of(&format!("{function}_batch")),
+        columns.parameters.join(", "),
+        body(is_told, "")
+    )
+}
+
+/// Prints the kernel: a thread for each state, and for every state after as many as there are
+/// threads.
+fn kernel(printed: &Printed<'_>, names: &Names) -> String {
+    let function = printed.function;
+    let columns = Columns::of(printed, names, "__restrict__");
+    format!(
+        "/* {} at n states, in columns: entry i of state s stands at i * n + s. Any number of\n \
+         * threads in one dimension: each takes a state, then the one as many further on as there are\n \
+         * threads. Each state has the results that it has alone, bit for bit. */\n\
+         static __global__ void {}({})\n{{\n    \
+         const size_t threads = (size_t)gridDim.x * blockDim.x;\n    size_t s;\n    \
+         for (s = ((size_t)blockIdx.x * blockDim.x) + threadIdx.x; s < n; s += threads) {{\n{}{}    }}\n}}\n",
+        names.of(function.name()),
+        names.of(&format!("{function}_batch")),
+        columns.parameters.join(", "),
+        columns.gathered,
+        columns.call(printed, names, false)
+    )
+}
+
+/// As far as joints may turn for all angles, sums of them too, to be those that sines are
+/// computed of without a library.
+fn far(code: &Lowered) -> f64 {
+    let terms = code.trig.iter().map(|trig| trig.angle.terms().count());
+    largest(code.scalar) / terms.max().unwrap_or(1).next_power_of_two() as f64
+}

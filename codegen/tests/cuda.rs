@@ -1,0 +1,65 @@
+//! Functions in CUDA: their text has the bits of the proved program where a processor runs it,
+//! and a compiler for the device fuses nothing.
+
+use std::fs;
+use std::process::Command;
+
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::language::{Entries, Language};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::sincos::SinCos;
+
+use crate::c99::changes;
+use crate::support;
+use crate::support::compiled::{folder, same_bits, there};
+
+/// Without qualifiers, threads in turns: functions and kernels of all that changes what is printed.
+#[test]
+fn functions_and_kernels_have_the_bits_of_the_program() {
+    for (what, robot, request) in changes() {
+        for entries in [Entries::Single, Entries::Batch] {
+            let request = Request {
+                language: Language::Cuda,
+                entries,
+                ..request.clone()
+            };
+            let flags: [&[&str]; 2] = [&["-O1"], &["-O3", "-march=native"]];
+            same_bits(what, &robot, &request, 100, &flags);
+        }
+    }
+}
+
+/// The compiler for the device has no warning, and makes one operation of no product and sum.
+#[test]
+fn the_device_rounds_every_operation() {
+    let robot = support::robot("planar2r");
+    let folder = folder("device");
+    for nvcc in there(&["nvcc"]) {
+        let request = Request {
+            language: Language::Cuda,
+            functions: vec![Function::InverseDynamics, Function::Inertia],
+            sincos: SinCos::Polynomial { error: None },
+            entries: Entries::Batch,
+            ..Request::default()
+        };
+        let generated = generate(&robot, &request).unwrap();
+        let source = folder.join("arm.cu");
+        fs::write(folder.join("arm.cuh"), &generated.text).unwrap();
+        fs::write(&source, "#include \"arm.cuh\"\n").unwrap();
+        let ptx = folder.join("arm.ptx");
+        let said = Command::new(nvcc)
+            .args(["-arch=sm_90", "-ptx", "-Werror", "all-warnings", "-o"])
+            .args([&ptx, &source])
+            .output()
+            .unwrap();
+        let errors = String::from_utf8_lossy(&said.stderr);
+        assert!(said.status.success(), "{errors}");
+        let ptx = fs::read_to_string(ptx).unwrap();
+        for scalar in ScalarType::ALL {
+            let bits = if scalar == ScalarType::F32 { 32 } else { 64 };
+            assert!(ptx.contains(&format!("mul.rn.f{bits}")), "{scalar}");
+            assert!(!ptx.contains(&format!("fma.rn.f{bits}")), "{scalar}");
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Headers in C and CUDA, compiled and run beside the proved programs.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::language::{Entries, Language};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_model::robot::Robot;
+
+/// The most entries of an argument here.
+const MOST: usize = 16;
+/// The states of a batch: more than there are threads of a kernel, and no multiple.
+const STATES: usize = 5;
+
+/// What a CUDA compiler for the device knows, for a processor: no qualifiers, and threads
+/// that take turns.
+const DEVICE: &str = "#define __host__\n#define __device__\n#define __global__\n\
+    static struct { unsigned x; } gridDim = {2}, blockDim = {2}, blockIdx, threadIdx;\n";
+
+/// Those of these programs that are there.
+pub fn there(names: &[&'static str]) -> Vec<&'static str> {
+    let is_there = |name: &&&str| {
+        let run = Command::new(name)
+            .arg("--version")
+            .stdout(Stdio::null())
+            .status();
+        run.is_ok_and(|status| status.success())
+    };
+    let found: Vec<&str> = names.iter().filter(is_there).copied().collect();
+    if found.is_empty() {
+        eprintln!("none of {names:?} is here: what needs one is not tested");
+    }
+    found
+}
+
+pub fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("compiled_{name}"));
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// A name whose words are shortened, as headers have it.
+fn short(name: &str) -> String {
+    let pairs = [
+        ("inverse", "inv"),
+        ("forward", "fwd"),
+        ("dynamics", "dyn"),
+        ("derivatives", "deriv"),
+        ("kinematics", "kin"),
+        ("coefficients", "coef"),
+        ("manipulator", "manip"),
+        ("equation", "eq"),
+        ("kinetic", "kin"),
+        ("energy", "en"),
+    ];
+    let shortened = |name: String, (long, short): (&str, &str)| name.replace(long, short);
+    pairs.into_iter().fold(name.to_owned(), shortened)
+}
+
+/// A call of a function on `STATES` states or one; what it gives is put aside.
+fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request) -> String {
+    let function = emitted.function;
+    let (float, infix) = match emitted.scalar {
+        ScalarType::F64 => ("double", ""),
+        ScalarType::F32 => ("float", "_f32"),
+    };
+    let batch = request.entries == Entries::Batch;
+    let states = if batch { STATES } else { 1 };
+    let suffix = if batch { "_batch" } else { "" };
+    let name = format!("{base}{infix}_{function}{suffix}");
+    let name = match generated.text.contains(&format!(" {name}(")) {
+        true => name,
+        false => short(&name),
+    };
+    let mut of = generated.functions.iter();
+    let of = of.find(|of| of.function == function).unwrap();
+    let mut body = "    {\n".to_owned();
+    let mut passed = Vec::new();
+    if batch {
+        passed.push(format!("{STATES}U"));
+    }
+    for argument in &of.program.arguments {
+        let (offset, length) = (argument.index() * MOST, argument.length(emitted.sizes));
+        assert!(length <= MOST);
+        let own = argument.name();
+        let _ = writeln!(
+            body,
+            "        {float} {own}[{0}]; for (i = 0; i < {0}; ++i) {own}[i] = ({float})in[i % {states}][{offset} + i / {states}];",
+            length * states
+        );
+        passed.push(own.to_owned());
+    }
+    let quantities = function.quantities();
+    let is_bundle = !Function::ALL.contains(&function) && function != Function::Load;
+    let is_number = function.structure().is_none() && quantities[0].shape().0.is_empty();
+    let mut results = Vec::new();
+    match batch {
+        false if is_number => results.push((format!("out{function}"), 1)),
+        false if is_bundle => {
+            let _ = writeln!(body, "        {name}_t result;");
+            passed.push("&result".to_owned());
+            let fields = quantities.iter();
+            let fields = fields.map(|q| (format!("result.{}", q.field()), q.len(emitted.sizes)));
+            results.extend(fields);
+        }
+        _ => {
+            for (index, quantity) in quantities.iter().enumerate() {
+                let (out, length) = (format!("out{index}"), quantity.len(emitted.sizes));
+                let _ = writeln!(body, "        {float} {out}[{}];", length * states);
+                passed.push(out.clone());
+                results.push((out, length));
+            }
+        }
+    }
+    let mut call = format!("{name}({})", passed.join(", "));
+    if !batch && is_number {
+        let _ = writeln!(body, "        {float} {}[1];", results[0].0);
+        call = format!("{}[0] = {call}", results[0].0);
+    }
+    if batch && request.language == Language::Cuda {
+        call = format!(
+            "for (blockIdx.x = 0; blockIdx.x < gridDim.x; ++blockIdx.x)\n            \
+             for (threadIdx.x = 0; threadIdx.x < blockDim.x; ++threadIdx.x)\n                {call}"
+        );
+    }
+    let _ = writeln!(body, "        {call};");
+    for (out, length) in results {
+        let _ = writeln!(
+            body,
+            "        for (i = 0; i < {0}; ++i) put(i % {states}, (double){out}[i]);",
+            length * states
+        );
+    }
+    body + "    }\n"
+}
+
+/// A program that reads states and writes what every function of a header gives, all in
+/// doubles, state by state.
+fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
+    let calls = generated.emitted.iter();
+    let calls: String = calls
+        .map(|emitted| call(base, generated, emitted, request))
+        .collect();
+    let outputs = generated.emitted.iter().map(|own| own.text.outputs.len());
+    let (states, device) = match (request.entries, request.language) {
+        (Entries::Batch, Language::Cuda) => (STATES, DEVICE),
+        (Entries::Batch, _) => (STATES, ""),
+        (_, Language::Cuda) => (1, DEVICE),
+        _ => (1, ""),
+    };
+    format!(
+        "#include <stdio.h>\n{device}#include \"arm.h\"\n\
+         static double in[{states}][{0}], out[{states}][{1}]; static int at[{states}];\n\
+         static void put(int s, double x) {{ out[s][at[s]++] = x; }}\n\
+         int main(void) {{\n    int i;\n    \
+         while (fread(in, sizeof in, 1, stdin) == 1) {{\n    \
+         for (i = 0; i < {states}; ++i) at[i] = 0;\n{calls}    \
+         fwrite(out, sizeof out, 1, stdout);\n    }}\n    return 0;\n}}\n",
+        Argument::COUNT * MOST,
+        outputs.sum::<usize>()
+    )
+}
+
+/// States whose entries are anywhere.
+fn states(count: usize) -> Vec<Vec<f64>> {
+    let mut seed = 1u64;
+    let mut next = || {
+        seed = seed
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        ((seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 6.0
+    };
+    let state = |_| (0..Argument::COUNT * MOST).map(|_| next()).collect();
+    (0..count).map(state).collect()
+}
+
+/// What the proved programs give.
+fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
+    let mut all = Vec::new();
+    for emitted in &generated.emitted {
+        let at = |argument: Argument| {
+            let start = argument.index() * MOST;
+            &state[start..start + argument.length(emitted.sizes)]
+        };
+        let results: Vec<f64> = match emitted.scalar {
+            ScalarType::F64 => emitted.text.run(State::of(at)),
+            ScalarType::F32 => {
+                let rounded = Argument::ALL
+                    .map(|argument| at(argument).iter().map(|&x| x as f32).collect::<Vec<f32>>());
+                let own = State::of(|a: Argument| &rounded[a.index()][..]);
+                let run = emitted.text.run(own);
+                run.into_iter().map(f64::from).collect()
+            }
+        };
+        all.extend(results.into_iter().map(f64::to_bits));
+    }
+    all
+}
+
+/// Compiles and runs it on states, and compares bits with the proved programs. `what` names a
+/// folder.
+pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, flags: &[&[&str]]) {
+    let generated = generate(robot, request).unwrap_or_else(|error| panic!("{what}: {error}"));
+    let language = request.language;
+    let what = format!("{what}_{}_{}", language.name(), request.entries.name());
+    let folder = folder(&what);
+    let main = main_of(&request.module_name(robot), &generated, request);
+    fs::write(folder.join("arm.h"), &generated.text).unwrap();
+    fs::write(folder.join("main.c"), main).unwrap();
+    let states = states(count);
+    let input = states.iter().flatten().flat_map(|x| x.to_ne_bytes());
+    fs::write(folder.join("states"), input.collect::<Vec<u8>>()).unwrap();
+    let expected = states.iter().flat_map(|state| expected(&generated, state));
+    let expected: Vec<u64> = expected.collect();
+    let as_language = match language {
+        Language::Cuda => "-xc++",
+        Language::C | Language::Rust => "-xc",
+    };
+    for compiler in there(&["gcc", "clang"]) {
+        for flags in flags {
+            let program = folder.join("run");
+            let compiled = Command::new(compiler)
+                .args(*flags)
+                .args(["-o".as_ref(), program.as_os_str(), as_language.as_ref()])
+                .arg(folder.join("main.c"))
+                .args(["-xnone", "-lm"])
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&compiled.stderr);
+            assert!(
+                compiled.status.success(),
+                "{what} by {compiler} {flags:?}: {said}"
+            );
+            let run = Command::new(&program)
+                .stdin(fs::File::open(folder.join("states")).unwrap())
+                .output()
+                .unwrap();
+            let found = run.stdout.chunks_exact(8);
+            let found = found.map(|bytes| u64::from_ne_bytes(bytes.try_into().unwrap()));
+            let found: Vec<u64> = found.collect();
+            assert_eq!(found.len(), expected.len(), "{what}");
+            let differ = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
+            assert_eq!(differ, 0, "{what} by {compiler} {flags:?}");
+        }
+    }
+}
