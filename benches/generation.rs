@@ -1,5 +1,5 @@
-//! What generation and the check of certificates take: by a quick search without a
-//! plan, by a plan, and by `certify`. Read the ratios, the times are this machine's.
+//! What generation takes: by a quick search without a plan, and by a plan. Read the
+//! ratios, the times are this machine's.
 //!
 //! `cargo bench --bench generation`
 
@@ -9,11 +9,9 @@ use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::certificate::format;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Request, generate};
 use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use rounds::Rounds;
@@ -62,28 +60,8 @@ fn searches(name: &str) {
     rounds.print(&format!("{name}, generation"));
 }
 
-fn certificates() {
-    let robot = robot("puma560");
-    let scene_robot = SceneRobot::whole(&robot);
-    let mut rounds = Rounds::of(1);
-    for name in ["puma560-actuator-1e-3", "puma560-range-1e-2"] {
-        let path = file(&format!("generated/certificates/{name}.json"));
-        let text = fs::read_to_string(path).expect("a checked-in certificate");
-        let certificates = format::read(&text).expect("certificates");
-        for _ in 0..ROUNDS {
-            rounds.time(name, || {
-                for certificate in &certificates {
-                    black_box(certificate.check(&scene_robot).expect("it holds"));
-                }
-            });
-        }
-    }
-    rounds.print("puma560, certify");
-}
-
 fn main() {
     for name in ["puma560", "stanford", "ur10", "panda"] {
         searches(name);
     }
-    certificates();
 }

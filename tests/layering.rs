@@ -4,9 +4,6 @@
 //! every crate no two top-level modules use each other, by whatever way round,
 //! and neither do two files (or folders) of a module. A module's own file, the
 //! table of contents, has what its files share, and is no party to this.
-//!
-//! And what a certificate's check rests on is named, file by file, in
-//! `codegen/src/certificate/README.md`; nothing of the search is among it.
 
 #[path = "layering/source.rs"]
 mod source;
@@ -137,57 +134,4 @@ fn no_circle_among_modules_or_files_of_a_module() {
         }
     }
     assert!(all.is_empty(), "in a circle:\n{}", all.join("\n\n"));
-}
-
-/// The files that a README's tables name in their first columns: `bound/*`,
-/// `verify/{exact,degree}`.
-fn named(text: &str) -> Vec<String> {
-    let rows = text.lines().filter(|line| line.starts_with("| `"));
-    let first = rows.filter_map(|row| row.split('|').nth(1));
-    let mut all = Vec::new();
-    for name in first.flat_map(|cell| cell.split('`').skip(1).step_by(2)) {
-        match name.split_once('{') {
-            None => all.push(name.to_owned()),
-            Some((room, files)) => {
-                let files = files.trim_end_matches('}').split(',');
-                all.extend(files.map(|file| format!("{room}{file}")));
-            }
-        }
-    }
-    all
-}
-
-#[test]
-fn what_the_check_of_a_certificate_rests_on_is_named() {
-    let codegen = &crates()[1];
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/codegen/src/certificate/README.md"
-    );
-    let named = named(&std::fs::read_to_string(path).unwrap());
-    let trusted: BTreeSet<String> = ["certificate::check", "certificate::format"]
-        .iter()
-        .flat_map(|from| reach(&codegen.files, from))
-        .filter(|file| !file.is_empty())
-        .collect();
-    assert!(trusted.len() > 50, "{trusted:?}");
-    let search = [
-        "simplify",
-        "portfolio",
-        "schedule",
-        "approximate",
-        "generate",
-    ];
-    let of_the_search = |file: &&String| search.contains(&file.split("::").next().unwrap());
-    let found: Vec<&String> = trusted.iter().filter(of_the_search).collect();
-    assert!(found.is_empty(), "the check uses the search: {found:?}");
-    let is_named = |file: &String| {
-        let file = file.replace("::", "/");
-        named.iter().any(|name| match name.strip_suffix("/*") {
-            Some(room) => file == room || file.starts_with(&format!("{room}/")),
-            None => file == *name,
-        })
-    };
-    let missing: Vec<&String> = trusted.iter().filter(|file| !is_named(file)).collect();
-    assert!(missing.is_empty(), "not in {path}: {missing:?}");
 }

@@ -13,7 +13,7 @@ const MOST_CLAIMS: usize = 16;
 
 /// A claim: at every state of the box, each output of the text is within E·T of the
 /// function. Other fields of the file are not read.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct Claim {
     /// The version of the format.
     certificate: u32,
@@ -54,18 +54,14 @@ impl Claim {
     ) -> Claim {
         let [position, velocity, acceleration] = setting.ranges.clone();
         Claim {
-            certificate: 2,
-            scene: None,
             function: name.to_owned(),
             rows,
             scalar: if is_single { "f32" } else { "f64" }.to_owned(),
             position,
             velocity,
             acceleration,
-            scale: Vec::new(),
-            relative_to: None,
-            total: Vec::new(),
             text: text.to_owned(),
+            ..Claim::default()
         }
     }
 

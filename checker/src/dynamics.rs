@@ -1,20 +1,16 @@
 //! The recursion of Newton and Euler, in the frames behind the joints.
 //!
-//! Every row is taken as a twist about and a shift along x, then the joint's turn about
-//! and shift along z: A_i = Rx(α)·Tx(a)·Rz(θ)·Tz(d), as the modified convention has it.
-//! Of the standard one, A_i = Rz(θ)·Tz(d)·Tx(a)·Rx(α), the twist and shift of each row
-//! come before the next joint's turn, and its bodies are brought into the frame before
-//! them. Vectors have three entries in the axes of one link's frame.
+//! From a joint's frame to the next, constant turns and shifts lead, those behind the one
+//! and before the other, and then the joint's turn about z and shift along it. A link's bodies
+//! are brought into its joint's frame. Vectors have three entries in the axes of one of these.
 
 use crate::fault::Fault;
 use crate::number::Number;
 use crate::polynomial::Work;
-use crate::robot::Body;
+use crate::robot::{Body, Step, Z};
 use crate::scene::Setting;
 
 type Vector<N> = [N; 3];
-/// A sine and a cosine.
-type Turn<'a, N> = [&'a N; 2];
 
 /// The state of one joint.
 #[derive(Clone, Debug, Default)]
@@ -80,17 +76,64 @@ impl Products<'_> {
         &mut self,
         v: &Vector<N>,
         [i, k]: [usize; 2],
-        [sin, cos]: Turn<N>,
+        [sin, cos]: [&N; 2],
     ) -> Result<Vector<N>, Fault> {
         let mut turned = v.clone();
         turned[i] = self.two(cos, &v[i], &sin.negated(), &v[k])?;
         turned[k] = self.two(sin, &v[i], cos, &v[k])?;
         Ok(turned)
     }
+
+    /// A vector, or a point, of the last frame of a way in the axes of the first.
+    fn outward<N: Number>(
+        &mut self,
+        v: &Vector<N>,
+        way: &[Step<N>],
+        is_point: bool,
+    ) -> Result<Vector<N>, Fault> {
+        let mut v = v.clone();
+        for step in way.iter().rev() {
+            v = match step {
+                Step::Turn(axes, [sin, cos]) => self.turned(&v, *axes, [sin, cos])?,
+                Step::Shift(shift) if is_point => sum(&v, shift),
+                Step::Shift(_) => v,
+            };
+        }
+        Ok(v)
+    }
+
+    /// A vector of the first frame of a way in the axes of the last.
+    fn inward<N: Number>(&mut self, v: &Vector<N>, way: &[Step<N>]) -> Result<Vector<N>, Fault> {
+        let mut v = v.clone();
+        for step in way {
+            if let Step::Turn(axes, [sin, cos]) = step {
+                v = self.turned(&v, *axes, [&sin.negated(), cos])?;
+            }
+        }
+        Ok(v)
+    }
 }
 
-const ABOUT_X: [usize; 2] = [1, 2];
-const ABOUT_Z: [usize; 2] = [0, 1];
+/// The numbers of a way.
+fn way<N: Number>(steps: &[Step]) -> Vec<Step<N>> {
+    let step = |step: &Step| match step {
+        Step::Turn(axes, pair) => Step::Turn(*axes, pair.map(N::constant)),
+        Step::Shift(shift) => Step::Shift(shift.map(N::constant)),
+    };
+    steps.iter().map(step).collect()
+}
+
+/// The direction of a joint's axis in the frame of the joint before it.
+///
+/// # Errors
+/// As of [`Number::times`].
+pub fn axis<N: Number>(setting: &Setting, joint: usize, work: &mut Work) -> Result<[N; 3], Fault> {
+    let mut steps = joint
+        .checked_sub(1)
+        .map_or(vec![], |k| way(&setting.joints[k].behind));
+    steps.extend(way(&setting.joints[joint].before));
+    Products(work).outward(&[N::default(), N::default(), N::one()], &steps, false)
+}
 
 /// Mass, first moment and inertia about the origin.
 #[derive(Default)]
@@ -101,14 +144,9 @@ struct Moments<N> {
 }
 
 impl<N: Number> Moments<N> {
-    /// Adds a body that is given behind a twist and a shift along x.
-    fn add(
-        &mut self,
-        body: &Body,
-        [sin, cos]: Turn<N>,
-        a: &N,
-        products: &mut Products,
-    ) -> Result<(), Fault> {
+    /// Adds a body that is given in the frame of its link, to which a way leads.
+    fn add(&mut self, body: &Body, link: &[Step], products: &mut Products) -> Result<(), Fault> {
+        let steps: Vec<Step<N>> = way(&[link, &body.frame].concat());
         let [xx, yy, zz, xy, yz, xz] = body.inertia.map(N::constant);
         let mut own = [
             [xx, xy.clone(), xz.clone()],
@@ -118,12 +156,11 @@ impl<N: Number> Moments<N> {
         // R I Rᵀ: every row turned, then every column.
         for _ in 0..2 {
             for row in &mut own {
-                *row = products.turned(row, ABOUT_X, [sin, cos])?;
+                *row = products.outward(row, &steps, false)?;
             }
             own = [0, 1, 2].map(|i| [0, 1, 2].map(|k: usize| own[k][i].clone()));
         }
-        let com = products.turned(&body.com.map(N::constant), ABOUT_X, [sin, cos])?;
-        let com = sum(&com, &[a.clone(), N::default(), N::default()]);
+        let com = products.outward(&body.com.map(N::constant), &steps, true)?;
         let first = products.scaled(&N::constant(body.mass), &com)?;
         let square = products.dot(&com, &first)?;
         for i in 0..3 {
@@ -141,9 +178,8 @@ impl<N: Number> Moments<N> {
 }
 
 /// How a link's frame lies in the one before, and what its motion takes.
-struct Link<'a, N> {
-    twist: Turn<'a, N>,
-    turn: [N; 2],
+struct Link<N> {
+    way: Vec<Step<N>>,
     shift: Vector<N>,
     force: Vector<N>,
     moment: Vector<N>,
@@ -161,26 +197,16 @@ pub fn torques<N: Number>(
     work: &mut Work,
 ) -> Result<Vec<N>, Fault> {
     let products = &mut Products(work);
-    let (none, one) = (N::default(), N::one());
     let (mut w, mut wd, mut vd) = (zeros(), zeros(), zeros());
     if gravity {
         // A base that is accelerated upward feels what one in gravity does.
-        vd = setting.gravity.map(|g| N::constant(g).negated());
+        let up = setting.gravity.map(|g| N::constant(g).negated());
+        vd = products.inward(&up, &way(&setting.base))?;
     }
-    let unmoved = ([&none, &one], &none);
-    let (mut before, mut links) = (unmoved, Vec::new());
-    let rows = setting.joints.iter();
-    let rows: Vec<[N; 3]> = rows
-        .map(|joint| [joint.alpha.sin, joint.alpha.cos, joint.a].map(N::constant))
-        .collect();
-    for ((joint, row), state) in setting.joints.iter().zip(&rows).zip(states) {
-        let own = ([&row[0], &row[1]], &row[2]);
-        let ((twist, a), behind) = if setting.modified {
-            (own, unmoved)
-        } else {
-            (before, own)
-        };
-        before = own;
+    let (mut behind, mut links): (&[Step], Vec<Link<N>>) = (&[], Vec::new());
+    for (joint, state) in setting.joints.iter().zip(states) {
+        let mut way: Vec<Step<N>> = way(&[behind, &joint.before].concat());
+        behind = &joint.behind;
         let [sin, cos, d] = [joint.theta.sin, joint.theta.cos, joint.d].map(N::constant);
         let (turn, d) = match joint.turns {
             true => {
@@ -190,21 +216,17 @@ pub fn torques<N: Number>(
             }
             false => ([sin, cos], d.plus(&state.position)),
         };
-        let back = [twist[0].negated(), turn[0].negated()];
-        let shift = [
-            a.clone(),
-            back[0].times(&d, products.0)?,
-            twist[1].times(&d, products.0)?,
-        ];
+        way.extend([
+            Step::Turn(Z, turn),
+            Step::Shift([N::default(), N::default(), d]),
+        ]);
+        let shift = products.outward(&zeros(), &way, true)?;
         let swing = products.cross(&w, &shift)?;
         let carried = sum(&products.cross(&wd, &shift)?, &products.cross(&w, &swing)?);
-        let mut inward = |v: &Vector<N>| {
-            let v = products.turned(v, ABOUT_X, [&back[0], twist[1]])?;
-            products.turned(&v, ABOUT_Z, [&back[1], &turn[1]])
-        };
+        let mut inward = |v: &Vector<N>| products.inward(v, &way);
         (vd, w, wd) = (inward(&sum(&vd, &carried))?, inward(&w)?, inward(&wd)?);
         // w × z q̇
-        let sideways = [w[1].clone(), w[0].negated(), none.clone()];
+        let sideways = [w[1].clone(), w[0].negated(), N::default()];
         let sideways = products.scaled(&state.velocity, &sideways)?;
         if joint.turns {
             wd = sum(&wd, &sideways);
@@ -216,7 +238,7 @@ pub fn torques<N: Number>(
         }
         let mut body = Moments::default();
         for own in &joint.bodies {
-            body.add(own, behind.0, behind.1, products)?;
+            body.add(own, behind, products)?;
         }
         let swing = products.cross(&w, &body.first)?;
         let force = sum(
@@ -231,8 +253,7 @@ pub fn torques<N: Number>(
         );
         let moment = sum(&moment, &products.cross(&body.first, &vd)?);
         links.push(Link {
-            twist,
-            turn,
+            way,
             shift,
             force,
             moment,
@@ -248,14 +269,15 @@ pub fn torques<N: Number>(
         };
         torque = torque.plus(&N::constant(joint.armature).times(&state.acceleration, products.0)?);
         if friction {
+            if joint.rubs {
+                let why = "no bound is known of torques with Coulomb friction";
+                return Err(Fault::robot("coulomb", why));
+            }
             torque = torque.plus(&N::constant(joint.viscous).times(&state.velocity, products.0)?);
         }
         torques.push(torque);
-        let mut outward = |v: &Vector<N>| {
-            let v = products.turned(v, ABOUT_Z, [&link.turn[0], &link.turn[1]])?;
-            products.turned(&v, ABOUT_X, link.twist)
-        };
-        (f, n) = (outward(&f)?, outward(&n)?);
+        f = products.outward(&f, &link.way, false)?;
+        n = products.outward(&n, &link.way, false)?;
         n = sum(&n, &products.cross(&link.shift, &f)?);
     }
     torques.reverse();

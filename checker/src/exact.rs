@@ -1,19 +1,19 @@
 //! A generated file without a certificate: how far each of its functions can be from the
 //! dynamics of the robot.
 
-use std::fmt;
-
+use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::file::{self, Found};
-use crate::interval::UNIT;
-use crate::quantity::{Function, Quantity};
+
+use crate::quantity::Function;
 use crate::scene::{self, Setting};
+use crate::sines::Scalar;
 use crate::verdict::measure;
 
 /// The largest rates where the robot file has no limit, per second and per second
 /// squared.
-const RATE: f64 = 10.0;
+pub const RATE: f64 = 10.0;
 /// What an exact program may be off, in units of half an ulp of the largest output: above
 /// this something was left out, or rounding can cost that much.
 const MOST_UNITS: f64 = 65_536.0;
@@ -92,12 +92,12 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
     };
     // These compute no dynamics: one says where a box is, one which angles there are.
     let is_other = |found: &&Found| !["in_box", "angles"].contains(&found.name);
+    let functions = match source.starts_with(c99::HEAD) {
+        true => c99::functions(source)?,
+        false => file::functions(source)?,
+    };
     Ok(Report {
-        lines: file::functions(source)?
-            .iter()
-            .filter(is_other)
-            .map(line)
-            .collect(),
+        lines: functions.iter().filter(is_other).map(line).collect(),
         is_unlimited,
     })
 }
@@ -110,7 +110,7 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
         ));
     };
     let head = found.text.lines().next().unwrap_or("");
-    let is_single = head.contains("[f32; ");
+    let is_single = head.contains("[f32; ") || head.contains("const float ");
     let rows: Vec<usize> = setting.rows.iter().map(|row| row + 1).collect();
     let claim = Claim::exact(function.name, is_single, rows, setting, &found.text);
     let places = function.places(claim.rows.len());
@@ -118,21 +118,13 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
         Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
         other => other,
     })?;
-    let unit = if is_single {
-        f64::from(f32::EPSILON) / 2.0
-    } else {
-        UNIT
-    };
     let mut distance = Distance {
-        unit,
+        unit: Scalar::of(&claim.scalar).unit,
         ..Distance::default()
     };
-    let quantities: Vec<Quantity> = places.into_iter().map(|(quantity, _)| quantity).collect();
-    for (own, found) in quantities.iter().zip(&all) {
-        let same = quantities
-            .iter()
-            .zip(&all)
-            .filter(|(other, _)| *other == own);
+    let pairs = || places.iter().map(|(quantity, _)| quantity).zip(&all);
+    for (own, found) in pairs() {
+        let same = pairs().filter(|(other, _)| *other == own);
         let size = same.map(|(_, found)| found.seen.size).fold(0.0, f64::max);
         let of = |x: f64| if x == 0.0 { 0.0 } else { x / size };
         let worse = |before: f64, x: f64| if x > before || x.is_nan() { x } else { before };
@@ -141,48 +133,4 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
         distance.seen = worse(distance.seen, of(found.seen.off));
     }
     Ok(distance)
-}
-
-impl fmt::Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "How far each function can be from the dynamics over the box of the robot file,"
-        )?;
-        writeln!(
-            f,
-            "relative to the largest entry seen of its kind; u is half an ulp of that."
-        )?;
-        if self.is_unlimited {
-            writeln!(
-                f,
-                "Where the file has no limit, rates go up to {RATE} in SI units."
-            )?;
-        }
-        let mut module = "";
-        for line in &self.lines {
-            if line.module != module {
-                module = &line.module;
-                writeln!(f, "{module}")?;
-            }
-            match &line.result {
-                Ok(found) => writeln!(
-                    f,
-                    "  {:<22} in real numbers {:>9.2e}  rounding {:>9.2e}  both {:>7.0} u  seen {:>7.1} u  {}",
-                    line.name,
-                    found.edits,
-                    found.rounding,
-                    found.units(),
-                    found.seen / found.unit,
-                    if found.is_shown() {
-                        "shown"
-                    } else {
-                        "not shown"
-                    },
-                )?,
-                Err(fault) => writeln!(f, "  {:<22} not shown: {fault}", line.name)?,
-            }
-        }
-        Ok(())
-    }
 }

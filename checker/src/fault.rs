@@ -13,10 +13,8 @@ pub enum Fault {
     Certificate(String),
     /// The text of the function: its line, from one, and what was expected there.
     Text(usize, String),
-    /// A polynomial has a higher power of a variable than is written down.
-    Degree,
-    /// A polynomial has more than so many terms.
-    Terms(usize),
+    /// A polynomial has a higher power of a variable than is written down, or more terms.
+    Large,
     /// More work than is done for one certificate.
     Work,
 }
@@ -39,12 +37,9 @@ impl fmt::Display for Fault {
             Fault::Robot(key, why) => write!(f, "robot file, `{key}`: {why}"),
             Fault::Certificate(why) => write!(f, "certificate: {why}"),
             Fault::Text(line, why) => write!(f, "text, line {line}: {why}"),
-            Fault::Degree => f.write_str(
-                "a power beyond those of an arm's dynamics: at most c^7, q\u{307}^3 and q\u{308}^1 are written out",
-            ),
-            Fault::Terms(most) => write!(
-                f,
-                "more than {most} terms: this arm is too general to be written out"
+            Fault::Large => f.write_str(
+                "this is too general to be written out: a power beyond c^7, q\u{307}^3 and q\u{308}^1, \
+                 or more than 262144 terms",
             ),
             Fault::Work => f.write_str("more work than is done for one certificate"),
         }

@@ -104,7 +104,8 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     }
 }
 
-fn is_letter(c: char) -> bool {
+/// Whether a character is one of names.
+pub(crate) fn is_letter(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 

@@ -1,6 +1,6 @@
 //! Intervals of doubles, rounded outward, and sines of them.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Neg};
 
 /// Half an ulp of a double of size one: what rounding to nearest costs at most,
 /// relative to the result.
@@ -59,13 +59,6 @@ impl Neg for Interval {
     type Output = Interval;
     fn neg(self) -> Interval {
         Interval::new(-self.high, -self.low)
-    }
-}
-
-impl Sub for Interval {
-    type Output = Interval;
-    fn sub(self, other: Interval) -> Interval {
-        self + -other
     }
 }
 

@@ -83,9 +83,25 @@ impl Literal {
         read.ok_or_else(|| Fault::robot(key, "expected a number in decimal, below 1e100"))
     }
 
+    pub(crate) fn reals<const K: usize>(
+        list: &[Literal; K],
+        key: &str,
+    ) -> Result<[Real; K], Fault> {
+        let mut all = [Real::default(); K];
+        for (one, literal) in all.iter_mut().zip(list) {
+            *one = literal.real(key)?;
+        }
+        Ok(all)
+    }
+
     pub(crate) fn double(&self, key: &str) -> Result<f64, Fault> {
         let read = self.number().map(|(value, _)| value);
         read.ok_or_else(|| Fault::robot(key, "expected a number in decimal, below 1e100"))
+    }
+
+    /// A number that may be missing, and then is NaN.
+    pub(crate) fn optional(literal: Option<&Literal>, key: &str) -> Result<f64, Fault> {
+        literal.map_or(Ok(f64::NAN), |literal| literal.double(key))
     }
 
     pub(crate) fn angle(&self, key: &str) -> Result<Angle, Fault> {

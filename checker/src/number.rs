@@ -12,6 +12,12 @@ pub struct Real {
     pub radius: f64,
 }
 
+impl From<f64> for Real {
+    fn from(value: f64) -> Real {
+        Real { value, radius: 0.0 }
+    }
+}
+
 /// A commutative ring with the numbers of a robot file in it. The default is zero.
 pub trait Number: Clone + Default {
     /// A number of the robot file.
@@ -33,10 +39,7 @@ pub trait Number: Clone + Default {
 
     /// One.
     fn one() -> Self {
-        Self::constant(Real {
-            value: 1.0,
-            radius: 0.0,
-        })
+        Self::constant(1.0.into())
     }
 }
 

@@ -184,7 +184,7 @@ impl Polynomial {
                 let compact = merged(terms, rest);
                 (terms, rest) = (compact.terms, compact.rest);
                 if terms.len() > MOST_TERMS {
-                    return Err(Fault::Terms(MOST_TERMS));
+                    return Err(Fault::Large);
                 }
             }
         }
@@ -192,7 +192,7 @@ impl Polynomial {
         let product = merged(terms, rest);
         match product.terms.len() <= MOST_TERMS {
             true => Ok(product),
-            false => Err(Fault::Terms(MOST_TERMS)),
+            false => Err(Fault::Large),
         }
     }
 }
@@ -205,7 +205,7 @@ fn sort(terms: &mut [(Key, f64)]) {
 /// Pushes a term, every sin² in it replaced by 1 − cos².
 fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(), Fault> {
     if key & GUARD != 0 {
-        return Err(Fault::Degree);
+        return Err(Fault::Large);
     }
     let squares = key & SINE_SQUARED;
     let first = squares & squares.wrapping_neg();

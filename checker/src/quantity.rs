@@ -6,7 +6,7 @@
 
 use crate::dynamics::{State, torques};
 use crate::fault::Fault;
-use crate::number::{Number, Real};
+use crate::number::Number;
 use crate::polynomial::Work;
 use crate::scene::Setting;
 
@@ -205,10 +205,7 @@ impl<N: Number> At<'_, N> {
         let unit = self.unit(joint);
         let sum: Vec<N> = v.iter().zip(&unit).map(|(a, b)| a.plus(b)).collect();
         let (both, alone) = (self.coriolis(&sum)?, self.coriolis(&unit)?);
-        let half = N::constant(Real {
-            value: 0.5,
-            radius: 0.0,
-        });
+        let half = N::constant(0.5.into());
         let each = both.iter().zip(own).zip(&alone);
         each.map(|((both, own), alone)| {
             let rest = both.plus(&own.negated()).plus(&alone.negated());
@@ -269,10 +266,7 @@ impl<N: Number> At<'_, N> {
             }
             Quantity::KineticEnergy => {
                 let p = self.loads(&zeros, &v, (false, false))?;
-                let half = N::constant(Real {
-                    value: 0.5,
-                    radius: 0.0,
-                });
+                let half = N::constant(0.5.into());
                 vec![self.dot(&v, &p)?.times(&half, self.work)?]
             }
         })

@@ -7,9 +7,9 @@
 //! every angle of the joint before, so that the box of the φ is the box of the q.
 
 use crate::certificate::Claim;
-use crate::dynamics::State;
+use crate::dynamics::{State, axis};
 use crate::fault::Fault;
-use crate::number::{Number, Real};
+use crate::number::Number;
 use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
 use crate::scene::Setting;
 
@@ -100,9 +100,8 @@ impl Ring {
         let is_whole = range[1] - range[0] >= WHOLE_TURN;
         let turns = setting.joints[joint].turns && setting.locks[joint].is_none();
         self.angles.push(Some(range).filter(|_| turns && !is_whole));
-        if let Some((angle, position)) = &setting.locks[joint] {
-            (state.sin, state.cos) = (Number::constant(angle.sin), Number::constant(angle.cos));
-            state.position = Number::constant(*position);
+        if let Some(at) = setting.locks[joint] {
+            [state.sin, state.cos, state.position] = at.map(Number::constant);
         } else if !turns {
             // A position between two ends is their middle and a cosine's share of half
             // their distance, whatever the angle.
@@ -112,7 +111,7 @@ impl Ring {
             state.position = Polynomial::constant(middle, 0.0).plus(&share);
         } else {
             [state.sin, state.cos] = own(joint);
-            if let Some(sign) = Ring::parallel(setting, joint).filter(|_| is_whole) {
+            if let Some(sign) = Ring::parallel(setting, joint, work)?.filter(|_| is_whole) {
                 // sin(φ ∓ ψ), cos(φ ∓ ψ), ψ being the variable of the joint before.
                 let ([sin, cos], [sin_b, cos_b]) = (own(joint), own(joint - 1));
                 let sin_b = sin_b.times(&Polynomial::constant(sign, 0.0), work)?;
@@ -126,12 +125,14 @@ impl Ring {
 
     /// Whether the axis of a joint that turns is parallel to that of the one before,
     /// which turns too and is not locked: 1, or −1 if it points the other way.
-    fn parallel(setting: &Setting, joint: usize) -> Option<f64> {
-        let before = joint.checked_sub(1)?;
-        let twist = &setting.joints[if setting.modified { joint } else { before }].alpha;
-        let moves = setting.joints[before].turns && setting.locks[before].is_none();
-        let exact = twist.sin == Real::default() && twist.cos.radius == 0.0;
-        (moves && exact).then_some(twist.cos.value)
+    fn parallel(setting: &Setting, joint: usize, work: &mut Work) -> Result<Option<f64>, Fault> {
+        let moves = |k: usize| setting.joints[k].turns && setting.locks[k].is_none();
+        if !joint.checked_sub(1).is_some_and(moves) {
+            return Ok(None);
+        }
+        let [_, _, along]: [Polynomial; 3] = axis(setting, joint, work)?;
+        let sign = |sign: f64| along == Polynomial::constant(sign, 0.0);
+        Ok([1.0, -1.0].into_iter().find(|one| sign(*one)))
     }
 
     /// The values that the rates and errors of a monomial take over the box: the middle

@@ -12,9 +12,12 @@ use crate::number::Real;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, bound = "S: Deserialize<'de>")]
 pub(crate) struct File<S> {
-    pub(crate) convention: Convention,
+    pub(crate) convention: Option<Convention>,
     pub(crate) gravity: [Literal; 3],
     pub(crate) joint: Vec<Row>,
+    /// Frame 0 in the axes that gravity is in, and the frame of payloads in the last link's.
+    pub(crate) base: Option<Placement>,
+    pub(crate) payload_frame: Option<Placement>,
     #[serde(default = "BTreeMap::new")]
     pub(crate) scene: BTreeMap<String, S>,
     /// These, and the frame of the hand, move nothing.
@@ -42,11 +45,53 @@ pub(crate) enum Kind {
     Prismatic,
 }
 
+/// A frame in another one.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Placement {
+    xyz: [Literal; 3],
+    rpy: [Literal; 3],
+}
+
+impl Placement {
+    pub(crate) fn steps(&self) -> Result<Vec<Step>, Fault> {
+        let mut steps = vec![Step::Shift(Literal::reals(&self.xyz, "xyz")?)];
+        for (axis, angle) in [Z, Y, X].into_iter().zip(self.rpy.iter().rev()) {
+            steps.push(Step::about(axis, angle.angle("rpy")?));
+        }
+        Ok(steps)
+    }
+}
+
+/// The axes that follow x, y and z.
+pub const X: [usize; 2] = [1, 2];
+const Y: [usize; 2] = [2, 0];
+/// See [`X`].
+pub const Z: [usize; 2] = [0, 1];
+
+/// A part of the way from a frame to another.
+#[derive(Clone, Debug)]
+pub enum Step<N = Real> {
+    /// A turn, given by the two axes that follow its own, and its sine and cosine.
+    Turn([usize; 2], [N; 2]),
+    /// A shift, m.
+    Shift([N; 3]),
+}
+
+impl Step {
+    fn about(axis: [usize; 2], angle: Angle) -> Step {
+        Step::Turn(axis, [angle.sin, angle.cos])
+    }
+}
+
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(crate) struct Row {
     pub(crate) name: Option<String>,
     pub(crate) kind: Option<Kind>,
+    placement: Option<Placement>,
+    axis: Option<[Literal; 3]>,
+    beta: Literal,
     alpha: Literal,
     a: Literal,
     d: Literal,
@@ -56,6 +101,9 @@ pub(crate) struct Row {
     com: Option<[Literal; 3]>,
     inertia: Option<[Literal; 6]>,
     viscous: Literal,
+    coulomb: Literal,
+    #[serde(rename = "coulomb_width")]
+    _width: IgnoredAny,
     armature: Literal,
     pub(crate) limits: Limits,
 }
@@ -72,6 +120,8 @@ pub(crate) struct Limits {
 /// A rigid body in the frame of a link.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// The way from the link's frame to that in which the rest is.
+    pub frame: Vec<Step>,
     /// The mass, kg.
     pub mass: Real,
     /// The centre of mass, m.
@@ -86,28 +136,24 @@ impl Body {
         com: &[Literal; 3],
         inertia: &[Literal; 6],
     ) -> Result<Body, Fault> {
-        let [x, y, z] = com;
-        let mut moments = Vec::new();
-        for one in inertia {
-            moments.push(one.real("inertia")?);
-        }
         Ok(Body {
+            frame: Vec::new(),
             mass: mass.real("mass")?,
-            com: [x.real("com")?, y.real("com")?, z.real("com")?],
-            inertia: moments.try_into().unwrap_or_default(),
+            com: Literal::reals(com, "com")?,
+            inertia: Literal::reals(inertia, "inertia")?,
         })
     }
 }
 
-/// A joint that turns or slides, with its link, as a row of a DH table.
+/// A joint that turns about its z or slides along it, with its link.
 #[derive(Clone, Debug)]
 pub struct Joint {
     /// Whether it turns; else it slides.
     pub turns: bool,
-    /// The twist.
-    pub alpha: Angle,
-    /// The length a, m.
-    pub a: Real,
+    /// The way from the frame of the link before to the joint's.
+    pub before: Vec<Step>,
+    /// The way from the joint's frame, moved, to that of its link.
+    pub behind: Vec<Step>,
     /// What is constant of d, m: all of it if the joint turns.
     pub d: Real,
     /// What is constant of θ: all of it if the joint slides.
@@ -116,12 +162,62 @@ pub struct Joint {
     pub bodies: Vec<Body>,
     /// Viscous friction, N·m·s/rad or N·s/m.
     pub viscous: Real,
+    /// Whether it has Coulomb friction, which no torque here has.
+    pub rubs: bool,
     /// The inertia of the drive as the joint feels it, kg·m² or kg.
     pub armature: Real,
 }
 
 impl Row {
-    pub(crate) fn joint(&self) -> Result<Joint, Fault> {
+    /// The ways before and behind the joint.
+    fn ways(&self, convention: Option<Convention>) -> Result<[Vec<Step>; 2], Fault> {
+        let mut row = vec![
+            Step::Shift([self.a.real("a")?, Real::default(), Real::default()]),
+            Step::about(X, self.alpha.angle("alpha")?),
+        ];
+        match (convention, &self.placement, &self.axis) {
+            (Some(Convention::Modified), None, None) if self.beta.is_zero() => Ok([row, vec![]]),
+            (Some(Convention::Standard), None, None) => {
+                if !self.beta.is_zero() {
+                    row.push(Step::about(Y, self.beta.angle("beta")?));
+                }
+                Ok([vec![], row])
+            }
+            (None, Some(placement), Some([x, y, z])) => {
+                let [x, y, z] = [x.double("axis")?, y.double("axis")?, z.double("axis")?];
+                let across = (x * x + y * y).sqrt();
+                let length = (across * across + z * z).sqrt();
+                if !(length > 1e-100 && length < 1e100) {
+                    return Err(Fault::robot("axis", "it has no direction"));
+                }
+                // Exact along the axes; else both are rounded a few times.
+                let turn = |axis, sin: f64, cos: f64, is_exact: bool| {
+                    let radius = if is_exact { 0.0 } else { 1e-15 };
+                    Step::Turn(axis, [sin, cos].map(|value| Real { value, radius }))
+                };
+                let (is_flat, is_along) = (x == 0.0 || y == 0.0, across == 0.0 || z == 0.0);
+                let (sin, cos) = if across == 0.0 {
+                    (0.0, 1.0)
+                } else {
+                    (y / across, x / across)
+                };
+                let (tilt, up) = (across / length, z / length);
+                let mut before = placement.steps()?;
+                before.extend([turn(Z, sin, cos, is_flat), turn(Y, tilt, up, is_along)]);
+                Ok([
+                    before,
+                    vec![turn(Y, -tilt, up, is_along), turn(Z, -sin, cos, is_flat)],
+                ])
+            }
+            _ => Err(Fault::robot(
+                "placement",
+                "expected `convention` and rows, or `placement` and `axis` of each joint",
+            )),
+        }
+    }
+
+    pub(crate) fn joint(&self, convention: Option<Convention>) -> Result<Joint, Fault> {
+        let [before, behind] = self.ways(convention)?;
         let turns = self.turns()?;
         let (theta, d) = if turns {
             (&self.offset, &self.d)
@@ -143,8 +239,8 @@ impl Row {
         let (com, inertia) = (self.com.clone(), self.inertia.clone());
         Ok(Joint {
             turns,
-            alpha: self.alpha.angle("alpha")?,
-            a: self.a.real("a")?,
+            before,
+            behind,
             d: d.real("d")?,
             theta: theta.angle("theta")?,
             bodies: vec![Body::read(
@@ -153,6 +249,7 @@ impl Row {
                 &inertia.unwrap_or_default(),
             )?],
             viscous: self.viscous.real("viscous")?,
+            rubs: !self.coulomb.is_zero(),
             armature: self.armature.real("armature")?,
         })
     }

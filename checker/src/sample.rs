@@ -16,17 +16,10 @@ pub fn states<N: Number>(setting: &Setting, at: &[Vec<f64>; 3]) -> Vec<State<N>>
     let state = |joint: usize| {
         let [q, velocity, acceleration] = [0, 1, 2].map(|which: usize| at[which][joint]);
         let moves = |which: usize| setting.locks[joint].is_none() && !setting.still[which];
-        let (sin, cos, position) = match setting.locks[joint] {
-            Some((angle, position)) => {
-                let [sin, cos, position] = [angle.sin, angle.cos, position].map(N::constant);
-                (sin, cos, position)
-            }
-            None => {
-                let (sin, cos) = sin_cos(q);
-                let [sin, cos] = [sin, cos].map(|value| number(value, SINE_ERROR));
-                (sin, cos, number(q, 0.0))
-            }
-        };
+        let (sin, cos) = sin_cos(q);
+        let [sin, cos] = [sin, cos].map(|value| number(value, SINE_ERROR));
+        let free = [sin, cos, number(q, 0.0)];
+        let [sin, cos, position] = setting.locks[joint].map_or(free, |at| at.map(N::constant));
         State {
             sin,
             cos,
@@ -68,12 +61,7 @@ pub fn worst(
                 random.next()
             };
             let value = low + (high - low) * share;
-            let held = if claim.scalar == "f32" {
-                f64::from(value as f32)
-            } else {
-                value
-            };
-            held.clamp(low, high)
+            held(value, [low, high], claim.scalar == "f32")
         };
         let state = [0, 1, 2].map(|which| {
             lists[which]
@@ -81,22 +69,50 @@ pub fn worst(
                 .map(|range| draw(which, range))
                 .collect::<Vec<f64>>()
         });
-        let states: Vec<State<Polynomial>> = states(setting, &state);
-        let formula = claim
-            .function()?
-            .outputs(setting, &states, &claim.rows(), work)?;
-        let computed = run(program, &state, claim.scalar == "f32");
-        for ((worst, formula), computed) in worst.iter_mut().zip(formula).zip(computed) {
-            let value = formula.terms.first().map_or(0.0, |term| term.1);
-            let off = (computed - value).abs() - formula.rest;
+        for (worst, own) in worst
+            .iter_mut()
+            .zip(at(claim, setting, program, &state, work)?)
+        {
             // So that a result that is no number counts.
-            if off > worst.off || off.is_nan() {
-                worst.off = off;
+            if own.off > worst.off || own.off.is_nan() {
+                worst.off = own.off;
             }
-            worst.size = worst.size.max(value.abs() - formula.rest);
+            worst.size = worst.size.max(own.size);
         }
     }
     Ok(worst)
+}
+
+/// What is seen of each output at a state of the scalar's numbers.
+///
+/// # Errors
+/// As of [`worst`].
+pub(crate) fn at(
+    claim: &Claim,
+    setting: &Setting,
+    program: &Program,
+    state: &[Vec<f64>; 3],
+    work: &mut Work,
+) -> Result<Vec<Seen>, Fault> {
+    let states: Vec<State<Polynomial>> = states(setting, state);
+    let function = claim.function()?;
+    let formula = function.outputs(setting, &states, &claim.rows(), work)?;
+    let computed = run(program, state, claim.scalar == "f32");
+    let pairs = formula.iter().zip(computed);
+    let seen = pairs.map(|(formula, computed)| {
+        let value = formula.terms.first().map_or(0.0, |term| term.1);
+        Seen {
+            off: (computed - value).abs() - formula.rest,
+            size: value.abs() - formula.rest,
+        }
+    });
+    Ok(seen.collect())
+}
+
+/// A number of the scalar within a range.
+pub(crate) fn held(value: f64, [low, high]: [f64; 2], is_single: bool) -> f64 {
+    let held = f64::from(value as f32);
+    if is_single { held } else { value }.clamp(low, high)
 }
 
 /// Numbers that are the same on every machine.
@@ -113,15 +129,12 @@ impl Random {
 }
 
 /// Runs the text in its scalar and returns its results.
-fn run(program: &Program, state: &[Vec<f64>; 3], is_single: bool) -> Vec<f64> {
+pub(crate) fn run(program: &Program, state: &[Vec<f64>; 3], is_single: bool) -> Vec<f64> {
     // A sum or product of two f32 in f64, rounded to f32, is rounded as in f32: f64 has
     // more than twice as many bits.
-    let round = |value: f64| {
-        if is_single {
-            f64::from(value as f32)
-        } else {
-            value
-        }
+    let round = |value: f64| match is_single {
+        true => f64::from(value as f32),
+        false => value,
     };
     let mut values: Vec<f64> = Vec::with_capacity(program.nodes.len());
     for &node in &program.nodes {

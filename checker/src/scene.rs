@@ -8,10 +8,10 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use crate::fault::Fault;
-use crate::literal::{Angle, Literal};
+use crate::literal::Literal;
 use crate::number::Real;
 use crate::polynomial::MAX_JOINTS;
-use crate::robot::{Body, Convention, File, Joint, Row, not_negative};
+use crate::robot::{Body, File, Joint, Placement, Row, Step, not_negative};
 
 /// The longest robot file.
 const MOST_BYTES: usize = 1 << 18;
@@ -72,14 +72,14 @@ enum OneOrEach {
 /// A robot in a scene, or by itself.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// Whether rows are of the modified (Craig) convention.
-    pub modified: bool,
+    /// The way from the axes that gravity is in to frame 0.
+    pub base: Vec<Step>,
     /// The acceleration of gravity in base axes, m/s².
     pub gravity: [Real; 3],
     /// From the base to the hand; the last one carries the payload.
     pub joints: Vec<Joint>,
-    /// Of each joint whether it is locked: its angle, if it turns, and its position, m.
-    pub locks: Vec<Option<(Angle, Real)>>,
+    /// Of each joint that is locked sine and cosine, if it turns, and its position, m.
+    pub locks: Vec<Option<[Real; 3]>>,
     /// Whether q̇ is zero, and q̈.
     pub still: [bool; 2],
     /// The ranges of q, q̇ and q̈ that the file speaks of, NaN where it does not.
@@ -124,82 +124,67 @@ fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
     scenes.try_for_each(|scene| in_order(rows, &scene.r#box))?;
     let mut joints = rows
         .iter()
-        .map(Row::joint)
+        .map(|row| row.joint(file.convention))
         .collect::<Result<Vec<Joint>, Fault>>()?;
     if let (Some(Payload { mass, com, inertia }), Some(last)) = (&scene.payload, joints.last_mut())
     {
-        last.bodies.push(Body::read(
-            mass,
-            com,
-            inertia.as_ref().unwrap_or(&Default::default()),
-        )?);
+        last.bodies.push(Body {
+            frame: steps(&file.payload_frame)?,
+            ..Body::read(mass, com, inertia.as_ref().unwrap_or(&Default::default()))?
+        });
     }
-    let [x, y, z] = scene.gravity.as_ref().unwrap_or(&file.gravity);
-    let gravity = [x.real("gravity")?, y.real("gravity")?, z.real("gravity")?];
+    let gravity = scene.gravity.as_ref().unwrap_or(&file.gravity);
     let mut at: Vec<Option<&Literal>> = vec![None; count];
     for (word, position) in &scene.lock {
         at[joint(rows, word)?] = Some(position);
     }
-    let mut locks = Vec::new();
+    let (mut locks, zero) = (Vec::new(), Real::default());
     for (joint, at) in joints.iter().zip(&at) {
-        let (angle, zero) = (Literal::default(), Real::default());
-        locks.push(match at {
-            Some(at) if joint.turns => Some((at.angle("lock")?, zero)),
-            Some(at) => Some((angle.angle("lock")?, at.real("lock")?)),
-            None => None,
+        let held = at.map(|at| match joint.turns {
+            true => at.angle("lock").map(|angle| [angle.sin, angle.cos, zero]),
+            false => at.real("lock").map(|at| [zero, 1.0.into(), at]),
         });
+        locks.push(held.transpose()?);
     }
-    let asked = scene.joints.as_ref().map(|list| {
-        list.iter().map(|word| match word {
-            Literal::Text(name) => joint(rows, name),
-            Literal::Whole(number) => joint(rows, &number.to_string()),
-            Literal::Decimal(_) => Err(Fault::robot("joints", "expected numbers or names")),
-        })
-    });
-    let moving = (0..count).filter(|&joint| locks[joint].is_none());
-    let asked = asked
-        .map(Iterator::collect::<Result<Vec<usize>, Fault>>)
-        .transpose()?;
-    let still = [scene.velocity.is_some(), scene.acceleration.is_some()];
-    let torque = |row: &Row| {
-        row.limits
-            .torque
-            .as_ref()
-            .map_or(Ok(f64::NAN), |x| x.double("torque"))
+    let word = |word: &Literal| match word {
+        Literal::Text(name) => joint(rows, name),
+        Literal::Whole(number) => joint(rows, &number.to_string()),
+        Literal::Decimal(_) => Err(Fault::robot("joints", "expected numbers or names")),
     };
+    let asked = scene.joints.as_ref();
+    let asked = asked.map(|list| list.iter().map(word).collect::<Result<Vec<usize>, Fault>>());
+    let moving = (0..count).filter(|&joint| locks[joint].is_none());
+    let still = [scene.velocity.is_some(), scene.acceleration.is_some()];
+    let torque = |row: &Row| Literal::optional(row.limits.torque.as_ref(), "torque");
     let tolerance = scene.tolerance.as_ref().map(|tolerance| {
         let each = match &tolerance.value {
-            OneOrEach::One(one) => vec![one.clone(); count],
-            OneOrEach::Each(each) => each.clone(),
+            OneOrEach::One(one) => vec![one; count],
+            OneOrEach::Each(each) => each.iter().collect(),
         };
         // Down, so that nothing is allowed that the decimal does not allow.
-        let read = each
-            .iter()
-            .map(|x| x.double("tolerance").map(f64::next_down));
-        let read: Vec<f64> = read.collect::<Result<_, Fault>>()?;
-        match read.len() == count {
-            true => Ok(read),
-            false => Err(Fault::robot(
-                "tolerance",
-                "expected a value, or one a joint",
-            )),
-        }
+        let down = |x: &&Literal| x.double("tolerance").map(f64::next_down);
+        let read: Vec<f64> = each.iter().map(down).collect::<Result<_, Fault>>()?;
+        let why = "expected a value, or one a joint";
+        (read.len() == count)
+            .then_some(read)
+            .ok_or_else(|| Fault::robot("tolerance", why))
     });
     Ok(Setting {
-        modified: file.convention == Convention::Modified,
-        gravity,
+        base: steps(&file.base)?,
+        gravity: Literal::reals(gravity, "gravity")?,
         joints,
-        rows: asked.unwrap_or(moving.collect()),
+        rows: asked.transpose()?.unwrap_or(moving.collect()),
         still,
         ranges: ranges(rows, &scene.r#box, &at, still)?,
         torques: rows.iter().map(torque).collect::<Result<_, Fault>>()?,
         locks,
         tolerance: tolerance.transpose()?,
-        relative_to: scene
-            .tolerance
-            .as_ref()
-            .map(|tolerance| tolerance.relative_to.clone()),
+        relative_to: scene.tolerance.as_ref().map(|t| t.relative_to.clone()),
     })
+}
+
+fn steps(placement: &Option<Placement>) -> Result<Vec<Step>, Fault> {
+    placement.as_ref().map_or(Ok(Vec::new()), Placement::steps)
 }
 
 /// A joint by its number, from one, or by its name.
@@ -215,12 +200,10 @@ fn joint(rows: &[Row], word: &str) -> Result<usize, Fault> {
 
 /// Refuses a box between whose ends nothing is, or that is not of this robot.
 fn in_order(rows: &[Row], given: &Bounds) -> Result<(), Fault> {
-    let entries = |key: &str, count: usize| match count == rows.len() {
-        true => Ok(()),
-        false => {
-            let why = format!("{count} entries, but the robot has {} joints", rows.len());
-            Err(Fault::robot(key, why))
-        }
+    let why = |count| format!("{count} entries, but the robot has {} joints", rows.len());
+    let entries = |key: &str, count: usize| {
+        let is_each = (count == rows.len()).then_some(());
+        is_each.ok_or_else(|| Fault::robot(key, why(count)))
     };
     if let Some(ranges) = &given.position {
         entries("position", ranges.len())?;
@@ -265,17 +248,10 @@ fn ranges(
             (&given.acceleration, &row.limits.acceleration),
         ];
         for (which, (given, limit)) in rates.into_iter().enumerate() {
-            let most = given
-                .as_ref()
-                .and_then(|list| list.get(index))
-                .or(limit.as_ref());
-            let most = most.map_or(Ok(f64::NAN), |most| most.double("limits"))?;
-            let most = if locks[index].is_some() || still[which] {
-                0.0
-            } else {
-                most
-            };
-            ranges[which + 1].push([-most, most]);
+            let given = given.as_ref().and_then(|list| list.get(index));
+            let most = Literal::optional(given.or(limit.as_ref()), "limits")?;
+            let moves = locks[index].is_none() && !still[which];
+            ranges[which + 1].push(if moves { [-most, most] } else { [0.0; 2] });
         }
     }
     Ok(ranges)

@@ -72,8 +72,8 @@ pub fn error(block: &[Node], result: usize, is_sine: bool, range: Interval, scal
         };
         let at = last(&evaluate(block, Interval::point(middle), scalar), result);
         let around = last(&evaluate(block, over, scalar), result);
-        let off = (at.value - Interval::around(value, SINE_ERROR)).magnitude();
-        let off = off + (around.slope - slope).magnitude() * half + around.error;
+        let off = (at.value + -Interval::around(value, SINE_ERROR)).magnitude();
+        let off = off + (around.slope + -slope).magnitude() * half + around.error;
         // So that a result that is no number counts as the worst.
         if !(off <= worst) {
             worst = off;
@@ -96,12 +96,13 @@ struct Enclosed {
 
 fn last(values: &[Enclosed], result: usize) -> Enclosed {
     let nothing = Interval::new(f64::NAN, f64::NAN);
-    let nothing = Enclosed {
-        value: nothing,
-        slope: nothing,
-        error: f64::INFINITY,
-    };
-    values.get(result).copied().unwrap_or(nothing)
+    let (value, slope, error) = (nothing, nothing, f64::INFINITY);
+    let found = values.get(result).copied();
+    found.unwrap_or(Enclosed {
+        value,
+        slope,
+        error,
+    })
 }
 
 fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
@@ -127,13 +128,15 @@ fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
                 slope: Interval::point(0.0),
                 error: 0.0,
             },
-            Node::Add(a, b) => {
+            Node::Add(a, b) | Node::Sub(a, b) => {
                 let (a, b) = (get(a), get(b));
-                rounded(a.value + b.value, a.slope + b.slope, a.error + b.error)
-            }
-            Node::Sub(a, b) => {
-                let (a, b) = (get(a), get(b));
-                rounded(a.value - b.value, a.slope - b.slope, a.error + b.error)
+                let sign = Interval::point(if matches!(node, Node::Sub(..)) {
+                    -1.0
+                } else {
+                    1.0
+                });
+                let (value, slope) = (a.value + sign * b.value, a.slope + sign * b.slope);
+                rounded(value, slope, a.error + b.error)
             }
             Node::Mul(a, b) => {
                 let (a, b) = (get(a), get(b));

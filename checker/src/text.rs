@@ -12,6 +12,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::program::{Node, Program, Source};
 use crate::quantity::Function;
@@ -19,41 +20,43 @@ use crate::quantity::Function;
 /// The most values of a function.
 const MOST_NODES: usize = 20_000;
 
-/// What a text must be.
-#[derive(Clone, Copy, Debug)]
-pub struct Kind<'k> {
-    /// The function.
-    pub function: &'k Function,
-    /// Its scalar, `f64` or `f32`.
-    pub scalar: &'k str,
-    /// The joints of the arm.
-    pub joints: usize,
-    /// The number of joints that results are over.
-    pub rows: usize,
-}
-
-struct Parser<'t> {
-    kind: Kind<'t>,
-    lines: std::iter::Enumerate<std::str::Split<'t, char>>,
+/// A function that is being read.
+pub(crate) struct Parser<'t> {
+    pub(crate) function: &'static Function,
+    pub(crate) scalar: &'t str,
+    pub(crate) joints: usize,
+    pub(crate) rows: usize,
+    pub(crate) lines: std::iter::Enumerate<std::str::Split<'t, char>>,
     line: usize,
-    program: Program,
+    pub(crate) program: Program,
     names: HashMap<&'t str, usize>,
     /// Which of q, qd and qdd the head names.
     arguments: HashMap<&'t str, usize>,
     /// Whether a block is read, and how it spells its angle, once it has.
-    is_inside: bool,
+    pub(crate) is_inside: bool,
     /// `true` while a part of a long function is read.
     is_part: bool,
     angle: Option<&'t str>,
+    /// What is around the block that is read, and what it results in: names and values.
+    outside: (HashMap<&'t str, usize>, Vec<Node>),
+    pub(crate) results: Vec<(&'t str, usize)>,
+    /// The angle in the names of a block of a header.
+    pub(crate) block: Option<&'t str>,
+    /// What literals end with.
+    pub(crate) suffix: &'static str,
 }
 
-/// Reads a function.
+/// Reads the function of a claim about an arm of so many joints.
 ///
 /// # Errors
-/// The first thing that is not of the grammar or not of this kind, with its line.
-pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
+/// The first thing that is not of the grammar or not of this claim, with its line.
+pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
+    let text = &claim.text;
     let mut parser = Parser {
-        kind,
+        function: claim.function()?,
+        scalar: &claim.scalar,
+        joints,
+        rows: claim.rows.len(),
         lines: text.split('\n').enumerate(),
         line: 0,
         program: Program::default(),
@@ -62,8 +65,16 @@ pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
         is_inside: false,
         is_part: false,
         angle: None,
+        outside: Default::default(),
+        results: Vec::new(),
+        block: None,
+        suffix: "",
     };
-    if parser.function().is_some() {
+    let read = match text.starts_with("static inline ") {
+        true => parser.c_function(),
+        false => parser.rust_function(),
+    };
+    if read.is_some() {
         return Ok(parser.program);
     }
     let line = text.split('\n').nth(parser.line).unwrap_or("").trim();
@@ -74,20 +85,16 @@ pub fn read(text: &str, kind: Kind) -> Result<Program, Fault> {
 }
 
 impl<'t> Parser<'t> {
-    fn next(&mut self) -> Option<&'t str> {
+    pub(crate) fn next(&mut self) -> Option<&'t str> {
         let (number, line) = self.lines.next()?;
         self.line = number;
         let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
         is_plain.then(|| line.trim_matches(' '))
     }
 
-    fn function(&mut self) -> Option<()> {
-        let Kind {
-            function,
-            scalar,
-            joints,
-            rows,
-        } = self.kind;
+    fn rust_function(&mut self) -> Option<()> {
+        let (function, scalar) = (self.function, self.scalar);
+        let (joints, rows) = (self.joints, self.rows);
         let mut line = self.next()?;
         if line == "#[must_use]" {
             line = self.next()?;
@@ -108,21 +115,16 @@ impl<'t> Parser<'t> {
             .split(", ")
         {
             let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
-            let known = argument.strip_prefix('_').unwrap_or(argument);
-            let place = ["q", "qd", "qdd"].iter().position(|word| *word == known)?;
-            if self.arguments.values().any(|&before| before >= place) {
-                return None;
-            }
-            self.arguments.insert(argument, place);
+            self.argument(argument)?;
         }
         line = self.statements()?;
         match function.structure {
-            None => self.array(line, fields.first()?.1.axes())?,
+            None => self.array(line, fields.first()?.1.axes(), "")?,
             Some(name) => {
                 (line.strip_suffix(" {")? == name).then_some(())?;
                 for (field, quantity) in fields {
                     let line = self.next()?.strip_prefix(field)?.strip_prefix(": ")?;
-                    self.array_before(line, quantity.axes(), ",")?;
+                    self.array(line, quantity.axes(), ",")?;
                 }
                 (self.next()? == "}").then_some(())?;
             }
@@ -131,12 +133,17 @@ impl<'t> Parser<'t> {
         is_end.then_some(())
     }
 
-    fn array(&mut self, line: &'t str, axes: usize) -> Option<()> {
-        self.array_before(line, axes, "")
+    /// Adds an argument of the head.
+    pub(crate) fn argument(&mut self, argument: &'t str) -> Option<()> {
+        let known = argument.strip_prefix('_').unwrap_or(argument);
+        let place = ["q", "qd", "qdd"].iter().position(|word| *word == known)?;
+        let is_next = self.arguments.values().all(|&before| before < place);
+        self.arguments.insert(argument, place);
+        is_next.then_some(())
     }
 
     /// Adds the entries of an array that begins in a line and ends before some text.
-    fn array_before(&mut self, line: &'t str, axes: usize, end: &str) -> Option<()> {
+    fn array(&mut self, line: &'t str, axes: usize, end: &str) -> Option<()> {
         match axes {
             0 => {
                 let value = self.operand(line.strip_suffix(end)?)?;
@@ -153,13 +160,13 @@ impl<'t> Parser<'t> {
                     self.program.outputs.push(value);
                     count += 1;
                 }
-                (count == self.kind.rows).then_some(())?;
+                (count == self.rows).then_some(())?;
             }
             _ => {
                 (line == "[").then_some(())?;
-                for _ in 0..self.kind.rows {
+                for _ in 0..self.rows {
                     let line = self.next()?;
-                    self.array_before(line, axes - 1, ",")?;
+                    self.array(line, axes - 1, ",")?;
                 }
                 (self.next()?.strip_suffix(end)? == "]").then_some(())?;
             }
@@ -182,7 +189,7 @@ impl<'t> Parser<'t> {
         Some(line)
     }
 
-    fn statement(&mut self, names: &'t str, value: &'t str) -> Option<()> {
+    pub(crate) fn statement(&mut self, names: &'t str, value: &'t str) -> Option<()> {
         let words: Vec<&str> = value.split(' ').collect();
         if let &[left, operation, right] = words.as_slice()
             && !value.contains("::")
@@ -208,7 +215,7 @@ impl<'t> Parser<'t> {
             return self.name(names, Node::Fused(left, right, addend));
         }
         let (call, angles) = value.strip_suffix(')')?.split_once('(')?;
-        let suffix = if self.kind.scalar == "f32" { "f" } else { "" };
+        let suffix = if self.scalar == "f32" { "f" } else { "" };
         let call = call.strip_suffix(suffix)?;
         // Of one angle, or the lists of all.
         let lists = names
@@ -252,17 +259,17 @@ impl<'t> Parser<'t> {
     }
 
     /// Adds a value of a new name: a letter for its kind, then joints or its number.
-    fn name(&mut self, name: &'t str, node: Node) -> Option<()> {
+    pub(crate) fn name(&mut self, name: &'t str, node: Node) -> Option<()> {
         let behind = name.strip_prefix(['a', 'c', 's', 't', 'x'])?;
         let is_plain = behind.starts_with(|c: char| c.is_ascii_digit() || c == 'm')
             && behind
                 .chars()
-                .all(|c| c.is_ascii_digit() || c == 'p' || c == 'm');
+                .all(|c| c.is_ascii_digit() || ['p', 'm', '_'].contains(&c));
         let value = self.push(node)?;
         (is_plain && self.names.insert(name, value).is_none()).then_some(())
     }
 
-    fn operand(&mut self, word: &'t str) -> Option<usize> {
+    pub(crate) fn operand(&mut self, word: &'t str) -> Option<usize> {
         if let Some(word) = word.strip_prefix('-') {
             let value = self.unsigned(word)?;
             return self.push(Node::Neg(value));
@@ -277,7 +284,8 @@ impl<'t> Parser<'t> {
             return Some(value);
         }
         if word.starts_with(|c: char| c.is_ascii_digit()) {
-            let (value, printed) = match self.kind.scalar {
+            let word = word.strip_suffix(self.suffix)?;
+            let (value, printed) = match self.scalar {
                 "f32" => {
                     let value = word.parse::<f32>().ok()?;
                     (f64::from(value), format!("{value:?}"))
@@ -295,7 +303,7 @@ impl<'t> Parser<'t> {
         }
         let (argument, index) = word.strip_suffix(']')?.split_once('[')?;
         let (argument, joint) = (*self.arguments.get(argument)?, index.parse::<usize>().ok()?);
-        let is_entry = joint < self.kind.joints && index == joint.to_string();
+        let is_entry = joint < self.joints && index == joint.to_string();
         self.push(Node::Input(argument, joint)).filter(|_| is_entry)
     }
 
@@ -322,22 +330,37 @@ impl<'t> Parser<'t> {
 
     /// A block: arithmetic on one angle, with names of its own.
     fn block(&mut self, names: &'t str) -> Option<()> {
-        let outside = std::mem::take(&mut self.names);
-        let nodes = std::mem::replace(&mut self.program.nodes, vec![Node::Constant(0.0)]);
-        self.is_inside = true;
+        self.open();
         let line = self.statements()?;
-        let results = pair(line).map_or(vec![line], Vec::from);
-        let values = results.into_iter().map(|word| self.operand(word));
+        let words = pair(line).map_or(vec![line], Vec::from);
+        let values = words.into_iter().map(|word| self.operand(word));
         let values = values.collect::<Option<Vec<usize>>>()?;
-        self.program
-            .blocks
-            .push(std::mem::replace(&mut self.program.nodes, nodes));
-        (self.names, self.is_inside) = (outside, false);
+        let names = pair(names).map_or(vec![names], Vec::from);
+        (names.len() == values.len()).then_some(())?;
+        self.results = names.into_iter().zip(values).collect();
+        self.close()?;
+        (self.next()? == "};").then_some(())
+    }
+
+    pub(crate) fn open(&mut self) {
+        self.is_inside = true;
+        let nodes = vec![Node::Constant(0.0)];
+        let nodes = std::mem::replace(&mut self.program.nodes, nodes);
+        self.outside = (std::mem::take(&mut self.names), nodes);
+    }
+
+    /// Ends a block, if one is read, and names its results.
+    pub(crate) fn close(&mut self) -> Option<()> {
+        if !std::mem::take(&mut self.is_inside) {
+            return Some(());
+        }
+        let (names, nodes) = std::mem::take(&mut self.outside);
+        let block = std::mem::replace(&mut self.program.nodes, nodes);
+        (self.names, self.block) = (names, None);
+        self.program.blocks.push(block);
         let word = self.angle.take()?;
         let angle = self.operand(word)?;
-        let names = pair(names).map_or(vec![names], Vec::from);
-        (names.len() == values.len() && self.next()? == "};").then_some(())?;
-        for (name, value) in names.into_iter().zip(values) {
+        for (name, value) in std::mem::take(&mut self.results) {
             let source = Source::Block(self.program.blocks.len() - 1, value);
             self.name(name, Node::Sine(angle, name.starts_with('s'), source))?;
         }

@@ -131,29 +131,21 @@ impl Values<'_> {
                     error,
                 }
             }
-            Node::Mul(a, b) => {
+            Node::Mul(a, b) | Node::Fused(a, b, _) => {
                 let (a, b) = (number(all, a)?, number(all, b)?);
-                let product = a.exact.times(&b.exact, work)?;
-                let size = self.ring.size(&product).min(a.size * b.size * SLACK);
-                let inherited = a.error * b.size + b.error * a.size + a.error * b.error;
-                let error = self.scalar.rounded(size, inherited * SLACK);
-                Value {
-                    exact: product,
-                    size,
-                    error,
+                let mut result = a.exact.times(&b.exact, work)?;
+                let mut size = a.size * b.size * SLACK;
+                let mut inherited = a.error * b.size + b.error * a.size + a.error * b.error;
+                if let Node::Fused(_, _, c) = node {
+                    let c = number(all, c)?;
+                    result = result.plus(&c.exact);
+                    (size, inherited) = ((size + c.size) * SLACK, inherited + c.error);
                 }
-            }
-            Node::Fused(a, b, c) => {
-                let [a, b, c] = [number(all, a)?, number(all, b)?, number(all, c)?];
-                let sum = a.exact.times(&b.exact, work)?.plus(&c.exact);
-                let size = (a.size * b.size + c.size) * SLACK;
-                let size = self.ring.size(&sum).min(size);
-                let inherited = a.error * b.size + b.error * a.size + a.error * b.error;
-                let error = self.scalar.rounded(size, (inherited + c.error) * SLACK);
+                let size = self.ring.size(&result).min(size);
                 Value {
-                    exact: sum,
+                    exact: result,
                     size,
-                    error,
+                    error: self.scalar.rounded(size, inherited * SLACK),
                 }
             }
             Node::Sine(a, is_sine, source) => {
@@ -168,29 +160,23 @@ impl Values<'_> {
 
     /// An entry of an argument; `None` of an angle.
     fn input(&self, argument: usize, joint: usize) -> Result<Option<&Polynomial>, Fault> {
-        let State {
-            position,
-            velocity,
-            acceleration,
-            ..
-        } = &self.ring.states[joint];
+        let state = &self.ring.states[joint];
         let is_still = argument > 0 && self.setting.still[argument - 1];
-        let is_read = argument < self.arguments && !is_still;
-        if !is_read || self.setting.locks[joint].is_some() {
-            let why = match is_read {
-                true => format!(
-                    "the text reads the state of joint {}, which is locked",
-                    joint + 1
-                ),
-                false => "the text reads rates that the function, or the scene, has not".into(),
-            };
-            return Err(Fault::certificate(why));
-        }
-        let is_angle = argument == 0 && self.setting.joints[joint].turns;
-        Ok([position, velocity, acceleration]
-            .get(argument)
-            .copied()
-            .filter(|_| !is_angle))
+        let why = match self.setting.locks[joint] {
+            _ if argument >= self.arguments || is_still => {
+                "the text reads rates that the function, or the scene, has not".to_owned()
+            }
+            Some(_) => format!(
+                "the text reads the state of joint {}, which is locked",
+                joint + 1
+            ),
+            None => {
+                let is_angle = argument == 0 && self.setting.joints[joint].turns;
+                let all = [&state.position, &state.velocity, &state.acceleration];
+                return Ok(all.get(argument).copied().filter(|_| !is_angle));
+            }
+        };
+        Err(Fault::certificate(why))
     }
 
     /// A sine or cosine of a sum of angles, with what it is off.

@@ -1,7 +1,5 @@
 //! The audit of one claim, and what it found.
 
-use std::fmt;
-
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::maximum;
@@ -21,6 +19,9 @@ const BOX_SLACK: f64 = 1e-9;
 /// By how much T may be above the largest value that was found. What is tolerated is
 /// relative to what was found.
 const SCALE_SLACK: f64 = 1e-4;
+/// What an output that is always zero may be off, relative to the largest T: the checker's
+/// own numbers are doubles.
+const ZERO: f64 = 1e-12;
 
 /// The findings about one output, in its own unit.
 #[derive(Clone, Debug)]
@@ -29,37 +30,29 @@ pub struct Output {
     pub joints: Vec<usize>,
     /// T
     pub scale: f64,
-    /// Bound of what the text differs from the function in real numbers.
-    pub edits: f64,
-    /// Bound of what rounding and library sines cost.
-    pub rounding: f64,
+    /// What was found.
+    pub found: Found,
     /// The claim, E·T.
     pub claimed: f64,
     /// The user's tolerance times T, if the scene has one.
     pub tolerated: Option<f64>,
-    /// The largest difference at the states that were run.
-    pub seen: f64,
 }
 
 impl Output {
-    /// The own bound.
-    pub fn bound(&self) -> f64 {
-        let sum = self.edits + self.rounding;
-        if sum == 0.0 { 0.0 } else { sum.next_up() }
-    }
-
     /// Returns whether E is shown, but for one part in 10⁹ of it.
     pub fn holds(&self) -> bool {
-        self.bound() <= self.claimed * (1.0 + 1e-9)
+        self.found.bound() <= self.claimed * (1.0 + 1e-9)
     }
 
-    /// Whether the user's tolerance is shown; of a scene without one, whether E is.
+    /// Whether the user's tolerance is shown; of a scene without one, whether E is. What
+    /// errs more than E at a state is not.
     pub fn is_shown(&self) -> bool {
         let is_none = self.claimed == 0.0 && !self.holds();
         !is_none
+            && self.found.seen.off <= self.claimed
             && self
                 .tolerated
-                .map_or(self.holds(), |tolerated| self.bound() <= tolerated)
+                .map_or(self.holds(), |tolerated| self.found.bound() <= tolerated)
     }
 }
 
@@ -89,30 +82,47 @@ impl Verdict {
 /// A file or text that this checker does not know, a claim that is not about this robot
 /// or is contradicted, or more work than it does.
 pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
-    let setting = scene::read(robot, claim.scene.as_deref())?;
+    audit_within(claim, robot, None)
+}
+
+/// The same with another tolerance than the scene's.
+///
+/// # Errors
+/// As of [`audit`].
+pub fn audit_within(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdict, Fault> {
+    let mut setting = scene::read(robot, claim.scene.as_deref())?;
+    if let Some(tolerance) = tolerance {
+        setting.tolerance = Some(vec![tolerance; setting.joints.len()]);
+        setting.relative_to.clone_from(&claim.relative_to);
+    }
     claim.whole()?;
     about(claim, &setting)?;
     let claimed = |index: usize| claim.total[index].unwrap_or(f64::NAN) * claim.scale[index];
     let found = measure(claim, &setting, claimed)?;
     let places = claim.function()?.places(claim.rows.len());
     let most = attainable(claim, &setting, &places)?;
+    let largest = claim.scale.iter().copied().fold(0.0, f64::max);
     let mut outputs = Vec::new();
     for (index, (found, (_, place))) in found.into_iter().zip(&places).enumerate() {
         let joints: Vec<usize> = place.iter().map(|&place| claim.rows[place] - 1).collect();
         let scale = claim.scale[index];
+        let is_zero = scale == 0.0 && most[index] == 0.0;
         let tolerance = setting.tolerance.as_ref().map(|all| {
             let each = joints.iter().map(|&joint| all[joint]);
             each.fold(f64::INFINITY, f64::min)
         });
-        let tolerated = tolerance.map(|tolerance| below(tolerance * scale.min(most[index])));
+        let tolerated = tolerance.filter(|_| !is_zero);
+        let tolerated = tolerated.map(|tolerance| below(tolerance * scale.min(most[index])));
         outputs.push(Output {
             joints,
             scale,
-            edits: found.edits,
-            rounding: found.rounding,
-            claimed: below(claimed(index)),
+            found,
+            claimed: if is_zero {
+                ZERO * largest
+            } else {
+                below(claimed(index))
+            },
             tolerated,
-            seen: found.seen.off,
         });
     }
     Ok(Verdict {
@@ -151,28 +161,29 @@ pub fn measure(
     setting: &Setting,
     wanted: impl Fn(usize) -> f64,
 ) -> Result<Vec<Found>, Fault> {
-    let kind = text::Kind {
-        function: claim.function()?,
-        scalar: &claim.scalar,
-        joints: setting.joints.len(),
-        rows: claim.rows.len(),
-    };
-    let program = text::read(&claim.text, kind)?;
+    let program = text::read(claim, setting.joints.len())?;
     let work = &mut Work::default();
     let ring = Ring::new(setting, claim, work)?;
     let texts = values::outputs(&program, setting, claim, &ring, work)?;
     let rows = claim.rows();
-    let formulas = kind.function.outputs(setting, &ring.states, &rows, work)?;
+    let formulas = claim
+        .function()?
+        .outputs(setting, &ring.states, &rows, work)?;
     let seen = sample::worst(claim, setting, &program, STATES)?;
     let mut all = Vec::new();
     for (index, (value, formula)) in texts.iter().zip(&formulas).enumerate() {
         let difference = value.exact.plus(&formula.negated());
-        let wanted = (wanted(index) - value.error).next_down().next_down();
-        let found = Found {
-            edits: maximum::bound(&difference, &ring, wanted),
+        let claimed = wanted(index);
+        let most = (claimed - value.error).next_down().next_down();
+        let mut found = Found {
+            edits: maximum::bound(&difference, &ring, most),
             rounding: value.error,
             seen: seen[index],
         };
+        if found.bound() > claimed && found.seen.off <= claimed {
+            let off = witness::error(claim, setting, &program, (index, claimed))?;
+            found.seen.off = found.seen.off.max(off);
+        }
         if !(found.seen.off <= found.bound()) {
             let (place, off) = (index + 1, found.seen.off);
             let why = format!("output {place} is off by {off:.3e} at a state");
@@ -200,21 +211,17 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
         return Err(Fault::certificate("`relative_to` is not that of the scene"));
     }
     let arguments = claim.function()?.arguments();
-    let [position, velocity, acceleration] = &setting.ranges;
     let inside = |(own, claimed): (&[f64; 2], &[f64; 2])| {
         let slack = BOX_SLACK * (own[0].abs() + own[1].abs());
         // What the file does not limit is NaN, and in nothing.
         claimed[0] - slack <= own[0] && own[1] <= claimed[1] + slack
     };
-    let lists = [
-        (position, &claim.position),
-        (velocity, &claim.velocity),
-        (acceleration, &claim.acceleration),
-    ];
-    let has_all = |(own, claimed): &(&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
+    let lists = [&claim.position, &claim.velocity, &claim.acceleration];
+    let mut lists = setting.ranges.iter().zip(lists).take(arguments);
+    let has_all = |(own, claimed): (&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
         own.len() == claimed.len() && own.iter().zip(claimed.iter()).all(inside)
     };
-    match lists.iter().take(arguments).all(has_all) {
+    match lists.all(has_all) {
         true => Ok(()),
         false => Err(Fault::certificate(
             "the box lacks states of the scene, or of the joints' limits",
@@ -267,41 +274,4 @@ fn attainable(
         }
     }
     Ok(most)
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "`{}` in {}, errors relative to T",
-            self.name, self.scalar
-        )?;
-        writeln!(
-            f,
-            "  joint            T     edits  rounding     bound         E      seen"
-        )?;
-        for output in &self.outputs {
-            let label: Vec<String> = output.joints.iter().map(|j| (j + 1).to_string()).collect();
-            let label = label.join(", ");
-            let of = |x: f64| if x == 0.0 { 0.0 } else { x / output.scale };
-            let verdict = match (output.holds(), output.is_shown()) {
-                (true, true) => "holds",
-                (true, false) => "holds, but is above the tolerance",
-                (false, true) => "E not shown; within the tolerance",
-                (false, false) => "not shown",
-            };
-            writeln!(
-                f,
-                "  {:<6} {:>11.4e} {:>9.3e} {:>9.3e} {:>9.3e} {:>9.3e} {:>9.3e}  {verdict}",
-                label,
-                output.scale,
-                of(output.edits),
-                of(output.rounding),
-                of(output.bound()),
-                of(output.claimed),
-                of(output.seen),
-            )?;
-        }
-        Ok(())
-    }
 }

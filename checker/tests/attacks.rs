@@ -15,7 +15,7 @@ fn refused(certificate: &str, robot: &str, scene: Option<&str>) -> String {
     claim.scene = scene.map(String::from).or(claim.scene);
     match audit(&claim, &file(&data(robot))) {
         Ok(verdict) => {
-            assert!(!verdict.is_shown(), "{certificate}: {verdict}");
+            assert!(!verdict.is_shown(), "{certificate}: {verdict:?}");
             String::new()
         }
         Err(fault) => fault.to_string(),

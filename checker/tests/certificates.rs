@@ -9,7 +9,7 @@ const SCARA: &str = "cli/tests/data/attacks/scara.toml";
 /// How many outputs are shown to be within their E.
 fn held(certificate: &str, robot: &str) -> usize {
     let verdict = audited(certificate, robot).unwrap();
-    assert!(verdict.is_shown(), "{certificate}: {verdict}");
+    assert!(verdict.is_shown(), "{certificate}: {verdict:?}");
     verdict
         .outputs
         .iter()
@@ -71,8 +71,11 @@ fn other_functions_and_scenes() {
 fn bounds_are_near_what_is_seen() {
     let verdict = audited("checker/tests/data/scara-lockp.json", SCARA).unwrap();
     for output in &verdict.outputs {
-        assert!(output.seen <= output.bound());
-        assert!(output.bound() <= 3.0 * output.seen, "{output:?}");
+        assert!(output.found.seen.off <= output.found.bound());
+        assert!(
+            output.found.bound() <= 3.0 * output.found.seen.off,
+            "{output:?}"
+        );
     }
 }
 
@@ -120,7 +123,7 @@ fn with_polynomials(added: &str) -> f64 {
         1,
     );
     claim.position[0] = [-1.0, 1.0];
-    audit(&claim, &robot).unwrap().outputs[1].bound()
+    audit(&claim, &robot).unwrap().outputs[1].found.bound()
 }
 
 /// However many sines are polynomials, their errors count in either direction.

@@ -29,11 +29,11 @@ fn planar_arms() {
         let source = file(&format!("generated/robots/{name}.rs"));
         let robot = file(&format!("generated/robots/{name}.toml"));
         let report = check(&source, &robot, None).unwrap();
-        assert!(report.is_shown() && report.is_unlimited, "{report}");
-        assert_eq!(report.lines.len(), 12, "{report}");
+        assert!(report.is_shown() && report.is_unlimited, "{report:?}");
+        assert_eq!(report.lines.len(), 12, "{report:?}");
         for line in &report.lines {
             let units = line.result.as_ref().unwrap().units();
-            assert!(units < 500.0, "{report}");
+            assert!(units < 500.0, "{report:?}");
         }
     }
 }
@@ -68,12 +68,15 @@ fn functions_that_are_something_else() {
         let body = body.replace(from, to).replace("LIBM", "libm");
         let changed = format!("{}{body}{}", &source[..start], &source[end..]);
         let report = report(&changed);
-        assert_eq!(units(&report, name), None, "{from}: {report}");
+        assert_eq!(units(&report, name), None, "{from}: {report:?}");
         let shown = report
             .lines
             .iter()
             .filter(|line| units(&report, &line.name).is_some());
-        assert!(!report.is_shown() && shown.count() >= 5, "{from}: {report}");
+        assert!(
+            !report.is_shown() && shown.count() >= 5,
+            "{from}: {report:?}"
+        );
     }
 }
 
@@ -82,15 +85,13 @@ fn another_robot_and_functions_that_are_not_known() {
     let source = generated();
     let heavier = robot().replacen("mass = 1", "mass = 1.000001", 1);
     let other = check(&source, &heavier, None).unwrap();
-    assert_eq!(units(&other, "gravity"), None, "{other}");
+    assert_eq!(units(&other, "gravity"), None, "{other:?}");
     let renamed = source.replace("pub fn gravity(", "pub fn gravity_of_mars(");
     let report = report(&renamed);
     assert!(!report.is_shown());
     assert!(
-        report
-            .to_string()
-            .contains("`gravity_of_mars` is not checked"),
-        "{report}"
+        format!("{report:?}").contains("`gravity_of_mars` is not checked"),
+        "{report:?}"
     );
     assert!(check("", &robot(), None).is_ok_and(|report| !report.is_shown()));
     assert!(
@@ -177,7 +178,7 @@ fn functions_that_follow_from_loads() {
     );
     let whole = format!("{head}{kinetic}{momenta}{matrix}}}\n");
     let found = report(&whole);
-    assert!(found.is_shown() && found.lines.len() == 3, "{found}");
+    assert!(found.is_shown() && found.lines.len() == 3, "{found:?}");
     for (from, to) in [
         ("t12 * 0.5;\n    t13", "t12 * 0.6;\n    t13"),
         ("[0.0, -t13]", "[0.0, t13]"),

@@ -34,3 +34,14 @@ fn trusted_lines_are_named_and_counted() {
     let all: usize = counted.values().sum();
     assert!(all <= MOST, "{all}");
 }
+
+/// What is checked must not check itself: no crate of this project, nor any but these.
+#[test]
+fn dependencies_are_named() {
+    let manifest = file("checker/Cargo.toml");
+    let own = manifest.split("[dependencies]\n").nth(1).unwrap();
+    let own = own.split("\n[").next().unwrap().lines();
+    let names = own.filter_map(|line| line.split(['.', ' ']).next());
+    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    assert_eq!(names, ["serde", "serde_json", "toml"]);
+}

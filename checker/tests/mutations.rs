@@ -100,11 +100,11 @@ fn judged(mutant: &Claim, robot: &str) -> bool {
         return false;
     };
     if verdict.is_shown() {
-        assert!(is_true(mutant, &[5e-2; 2]), "{}\n{verdict}", mutant.text);
+        assert!(is_true(mutant, &[5e-2; 2]), "{}\n{verdict:?}", mutant.text);
     }
     if verdict.outputs.iter().all(|output| output.holds()) {
         let total: Vec<f64> = mutant.total.iter().map(|x| x.unwrap()).collect();
-        assert!(is_true(mutant, &total), "{}\n{verdict}", mutant.text);
+        assert!(is_true(mutant, &total), "{}\n{verdict:?}", mutant.text);
     }
     verdict.is_shown()
 }

@@ -14,13 +14,7 @@ fn fault_of_robot(robot: &str) -> String {
 #[test]
 fn keys_that_are_not_audited() {
     let robot = file(ROBOT);
-    for key in [
-        "coulomb = 1",
-        "beta = 0.1",
-        "placement = {}",
-        "axis = [0, 0, 1]",
-        "gear = 2",
-    ] {
+    for key in ["springs = {}", "gear = 2"] {
         let with = robot.replacen("mass = 1\n", &format!("mass = 1\n{key}\n"), 1);
         let name = key.split(' ').next().unwrap();
         assert!(
@@ -28,10 +22,16 @@ fn keys_that_are_not_audited() {
             "{key}"
         );
     }
-    for key in ["base = { xyz = [0, 0, 1] }", "payload_frame = {}"] {
-        let with = format!("{key}\n{robot}");
-        assert!(fault_of_robot(&with).contains("unknown field"), "{key}");
+    let with = format!("flange = {{}}\n{robot}");
+    assert!(fault_of_robot(&with).contains("unknown field `flange`"));
+    // A row's second twist is the standard convention's, and an axis that of a placement.
+    for key in ["placement = {}", "axis = [0, 0, 1]"] {
+        let with = robot.replacen("mass = 1\n", &format!("mass = 1\n{key}\n"), 1);
+        assert!(fault_of_robot(&with).contains("`placement`"), "{key}");
     }
+    let twisted = robot.replacen("mass = 1\n", "mass = 1\nbeta = 0.1\n", 1);
+    let modified = twisted.replace("standard", "modified");
+    assert!(fault_of_robot(&modified).contains("`placement`"));
     let with = robot.replace("[scene.pick]\n", "[scene.pick]\nwind = 1\n");
     assert!(fault_of_robot(&with).contains("unknown field `wind`"));
 }

@@ -7,7 +7,6 @@ mod certificates;
 mod command;
 mod explain;
 mod forged;
-mod gappa;
 mod guide;
 mod import;
 mod json;

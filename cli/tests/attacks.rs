@@ -17,27 +17,27 @@ fn certify(certificate: &str, robot: &str, more: &[&str]) -> Ran {
     run(&[&["certify", certificate, "--robot", &robot], more].concat())
 }
 
-/// Refused, for one of these reasons.
-fn refused(ran: &Ran, whys: &[&str]) {
+/// Refused, and why.
+fn refused(ran: &Ran, why: &str) {
     assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
-    let said = whys.iter().any(|why| ran.err.contains(why));
-    assert!(said, "expected one of {whys:?}: {}", ran.err);
+    let said = ran.out.contains(why) || ran.err.contains(why);
+    assert!(said, "expected {why}: {}{}", ran.out, ran.err);
 }
 
 #[test]
 fn another_function_in_a_program_at_rest() {
     // gravity returns [0, 0]: the proved program was coriolis at rest.
     let ran = certify(&data("still_bad.json"), "r2_conf.toml", &[]);
-    refused(&ran, &["differs from the formula"]);
+    refused(&ran, "E is refuted at a state");
 }
 
 #[test]
 fn inputs_that_are_no_values() {
     // 1000 sin q2 of a joint that is locked; -q1 of a joint that turns.
     let ran = certify(&data("locked_bad.json"), "r2_conf.toml", &[]);
-    refused(&ran, &["`s2`: the joint is locked"]);
+    refused(&ran, "joint 2, which is locked");
     let ran = certify(&data("pend_bad.json"), "pend.toml", &[]);
-    refused(&ran, &["`q[0]`: the joint turns"]);
+    refused(&ran, "the angle of a joint as a number");
 }
 
 #[test]
@@ -45,10 +45,10 @@ fn texts_that_are_not_printed_of_the_program() {
     for (name, line) in [
         ("t1.json", "crate::evil::sincos(q[0])"),
         ("t5.json", "0.0 * libm::cos(q[1])"),
-        ("t6.json", "let [t1, t3] = {"),
+        ("t6.json", "#[inline(never)]"),
     ] {
         let ran = certify(&data(name), "r2l.toml", &[]);
-        refused(&ran, &["of the printed text is"]);
+        refused(&ran, "not of the grammar");
         assert!(ran.err.contains(line), "{name}: {}", ran.err);
     }
 }
@@ -58,8 +58,5 @@ fn a_tolerance_that_is_not_the_scenes() {
     // E = 7.9e-2 in a scene with a tolerance of 1e-3.
     let (file, scene) = (data("scara_a4_too_loose.json"), ["--scene", "a4"]);
     let ran = certify(&file, "scara.toml", &scene);
-    refused(
-        &ran,
-        &["9.999999999999998e-4 relative to actuator is allowed"],
-    );
+    refused(&ran, "above the tolerance");
 }

@@ -208,11 +208,11 @@ fn inputs_without_end() {
     for (arguments, words) in [
         (
             vec!["certify", "/dev/zero", "--robot", &puma],
-            "longer than 16 MiB",
+            "longer than 32 MiB",
         ),
         (
             vec!["certify", "/dev/null", "--robot", "/dev/zero"],
-            "a robot file has at most",
+            "longer than 32 MiB",
         ),
         (vec!["count", "/dev/zero"], "a robot file has at most"),
     ] {

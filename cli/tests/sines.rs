@@ -150,14 +150,22 @@ fn certified_again_from_the_text() {
     let ran = check("honest.json", &honest);
     assert_eq!(ran.code, 0, "{}", ran.err);
 
-    let mut lie: Value = serde_json::from_str(&honest).unwrap();
-    let certificate = match lie.as_array_mut() {
-        Some(all) => &mut all[0],
-        None => &mut lie,
-    };
-    let error = &mut certificate["polynomials"][0]["sin"];
-    *error = (error.as_f64().unwrap() / 2.0).into();
-    let ran = check("lie.json", &lie.to_string());
-    assert_eq!(ran.code, 1);
-    assert!(ran.err.contains("what can be shown"), "{}", ran.err);
+    // A coefficient of a polynomial, twice as large.
+    let start = honest.find("let x").unwrap();
+    let start = start + honest[start..].find("* 0.").unwrap() + "* ".len();
+    let end = start + honest[start..].find(';').unwrap();
+    let coefficient: f64 = honest[start..end].parse().unwrap();
+    let moved = format!(
+        "{}{:?}{}",
+        &honest[..start],
+        coefficient * 2.0,
+        &honest[end..]
+    );
+    let ran = check("lie.json", &moved);
+    assert_eq!(ran.code, 1, "{}", ran.out);
+    assert!(
+        ran.out.contains("refuted") || ran.out.contains("not shown"),
+        "{}",
+        ran.out
+    );
 }

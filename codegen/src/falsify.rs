@@ -202,7 +202,7 @@ fn nudged(
 }
 
 /// The nearest state of the scalar's numbers inside the box.
-fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
+pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
     if scalar == ScalarType::F64 {
         return state.clone();
     }

@@ -4,7 +4,7 @@
 
 pub mod approximate {
     pub mod admitted {
-        pub use crate::approximate::admitted::Admitted;
+        pub use crate::approximate::admitted::{Admitted, Claim};
     }
     pub mod choose {
         pub use crate::approximate::choose::ErrorBudget;
@@ -67,13 +67,10 @@ pub mod bound {
 }
 
 pub mod certificate {
-    pub use crate::certificate::{Certificate, Checked, Refuted};
+    pub use crate::certificate::{Certificate, Refuted};
     #[cfg(feature = "certificates")]
     pub mod format {
-        pub use crate::certificate::format::{FormatError, MAX_BYTES, read, text_hash, write};
-    }
-    pub mod gappa {
-        pub use crate::certificate::gappa::script;
+        pub use crate::certificate::format::{text_hash, write};
     }
 }
 

@@ -3,13 +3,14 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use dalembert_codegen::workspace::certificate::Refuted;
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
 use dalembert_codegen::workspace::plan::Plan;
-use dalembert_model::number::Rational;
+use dalembert_model::number::{Exact, Rational};
 use dalembert_model::read::Reading;
 
 use crate::support;
@@ -104,6 +105,99 @@ fn a_smaller_bound_than_can_be_shown_is_refused() {
         ),
         "{refused:?}"
     );
+}
+
+/// The plan with other lines in front of the last program.
+fn with_steps(plan: &str, lines: &[String]) -> String {
+    let last = plan.rfind("\nnext\n").unwrap() + "\nnext\n".len();
+    format!("{}{}\n{}", &plan[..last], lines.join("\n"), &plan[last..])
+}
+
+/// What would take long is refused before anything is computed.
+#[test]
+fn variants_that_grow_without_end() {
+    let (reading, plan) = planned(0);
+    let squared = |first: String| {
+        let squares = (1..20).map(|step| format!("t{step} * t{step}"));
+        std::iter::once(first)
+            .chain(squares)
+            .collect::<Vec<String>>()
+    };
+    let long = format!("#{}/3", "7".repeat(15_001));
+    let factors = (1..5).map(|step| format!("t{step} * {long}"));
+    // Twenty of these multiply out to 2^20 terms.
+    let angles = (1..20).map(|step| format!("t{step} * #1+1*cos(1/{})", 11 + step));
+    for (lines, what) in [
+        (squared("#3/10 * #3/10".into()), "bits of a constant"),
+        (
+            std::iter::once(format!("s2 * {long}"))
+                .chain(factors)
+                .collect(),
+            "bits of a constant",
+        ),
+        (
+            std::iter::once("#1+1*cos(1/10) * #1+1*cos(1/11)".into())
+                .chain(angles)
+                .collect(),
+            "of a constant",
+        ),
+        (vec!["qd[1] * qd[1]".into(); 60_000], "50000 are the most"),
+    ] {
+        let begun = Instant::now();
+        match generated(&reading, 0, &with_steps(&plan, &lines)) {
+            Err(GenerateError::Variant(_, Refuted::Work(much))) => {
+                assert!(much.to_string().contains(what), "{much}");
+            }
+            other => panic!("{what}: {other:?}"),
+        }
+        // Without the generation, milliseconds; the rest is for a busy machine.
+        assert!(begun.elapsed() < Duration::from_secs(20), "{what}");
+    }
+    let edited = squared("qd[1] * qd[1]".into());
+    let edited = with_steps(&plan, &edited).replacen(
+        "\nbound ",
+        "\nedit qd[1] = #3/10\nnext\nqd[1] * qd[1]\nreturn t1 t1\nbound ",
+        1,
+    );
+    let refused = generated(&reading, 0, &edited);
+    assert!(
+        matches!(&refused, Err(GenerateError::Variant(_, Refuted::Work(_)))),
+        "{refused:?}"
+    );
+    // A text that reading alone would multiply out is none.
+    let squares: String = (10..200)
+        .map(|n| format!("*sin(1/{n})*sin(1/{n})"))
+        .collect();
+    assert!(format!("1{squares}").parse::<Exact>().is_err());
+}
+
+/// Another program than the edits give, and inputs that a variant may not read.
+#[test]
+fn variants_that_are_other_functions() {
+    let (reading, plan) = planned(0);
+    let last = plan.rfind("\nreturn ").unwrap();
+    let end = last + 1 + plan[last + 1..].find('\n').unwrap();
+    let swapped = format!("{}\nreturn t1 t2{}", &plan[..last], &plan[end..]);
+    let refused = generated(&reading, 0, &swapped);
+    assert!(
+        matches!(refused, Err(GenerateError::Variant(_, Refuted::Step(_)))),
+        "{refused:?}"
+    );
+    for input in ["qd[0]", "s1", "q[1]"] {
+        let lines = [format!("{input} * {input}")];
+        let refused = generated(&reading, 0, &with_steps(&plan, &lines));
+        assert!(
+            matches!(
+                &refused,
+                Err(GenerateError::Variant(_, Refuted::Input { .. }))
+            ),
+            "{input}: {refused:?}"
+        );
+    }
+    // No bound is known of a quotient.
+    let divided = with_steps(&plan, &["qd[1] / qd[2]".into()]);
+    let error = Plan::parse(&divided).unwrap_err().to_string();
+    assert!(error.contains("a quotient, of which no bound"), "{error}");
 }
 
 /// A folder with the arm, its scenes and a plan.

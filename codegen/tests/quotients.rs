@@ -1,7 +1,6 @@
 //! Programs that divide: what they divide by, that a wrong divisor is seen, and
 //! what is refused by name.
 
-use dalembert_codegen::workspace::certificate::format;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
 use dalembert_codegen::workspace::program::{Operand, Operation, Program};
@@ -180,23 +179,4 @@ fn scenes_hold_what_is_locked() {
             assert!(measure.in_units() <= BOUND, "{measure:?}");
         }
     }
-}
-
-/// Bounds are found of polynomials alone: a certificate whose program divides
-/// is no certificate, whatever else it says.
-#[test]
-fn a_certificate_with_a_quotient_is_not_read() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/certificates");
-    let file = folder.join("puma560-range-1e-2.json");
-    let text = std::fs::read_to_string(file).unwrap();
-    assert!(format::read(&text).is_ok());
-    let (step, divided) = ("\"t3 * qd[0]\"", "\"t3 / qd[0]\"");
-    assert!(text.contains(step));
-    let error = format::read(&text.replacen(step, divided, 1)).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains("a quotient, of which no bound is known"),
-        "{error}"
-    );
 }

@@ -4,12 +4,10 @@ use std::path::PathBuf;
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::Effort;
-use dalembert_model::number::Rational;
 
 use super::Choice;
 use super::values::{
-    count_parser, effort_parser, exact_tolerance_parser, function_parser, states_parser,
-    tolerance_parser,
+    count_parser, effort_parser, function_parser, positive_parser, states_parser, tolerance_parser,
 };
 
 /// Arguments of `verify`.
@@ -57,7 +55,7 @@ pub struct StressArgs {
 /// Arguments of `certify`.
 #[derive(Debug, clap::Args)]
 pub struct CertifyArgs {
-    /// The certificate (JSON), or a generated file (.rs) of which every function is checked
+    /// The certificate (JSON), or a generated file (.rs, .h) of which every function is checked
     pub certificate: PathBuf,
     /// The robot file that it is for
     #[arg(long, value_name = "FILE")]
@@ -65,32 +63,10 @@ pub struct CertifyArgs {
     /// The scene of the robot file that it is for [default: the one it names]
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
-    /// The largest certified error E to accept, instead of the scene's tolerance;
+    /// The largest error relative to T to accept, instead of the scene's tolerance;
     /// for certificates that `tradeoff` wrote for other tolerances
-    #[arg(long, value_name = "E", value_parser = exact_tolerance_parser())]
-    pub tolerance: Option<Rational>,
-    /// Also write scripts by which Gappa bounds the rounding of each output,
-    /// into this folder
-    #[arg(long, value_name = "DIR")]
-    pub gappa: Option<PathBuf>,
-    /// Also run the code at this many states and look for an error above E
-    #[arg(
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        value_parser = count_parser(),
-        default_value_t = 0
-    )]
-    pub samples: usize,
-    /// Local searches for each output, from the worst of these states, for a larger error
-    #[arg(
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        value_parser = count_parser(),
-        default_value_t = 8
-    )]
-    pub climbs: usize,
+    #[arg(long, value_name = "E", value_parser = positive_parser())]
+    pub tolerance: Option<f64>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

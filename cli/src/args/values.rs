@@ -16,8 +16,6 @@ use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_model::number::Rational;
-use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_report::processor::target::{TARGETS, Target};
 
@@ -100,13 +98,12 @@ pub(super) fn count_parser() -> impl TypedValueParser<Value = usize> {
     })
 }
 
-pub(super) fn exact_tolerance_parser() -> impl TypedValueParser<Value = Rational> {
+pub(super) fn positive_parser() -> impl TypedValueParser<Value = f64> {
     StringValueParser::new().try_map(|text| {
-        let number = parse_decimal(&text).map_err(|error| error.to_string())?;
-        match number > Rational::from_integer(0.into()) {
-            true => Ok(number),
-            false => Err("a tolerance is a number above zero".to_owned()),
-        }
+        let number = text.parse::<f64>().ok();
+        number
+            .filter(|number| *number > 0.0 && number.is_finite())
+            .ok_or("a tolerance is a number above zero")
     })
 }
 

@@ -1,45 +1,83 @@
 //! A generated file without a certificate: how far each function can be from the dynamics.
 
-use std::path::Path;
-
-use dalembert_checker::exact;
-use dalembert_checker::file::MOST_BYTES;
+use dalembert_checker::exact::{self, Distance, Line, RATE, Report};
+use serde_json::{Value, json};
 
 use crate::args::CertifyArgs;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::output;
 
 /// Checks every function of a file and prints what was found.
-pub fn run(args: &CertifyArgs) -> Outcome {
-    let others = [
-        ("--tolerance", args.tolerance.is_some()),
-        ("--gappa", args.gappa.is_some()),
-        ("--samples", args.samples > 0),
-        ("--json", args.json),
-    ];
-    if let Some((option, _)) = others.iter().find(|(_, given)| *given) {
+pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
+    let name = args.certificate.display();
+    if args.tolerance.is_some() {
         return Err(Failure::Input(format!(
-            "error: {option} is for a certificate, and `{}` is a generated file",
-            args.certificate.display()
+            "error: --tolerance is for a certificate, and `{name}` is a generated file"
         )));
     }
-    let source = text(&args.certificate)?;
-    let robot = text(&args.robot)?;
-    let report = exact::check(&source, &robot, args.scene.as_deref())
+    let report = exact::check(source, robot, args.scene.as_deref())
         .map_err(|fault| Failure::Input(format!("error: {fault}")))?;
-    output::print(&report.to_string())?;
+    match args.json {
+        true => output::print_json(&json!({
+            "file": name.to_string(),
+            "functions": report.lines.iter().map(of_line).collect::<Vec<_>>(),
+            "passed": report.is_shown(),
+        }))?,
+        false => output::print(&words(&report))?,
+    }
     match report.is_shown() {
         true => Ok(()),
         false => Err(Failure::Check(format!(
-            "error: not every function of {} is shown to be the robot's",
-            args.certificate.display()
+            "error: not every function of {name} is shown to be the robot's"
         ))),
     }
 }
 
-/// The text of a file.
-fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = input::bytes(path, MOST_BYTES as u64)?;
-    let expected = |_| Failure::Input(format!("error: {}: expected UTF-8 text", path.display()));
-    String::from_utf8(bytes).map_err(expected)
+fn of_line(line: &Line) -> Value {
+    let found = line.result.as_ref().ok();
+    let number = |of: fn(&Distance) -> f64| found.map(of);
+    json!({
+        "module": line.module,
+        "function": line.name,
+        "real": number(|found| found.edits),
+        "rounding": number(|found| found.rounding),
+        "units": number(Distance::units),
+        "seen_units": number(|found| found.seen / found.unit),
+        "why": line.result.as_ref().err().map(ToString::to_string),
+        "passed": found.is_some_and(Distance::is_shown),
+    })
+}
+
+fn words(report: &Report) -> String {
+    let mut text =
+        "How far each function can be from the dynamics over the box of the robot file,\n\
+         relative to the largest entry seen of its kind; u is half an ulp of that.\n"
+            .to_owned();
+    if report.is_unlimited {
+        text += &format!("Where the file has no limit, rates go up to {RATE} in SI units.\n");
+    }
+    let mut module = "";
+    for line in &report.lines {
+        if line.module != module {
+            module = &line.module;
+            text += &format!("{module}\n");
+        }
+        let name = &line.name;
+        text += &match &line.result {
+            Ok(found) => format!(
+                "  {name:<22} in real numbers {:>9.2e}  rounding {:>9.2e}  both {:>7.0} u  seen {:>7.1} u  {}\n",
+                found.edits,
+                found.rounding,
+                found.units(),
+                found.seen / found.unit,
+                if found.is_shown() {
+                    "shown"
+                } else {
+                    "not shown"
+                },
+            ),
+            Err(fault) => format!("  {name:<22} not shown: {fault}\n"),
+        };
+    }
+    text
 }

@@ -197,7 +197,7 @@ impl<'a> ErrorBudget<'a> {
     /// belong together. Of its bounds [`ErrorBudget::derived`] says whether they hold.
     ///
     /// # Errors
-    /// What [`Certificate::check`] would find.
+    /// Programs that edits do not lead to, or that read what they may not.
     pub fn replayed(
         &self,
         stages: &[Stage],

@@ -116,20 +116,6 @@ impl InputBox {
         Ok(limits)
     }
 
-    /// Returns whether every state of another box is in this one.
-    pub fn holds(&self, other: &InputBox) -> bool {
-        let pairs = |mine: &[Interval], theirs: &[Interval]| {
-            mine.len() == theirs.len()
-                && mine
-                    .iter()
-                    .zip(theirs)
-                    .all(|(a, b)| a.low() <= b.low() && b.high() <= a.high())
-        };
-        pairs(&self.position, &other.position)
-            && pairs(&self.velocity, &other.velocity)
-            && pairs(&self.acceleration, &other.acceleration)
-    }
-
     /// The ranges of an argument; none of one that a box does not bound.
     pub fn of_argument(&self, argument: Argument) -> &[Interval] {
         match argument {

@@ -3,48 +3,25 @@
 //! A certificate holds the exact program, the edits, the emitted program and
 //! its printed text, and for each output a bound E of
 //! |emitted code in its scalar − full model| / T over the box, split by cause.
-//! [`Certificate::check`] trusts nothing in it:
-//!
-//! 0. the work of all that follows is bounded (`work`), and programs are of the
-//!    scene's function, arguments and results, and read only what these have
-//!    (`shape`);
-//! 1. the exact program equals the equations of motion
-//!    ([`exact`](crate::verify::exact)); with a
-//!    scene, those of the full robot with the scene's values in their places,
-//!    the box is the scene's or larger, and E within its tolerance;
-//! 2. each stage's edits apply, and what they give equals the next stage's
-//!    program, the last one the emitted program (proved likewise);
-//!    products of it are fused with sums by the one rule that there is, or none is;
-//! 3. the printed text is, byte for byte, what is printed of the emitted
-//!    program and its sines; polynomials are proved again from their literals,
-//!    over the angles' ranges in the box;
-//! 4. the error of the edits ([`difference`](crate::edits::difference)), of sines and cosines and of
-//!    rounding ([`sensitivity`](crate::bound::sensitivity)) are bounded anew, and the
-//!    claims must not be smaller.
-//!
-//! 5. the text is run against the robot's own recursion (`run`), and stays
-//!    within E.
+//! Here they are made and written. `dalembert-checker`, which shares no line with this
+//! crate, takes box, T, E and text from one and checks it.
 //!
 //! The emitted program and the edited one are the same function but not the
 //! same arithmetic; rounding is bounded on the emitted one, edits between
 //! exact programs, and the two add up by the triangle inequality.
 //!
 //! - this file: the claim, and how it is made
-//! - `check`: the check, part by part; `work` and `shape`: what comes first;
-//!   `bounds`: the bounds, found anew
+//! - `check`: that edits lead from program to program, which is proved of what was found and
+//!   of what a plan kept; `work` and `shape`: what comes first; `bounds`: a plan's bounds,
+//!   found anew; `refuted`: why these are not so
 //! - `format`: its text (feature `certificates`)
 //! - [`subject`]: what a claim is about, and how its bounds are found
-//! - `run`: the text, run
-//! - `refuted`: why a certificate is no good
-//! - [`gappa`]: scripts for a second opinion on rounding
 
 mod bounds;
 mod check;
 #[cfg(feature = "certificates")]
 pub(crate) mod format;
-pub(crate) mod gappa;
 mod refuted;
-mod run;
 mod shape;
 pub(crate) mod subject;
 mod work;
@@ -53,7 +30,6 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
 use crate::bound::input_box::InputBox;
-use crate::bound::ranges::Finding;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
 use crate::bound::turns::turns_freely;
@@ -64,11 +40,9 @@ use crate::scene::SceneKey;
 use crate::scene::SceneRobot;
 use crate::sincos::{AngleKernel, Sines};
 use crate::split::ErrorByCause;
-use crate::verify::exact::Proof;
 pub(crate) use bounds::Shared;
 pub use refuted::Refuted;
 pub(crate) use refuted::WrongInput;
-pub(crate) use run::Ran;
 use subject::{Subject, printed};
 
 /// What every bound rests on besides arithmetic.
@@ -131,19 +105,6 @@ pub struct Certificate {
     /// an output and something was left out; S is diagonal
     /// (`bound::definite`). Above zero, D is positive definite.
     pub lambda_min: Option<f64>,
-}
-
-/// What a check found out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Checked {
-    /// The exact program's proof.
-    pub proof: Proof,
-    /// The bounds found anew.
-    pub bounds: Vec<ErrorByCause>,
-    /// What was seen where the text was run.
-    pub ran: Ran,
-    /// What the scalar cannot hold; only warnings.
-    pub findings: Vec<Finding>,
 }
 
 impl Certificate {
@@ -271,6 +232,15 @@ impl Certificate {
             };
         }
         other
+    }
+
+    /// Returns E·T of each output.
+    pub(crate) fn errors(&self) -> Vec<f64> {
+        let pairs = self.bounds.iter().zip(&self.scales);
+        // Up: the product of two doubles is one of the two next to it.
+        pairs
+            .map(|(bound, scale)| (bound.total() * scale).next_up())
+            .collect()
     }
 
     /// What its bounds rest on besides arithmetic. Where sines are polynomials,

@@ -1,4 +1,4 @@
-//! Bounds on the work of a check, found before any of it is done.
+//! Bounds on the work that a variant of a plan makes, found before any of it is done.
 //!
 //! Constants are exact, and folding multiplies them out: eighteen squarings of
 //! 3/10 in a row have a quarter of a million digits. How large a constant can
@@ -14,23 +14,23 @@ use crate::edits::{Edit, EditSite, Stage};
 use crate::program::{Operand, Operation, Program};
 use std::collections::BTreeMap;
 
-/// The most programs of a certificate that are edited one after another.
-pub(crate) const MAX_STAGES: usize = 64;
+/// The most programs of a variant that are edited one after another.
+const MAX_STAGES: usize = 64;
 /// The most steps of a program.
-pub(crate) const MAX_STEPS: usize = 50_000;
+const MAX_STEPS: usize = 50_000;
 /// The most edits of a program.
-pub(crate) const MAX_EDITS: usize = 10_000;
+const MAX_EDITS: usize = 10_000;
 /// The most angles whose sine or cosine a program reads.
-pub(crate) const MAX_ANGLES: usize = 256;
+const MAX_ANGLES: usize = 256;
 /// The most bits of a constant's coefficient.
-pub(crate) const MAX_BITS: u64 = 1 << 16;
+const MAX_BITS: u64 = 1 << 16;
 /// The most monomials of a constant.
-pub(crate) const MAX_TERMS: u64 = 20_000;
+const MAX_TERMS: u64 = 20_000;
 /// The largest degree of a constant in sines and cosines.
-pub(crate) const MAX_DEGREE: u64 = 256;
+const MAX_DEGREE: u64 = 256;
 /// What all constants of a program may cost together: terms times degrees
 /// times bits.
-pub(crate) const MAX_COST: u64 = 1 << 30;
+const MAX_COST: u64 = 1 << 30;
 
 /// What would take too long.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,10 +62,10 @@ impl fmt::Display for TooMuch {
 
 impl std::error::Error for TooMuch {}
 
-/// Whether a certificate can be checked with bounded work.
+/// Whether a variant can be proved with bounded work.
 pub(super) fn check(certificate: &Certificate) -> Result<(), TooMuch> {
     let stages = &certificate.stages;
-    within("the certificate", "stages", stages.len(), MAX_STAGES)?;
+    within("the variant", "stages", stages.len(), MAX_STAGES)?;
     for (index, stage) in stages.iter().enumerate() {
         program(&format!("stage {}", index + 1), stage)?;
     }

@@ -6,9 +6,11 @@
 //! from its own numbers ([`running`]); with a tolerance, from its certificate.
 
 use super::reason::Contradiction;
-use crate::certificate::Refuted;
+use crate::bound::sample::draw;
+use crate::certificate::Certificate;
+use crate::falsify::held;
 use crate::generate::{GenerateError, GeneratedFunction};
-use crate::program::ScalarType;
+use crate::random::Random;
 use crate::scene::SceneRobot;
 use crate::states::JointState;
 use crate::verify::floating::Emitted;
@@ -35,68 +37,47 @@ pub(super) fn check(
         .collect();
     let reference = Reference::new(scene_robot);
     for generated in functions {
-        if let Some(admitted) = &generated.admitted {
-            for certificate in &admitted.certificates {
-                certificate
-                    .run(scene_robot, STATES)
-                    .map_err(|why| match why {
-                        Refuted::Ran { .. } => GenerateError::Contradicted {
-                            function: generated.function,
-                            scalar: certificate.scalar,
-                            why: Contradiction::Certificate(Box::new(why)),
-                        },
-                        other => GenerateError::Edited(generated.function, other),
-                    })?;
-            }
-            continue;
-        }
-        for state in &states {
-            let truth = reference.run(generated.function, state);
-            let own = emitted.iter().filter(|e| e.function == generated.function);
-            for emitted in own {
-                let bounds = running::errors(
-                    &generated.program,
-                    emitted.scalar,
-                    emitted.text.library,
-                    generated.sines(emitted.scalar),
-                    state,
-                );
-                let results = emitted.run(state);
+        let certificates = generated.admitted.iter().flat_map(|a| &a.certificates);
+        let certificates: Vec<&Certificate> = certificates.collect();
+        for emitted in emitted.iter().filter(|e| e.function == generated.function) {
+            let scalar = emitted.scalar;
+            let claim = certificates.iter().find(|claim| claim.scalar == scalar);
+            let mut random = Random::new(SEED);
+            for state in &states {
+                let (state, bounds) = match claim {
+                    Some(claim) => {
+                        let limits = &claim.limits;
+                        let state = held(&draw(limits, &mut random), scalar, limits);
+                        (state, claim.errors())
+                    }
+                    None => {
+                        let (library, sines) = (emitted.text.library, generated.sines(scalar));
+                        let program = &generated.program;
+                        let bounds = running::errors(program, scalar, library, sines, state);
+                        (state.clone(), bounds)
+                    }
+                };
+                let truth = reference.run(generated.function, &state);
+                let results = emitted.run(&state);
                 for (index, ((result, truth), bound)) in
                     results.iter().zip(&truth).zip(bounds).enumerate()
                 {
                     let error = truth.error(*result);
                     if error > bound {
-                        let entry = generated.program.entry(index);
-                        return Err(contradicted(
-                            generated,
-                            emitted.scalar,
-                            &entry,
-                            error,
-                            bound,
-                        ));
+                        return Err(GenerateError::Contradicted {
+                            function: generated.function,
+                            scalar,
+                            why: Contradiction {
+                                entry: generated.program.entry(index),
+                                error,
+                                bound,
+                                is_claimed: claim.is_some(),
+                            },
+                        });
                     }
                 }
             }
         }
     }
     Ok(())
-}
-
-fn contradicted(
-    generated: &GeneratedFunction,
-    scalar: ScalarType,
-    entry: &str,
-    error: f64,
-    bound: f64,
-) -> GenerateError {
-    GenerateError::Contradicted {
-        function: generated.function,
-        scalar,
-        why: Contradiction::Recursion {
-            entry: entry.to_owned(),
-            error,
-            bound,
-        },
-    }
 }

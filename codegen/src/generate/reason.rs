@@ -4,7 +4,6 @@
 use std::fmt;
 
 use crate::approximate::error::NoPolynomials;
-use crate::certificate::Refuted;
 use crate::language::read::TextError;
 use crate::program::Difference;
 use crate::sincos::TooAccurate;
@@ -76,34 +75,33 @@ impl std::error::Error for NoSines {}
 
 /// What was seen where proved code was run.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Contradiction {
-    /// It errs more than its certificate allows.
-    Certificate(Box<Refuted>),
-    /// It errs more than rounding can.
-    Recursion {
-        /// The result's name.
-        entry: String,
-        /// How far it is off the robot's own recursion.
-        error: f64,
-        /// The most that rounding explains.
-        bound: f64,
-    },
+pub struct Contradiction {
+    /// The result's name.
+    pub entry: String,
+    /// How far it is off the robot's own recursion.
+    pub error: f64,
+    /// The most that it may be off.
+    pub bound: f64,
+    /// `true` if its certificate says how far, `false` if rounding does.
+    pub is_claimed: bool,
 }
 
 impl fmt::Display for Contradiction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Contradiction::Certificate(refuted) => refuted.fmt(f),
-            Contradiction::Recursion {
-                entry,
-                error,
-                bound,
-            } => write!(
-                f,
-                "{entry} is {error:.3e} off the robot's own recursion, and rounding is no more \
-                 than {bound:.3e}"
-            ),
-        }
+        let Contradiction {
+            entry,
+            error,
+            bound,
+            is_claimed,
+        } = self;
+        let most = match is_claimed {
+            true => "its certificate allows",
+            false => "rounding is no more than",
+        };
+        write!(
+            f,
+            "{entry} is {error:.3e} off the robot's own recursion, and {most} {bound:.3e}"
+        )
     }
 }
 

@@ -108,11 +108,6 @@ impl Interval {
         self.low <= x && x <= self.high
     }
 
-    /// Returns whether another interval lies inside.
-    pub fn encloses(self, other: Interval) -> bool {
-        self.low <= other.low && other.high <= self.high
-    }
-
     /// The least interval around both.
     pub fn hull(self, other: Interval) -> Interval {
         Interval {

@@ -8,15 +8,13 @@
 
 use std::cell::RefCell;
 
-use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Angle, Exact, Rational, Wide};
-use dalembert_model::outputs::Axis;
 use dalembert_model::scalar::{Divide, Scalar, SinCosPair};
 use num_traits::Zero;
 use rustc_hash::FxHashMap;
 
-use crate::function::{Argument, Columns, Function, Quantity};
+use crate::function::{Argument, Function};
 use crate::program::{AngleSum, Input};
 use crate::scene::SceneRobot;
 use crate::states::JointState;
@@ -123,24 +121,6 @@ impl<'s> Reference<'s> {
         });
         known.clone()
     }
-}
-
-/// Returns the number of recursions that a function takes, which is the cost of a state.
-pub(crate) fn recursions(function: Function, joints: usize) -> usize {
-    let of = |quantity: &Quantity| {
-        let axes = quantity.shape().0.iter();
-        if function.columns() != Columns::None {
-            // Two for each column, of which there are ten a link at most.
-            return 2 * LinkParameter::COUNT * joints;
-        }
-        match axes.filter(|axis| **axis == Axis::Joints).count() {
-            0 | 1 => 1,
-            2 => joints,
-            // h_ikm by polarisation: a recursion for each pair k <= m.
-            _ => joints * (joints + 1) / 2,
-        }
-    };
-    function.quantities().iter().map(of).sum()
 }
 
 /// A value, and how far it may be off, by Wilkinson's running error analysis as in

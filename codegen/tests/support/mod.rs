@@ -25,10 +25,14 @@ pub fn reading(name: &str) -> Reading {
 
 /// A checked-in robot with more in its file, such as scenes.
 pub fn reading_with(name: &str, more: &str) -> Reading {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
-    let source = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
-    let source = source + more;
+    let source = source(name, more);
     read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The text of a checked-in robot, and more.
+pub fn source(name: &str, more: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+    std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap() + more
 }
 
 /// The file of an arm that the tests have besides the checked-in robots.

@@ -3,8 +3,6 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::certificate::format::FormatError;
-
 /// Why a rung cannot be used, or not be kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -51,10 +49,10 @@ pub enum Damage {
     Tolerance,
     /// It lacks a key.
     Missing(&'static str),
-    /// A point's certificate is none.
-    Certificate(FormatError),
-    /// A point has more than one certificate.
-    Certificates,
+    /// A point's plan is none: what its reader says.
+    Plan(String),
+    /// A point's variant is none of the exact program.
+    Variant,
 }
 
 impl fmt::Display for RungError {
@@ -90,12 +88,12 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Damage::Json(error) => f.write_str(error),
-            Damage::Version => f.write_str("this version reads rungs of version 2"),
+            Damage::Version => f.write_str("this version reads rungs of version 3"),
             Damage::Hash => f.write_str("its hash is not that of what it says"),
             Damage::Tolerance => f.write_str("it is of another tolerance"),
             Damage::Missing(key) => write!(f, "`{key}` is missing"),
-            Damage::Certificate(error) => error.fmt(f),
-            Damage::Certificates => f.write_str("there is more than one certificate in a point"),
+            Damage::Plan(error) => f.write_str(error),
+            Damage::Variant => f.write_str("a variant is none of the exact program"),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! before, which its tolerance admits as well. So none is dearer than one before it. A search
 //! with other settings may still find less for one tolerance alone.
 
-use dalembert_codegen::workspace::approximate::admitted::Admitted;
+use dalembert_codegen::workspace::approximate::admitted::{Admitted, Claim};
 use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
 use dalembert_codegen::workspace::approximate::prune::PruneSettings;
 use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
@@ -13,7 +13,7 @@ use dalembert_codegen::workspace::falsify::falsify;
 use dalembert_codegen::workspace::program::{Program, ScalarType};
 use dalembert_codegen::workspace::simplify::Effort;
 
-use super::rungs::{Rung, Rungs};
+use super::rungs::{Kept, Rung, Rungs};
 use super::{Point, SweepError};
 
 /// The options of a sweep.
@@ -79,7 +79,9 @@ impl<'a> Ladder<'a> {
         let mut kept = Vec::new();
         // Before the work: what cannot be used is no news an hour later.
         for tolerance in all {
-            let rung = rungs.map(|rungs| rungs.kept(tolerance)).transpose()?;
+            let certified = |kept: Kept<'_>| self.certified(tolerance, kept);
+            let rung = rungs.map(|rungs| rungs.kept(tolerance, certified));
+            let rung = rung.transpose()?;
             kept.push((tolerance, rung.flatten()));
         }
         let mut points = Vec::new();
@@ -102,6 +104,33 @@ impl<'a> Ladder<'a> {
         Ok(points)
     }
 
+    /// The claim of a variant that a rung kept: proved to be one, as a plan's is.
+    fn certified(&self, tolerance: f64, kept: Kept<'_>) -> Option<Certificate> {
+        match kept {
+            Kept::Variant(entry) => {
+                let edited = entry.edited.as_ref()?;
+                let claim = Claim {
+                    scalar: entry.scalar,
+                    bounds: edited.bounds.clone(),
+                    lambda_min: edited.lambda_min,
+                };
+                let (stages, program) = (&edited.stages, &edited.program);
+                let found = self.frame.replayed(stages, program, &[claim]).ok()?;
+                found.certificates.into_iter().next()
+            }
+            Kept::Polynomials(certificate) => self.polynomials(tolerance, certificate),
+        }
+    }
+
+    /// A variant with polynomials for its sines, if the tolerance admits any.
+    fn polynomials(&self, tolerance: f64, certificate: &Certificate) -> Option<Certificate> {
+        let tolerances = vec![tolerance; self.frame.scales.len()];
+        let found = self
+            .frame
+            .with_polynomials(certificate, &tolerances, BoundEffort::CERTIFY);
+        found.ok().filter(|found| !found.sines.is_empty())
+    }
+
     fn rung(&self, tolerance: f64, before: Option<&Point>) -> Result<Rung, SweepError> {
         self.waiting.begin(&format!("tolerance {tolerance:e}"));
         let exact = tolerance == 0.0;
@@ -109,18 +138,16 @@ impl<'a> Ladder<'a> {
             true => vec![self.exact.clone()],
             false => self.variants(tolerance, before),
         };
-        let tolerances = vec![tolerance; self.frame.scales.len()];
         self.waiting
             .begin(&format!("attempts to refute {tolerance:e}"));
         let mut points = Vec::new();
         for certificate in variants.into_iter().flat_map(|v| v.certificates) {
-            let polynomials = (!exact).then(|| {
-                self.frame
-                    .with_polynomials(&certificate, &tolerances, BoundEffort::CERTIFY)
-            });
+            let polynomials = match exact {
+                true => None,
+                false => self.polynomials(tolerance, &certificate),
+            };
             points.push(self.point(tolerance, certificate)?);
-            let found = polynomials.and_then(Result::ok);
-            if let Some(certificate) = found.filter(|found| !found.sines.is_empty()) {
+            if let Some(certificate) = polynomials {
                 points.push(self.point(tolerance, certificate)?);
             }
         }

@@ -2,21 +2,24 @@
 //! they are certified.
 //!
 //! A file says by a hash which robot, scene, exact program and options it is of,
-//! and by another one that it is whole. Whoever wants to trust a certificate in
-//! it runs `dalembert certify`: here it is what this program wrote.
+//! and by another one that it is whole. A variant is kept as a plan keeps it; of one with
+//! polynomials for its sines only that it follows the one before: they are found anew.
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::certificate::format::{read, text_hash};
+use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::certificate::format::text_hash;
+use dalembert_codegen::workspace::plan::{Edited, Entry, Plan};
+use dalembert_codegen::workspace::portfolio::{Source, Start};
 use serde_json::{Value, json};
 
 use super::fault::{Damage, RungError, RungFault};
 use super::{Point, SweepError};
 
 /// The version of the format.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// The largest file that is read.
 const MAX_BYTES: u64 = 256 << 20;
@@ -27,6 +30,15 @@ pub struct Rung {
     pub tolerance: f64,
     /// The variants.
     pub points: Vec<Point>,
+}
+
+/// What a rung says of a variant: what a plan keeps, or that it is the variant before with
+/// polynomials for its sines.
+pub enum Kept<'k> {
+    /// A variant of which libm computes the sines.
+    Variant(&'k Entry),
+    /// The one before, with polynomials.
+    Polynomials(&'k Certificate),
 }
 
 /// A folder of rungs.
@@ -50,11 +62,15 @@ impl Rungs {
         self.folder.join(format!("{tolerance:e}.json"))
     }
 
-    /// A rung that was kept.
+    /// Returns a rung that was kept, if there is one; `certified` makes the claim of a variant.
     ///
     /// # Errors
     /// It is of another run, or damaged.
-    pub fn kept(&self, tolerance: f64) -> Result<Option<Rung>, SweepError> {
+    pub fn kept(
+        &self,
+        tolerance: f64,
+        certified: impl Fn(Kept<'_>) -> Option<Certificate>,
+    ) -> Result<Option<Rung>, SweepError> {
         let path = self.path(tolerance);
         let fail = |fault| {
             let path = path.clone();
@@ -86,32 +102,7 @@ impl Rungs {
         if text("hash") != Some(&text_hash(&body.to_string())) {
             return Err(damaged(Damage::Hash));
         }
-        self.rung(tolerance, body).map(Some).map_err(damaged)
-    }
-
-    fn rung(&self, tolerance: f64, body: &Value) -> Result<Rung, Damage> {
-        if body.get("tolerance").and_then(Value::as_f64) != Some(tolerance) {
-            return Err(Damage::Tolerance);
-        }
-        let points = body.get("points").and_then(Value::as_array);
-        let point = |json: &Value| {
-            let text = json.get("certificate").and_then(Value::as_str);
-            let text = text.ok_or(Damage::Missing("certificate"))?;
-            let certificates = read(text).map_err(Damage::Certificate)?;
-            let [certificate] =
-                <[_; 1]>::try_from(certificates).map_err(|_| Damage::Certificates)?;
-            let number = |key: &str| json.get(key).and_then(Value::as_f64);
-            Ok(Point {
-                observed: number("observed"),
-                rounding_observed: number("rounding_observed"),
-                ..Point::new(tolerance, certificate)
-            })
-        };
-        let points = points.ok_or(Damage::Missing("points"))?.iter().map(point);
-        Ok(Rung {
-            tolerance,
-            points: points.collect::<Result<_, Damage>>()?,
-        })
+        rung(tolerance, body, certified).map(Some).map_err(damaged)
     }
 
     /// Keeps a rung, whole or not at all; one with a violation is looked into
@@ -120,12 +111,13 @@ impl Rungs {
     /// # Errors
     /// It cannot be written.
     pub fn keep(&self, rung: &Rung) -> Result<(), SweepError> {
-        if rung.points.iter().any(|point| point.violation.is_some()) {
+        let is_known = |point: &Point| point.violation.is_none() && point.certified.is_finite();
+        if !rung.points.iter().all(is_known) {
             return Ok(());
         }
         let points = rung.points.iter().map(|point| {
             json!({
-                "certificate": point.certificate.to_json(),
+                "plan": point.certificate.sines.is_empty().then(|| plan(&point.certificate)),
                 "observed": point.observed,
                 "rounding_observed": point.rounding_observed,
             })
@@ -155,4 +147,60 @@ impl Rungs {
         }
         let _ = fs::remove_dir(&self.folder);
     }
+}
+
+/// The plan that keeps a variant.
+fn plan(certificate: &Certificate) -> String {
+    let stages = &certificate.stages;
+    let exact = stages.first().map(|stage| &stage.program);
+    let plan = Plan {
+        robot: certificate.robot.clone(),
+        input: certificate.input.clone(),
+        entries: vec![Entry {
+            start: Start::Auto,
+            scalar: certificate.scalar,
+            source: Source::Regrouped,
+            passes: Vec::new(),
+            scene: certificate.scene.clone(),
+            parameters: None,
+            program: exact.unwrap_or(&certificate.emitted).clone(),
+            edited: Some(Edited {
+                stages: stages.clone(),
+                program: certificate.emitted.clone(),
+                bounds: certificate.bounds.clone(),
+                lambda_min: certificate.lambda_min,
+            }),
+        }],
+    };
+    plan.write()
+}
+
+fn rung(
+    tolerance: f64,
+    body: &Value,
+    certified: impl Fn(Kept<'_>) -> Option<Certificate>,
+) -> Result<Rung, Damage> {
+    if body.get("tolerance").and_then(Value::as_f64) != Some(tolerance) {
+        return Err(Damage::Tolerance);
+    }
+    let all = body.get("points").and_then(Value::as_array);
+    let mut points: Vec<Point> = Vec::new();
+    for json in all.ok_or(Damage::Missing("points"))? {
+        let certificate = match (json.get("plan").and_then(Value::as_str), points.last()) {
+            (Some(text), _) => {
+                let plan = Plan::parse(text).map_err(|error| Damage::Plan(error.to_string()))?;
+                let entry = plan.entries.first().ok_or(Damage::Missing("program"))?;
+                certified(Kept::Variant(entry))
+            }
+            (None, Some(before)) => certified(Kept::Polynomials(&before.certificate)),
+            (None, None) => return Err(Damage::Missing("plan")),
+        };
+        let number = |key: &str| json.get(key).and_then(Value::as_f64);
+        points.push(Point {
+            observed: number("observed"),
+            rounding_observed: number("rounding_observed"),
+            ..Point::new(tolerance, certificate.ok_or(Damage::Variant)?)
+        });
+    }
+    Ok(Rung { tolerance, points })
 }

@@ -1,61 +1,21 @@
 //! Certificates as JSON: one, or a list of them.
 //!
-//! - `document`: the fields, derived for reading and writing alike
-//! - `error`: why a text is none
+//! - `document`: the fields
 //! - `program`: programs as lists of lines; `polynomials`: sines' code
-//!
-//! Reading is strict. A key that is unknown, missing or there twice is
-//! refused, and so is whatever would be written differently: a certificate
-//! has one text, but for white space and the digits of its numbers, and no
-//! place for words that nobody checks. The programs come from their listings,
-//! sines from their own code; the printed text is only ever compared.
 
 mod document;
-mod error;
 mod polynomials;
 mod program;
 
 use super::Certificate;
 use document::Document;
 pub use document::text_hash;
-pub use error::FormatError;
-pub(crate) use error::FormatFault;
 
 /// The version of the format.
-pub(crate) const VERSION: u32 = 2;
-
-/// The longest file that is read.
-pub const MAX_BYTES: usize = 16 << 20;
-
-/// The most certificates of a file: one a function and scalar.
-pub(crate) const MAX_CERTIFICATES: usize = 16;
+const VERSION: u32 = 2;
 
 /// A range: both ends are numbers.
 type Ends = [f64; 2];
-
-/// Reads a certificate, or a list of them. Nothing that it says is believed:
-/// that is for [`Certificate::check`] to decide.
-///
-/// # Errors
-/// What is not as [`write`] writes it.
-pub fn read(text: &str) -> Result<Vec<Certificate>, FormatError> {
-    if text.len() > MAX_BYTES {
-        return Err(FormatFault::TooLong.into());
-    }
-    let documents: Vec<Document> = match text.trim_start().starts_with('[') {
-        true => serde_json::from_str(text)?,
-        false => vec![serde_json::from_str(text)?],
-    };
-    match documents.len() {
-        0 => return Err(FormatFault::Empty.into()),
-        n if n > MAX_CERTIFICATES => {
-            return Err(FormatFault::TooMany(n).into());
-        }
-        _ => {}
-    }
-    let one = |document: &Document| document.certificate().map_err(FormatError::from);
-    documents.iter().map(one).collect()
-}
 
 /// The text of certificates: one by itself, several as a list.
 pub fn write(certificates: &[&Certificate]) -> String {
@@ -125,7 +85,7 @@ fn numbers_end(text: &str) -> Option<usize> {
 }
 
 impl Certificate {
-    /// The certificate as JSON; [`read`] reads it back.
+    /// The certificate as JSON.
     pub fn to_json(&self) -> String {
         write(&[self])
     }

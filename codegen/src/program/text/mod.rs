@@ -78,20 +78,6 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineF
     })
 }
 
-/// A step of a program that is emitted: products may be fused.
-#[cfg(feature = "certificates")]
-pub(crate) fn read_emitted_step(words: &[&str], program: &Program) -> Result<Step, LineFault> {
-    let fused = Operation::Fused;
-    match words {
-        [left, symbol, right] if symbol.chars().eq([fused.symbol()]) => Ok(Step {
-            operation: fused,
-            left: read_operand(left, program)?,
-            right: read_operand(right, program)?,
-        }),
-        _ => read_step(words, program),
-    }
-}
-
 /// A step of a program whose errors are bounded.
 ///
 /// # Errors

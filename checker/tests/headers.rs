@@ -1,0 +1,176 @@
+//! Generated headers in C99: shown as the Rust text of the same robot is, and planted faults
+//! are found.
+
+use dalembert_checker::exact::{Report, check};
+
+use crate::support::file;
+
+fn robot() -> String {
+    file("generated/robots/planar2r.toml")
+}
+
+fn header() -> String {
+    file("checker/tests/data/generated/planar2r.h")
+}
+
+fn report(source: &str) -> Report {
+    check(source, &robot(), None).unwrap()
+}
+
+/// Of each function what is found: the same numbers, whichever language it is in.
+fn is_same(header: &str, rust: &str) {
+    let [header, rust] = [header, rust].map(|path| report(&file(path)));
+    assert!(header.is_shown(), "{header:?}");
+    assert_eq!(header.lines.len(), rust.lines.len(), "{header:?}");
+    for (own, other) in header.lines.iter().zip(&rust.lines) {
+        let [found, expected] = [own, other].map(|line| *line.result.as_ref().unwrap());
+        assert_eq!(own.name, other.name);
+        assert_eq!(found.unit, expected.unit, "{}", own.name);
+        assert_eq!(found.edits, expected.edits, "{}", own.name);
+        assert_eq!(found.rounding, expected.rounding, "{}", own.name);
+        assert_eq!(found.seen, expected.seen, "{}", own.name);
+    }
+}
+
+#[test]
+fn verdicts_are_those_of_rust() {
+    is_same(
+        "checker/tests/data/generated/planar2r.h",
+        "generated/robots/planar2r.rs",
+    );
+    let modules: Vec<String> = report(&header())
+        .lines
+        .into_iter()
+        .map(|l| l.module)
+        .collect();
+    assert_eq!(modules[..6], ["planar2r"; 6]);
+    assert_eq!(modules[6..], ["planar2r_f32"; 6]);
+}
+
+/// Sines by polynomials, in functions whose names are shortened, with fused products.
+#[test]
+fn polynomials_and_fused_products() {
+    let [header, rust] =
+        ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-polynomial.{kind}"));
+    is_same(&header, &rust);
+}
+
+/// One literal, operator, operand or result changed: what it was is shown no more.
+#[test]
+fn functions_that_are_something_else() {
+    let source = header();
+    for (name, from, to) in [
+        ("inverse_dynamics", "* 14.715", "* 14.7150001"),
+        ("inverse_dynamics", " = sin(q[1])", " = sin(q[0])"),
+        ("gravity", "t1 - t2", "t1 + t2"),
+        ("gravity", "c[0] = t6", "c[0] = t4"),
+        ("gravity", "cos(q[0])", "sin(q[0])"),
+        ("inertia", "d[1] = -t3", "d[1] = t3"),
+        ("coriolis", "qd[0] *", "qd[1] *"),
+        ("f32_gravity", "14.715F", "14.915F"),
+        ("f32_manip_eq", "c2", "s2"),
+        ("f32_dynamic_coef", "h[4] = ", "h[5] = "),
+    ] {
+        let start = source.find(&format!("planar2r_{name}(")).unwrap();
+        let end = start + source[start..].find("\n}\n").unwrap();
+        let body = &source[start..end];
+        assert!(body.contains(from), "{name}: {from}");
+        let changed = body.replacen(from, to, 1);
+        let whole = format!("{}{changed}{}", &source[..start], &source[end..]);
+        let found = report(&whole);
+        let shown = found.lines.iter().filter(|line| {
+            let result = line.result.as_ref();
+            result.is_ok_and(|distance| distance.is_shown())
+        });
+        assert_eq!(shown.count(), 11, "{name}, {from}: {found:?}");
+    }
+}
+
+/// Text that a C compiler would read otherwise than it looks.
+#[test]
+fn headers_that_are_not_generated() {
+    let source = header();
+    let gravity = "static inline void planar2r_gravity(";
+    for (from, to) in [
+        ("#ifndef PLANAR2R_H", "#define sin cos\n#ifndef PLANAR2R_H"),
+        ("#include <math.h>", "#include <math.h>\n#define t1 0.0"),
+        ("#include <math.h>", "#include \"math.h\""),
+        (
+            "#define PLANAR2R_UNFUSED _Pragma(\"STDC FP_CONTRACT OFF\")",
+            "#define PLANAR2R_UNFUSED",
+        ),
+        (
+            "#pragma GCC optimize (\"fp-contract=off\")",
+            "#pragma GCC optimize (\"fast-math\")",
+        ),
+        (
+            gravity,
+            "static inline double sin(double x)\n{\n    return x;\n}\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            gravity,
+            "static double t9;\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            gravity,
+            "typedef float planar2r_t;\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            gravity,
+            "/* a */ double t; /* b */\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            " */\nstatic inline void planar2r_gravity(",
+            " * \\\n/\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            " */\nstatic inline void planar2r_gravity(",
+            " *??/\n/\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            gravity,
+            "static inline int planar2r_in_box(void)\n{\n    return 1;\n} double t;\nstatic inline void planar2r_gravity(",
+        ),
+        (
+            gravity,
+            "#undef PLANAR2R_UNFUSED\nstatic inline void planar2r_gravity(",
+        ),
+        ("#pragma GCC pop_options", "#pragma GCC push_options"),
+    ] {
+        assert!(source.contains(from), "{from}");
+        let changed = source.replacen(from, to, 1);
+        assert!(check(&changed, &robot(), None).is_err(), "{to}");
+    }
+    // In a function: refused for that function.
+    for (from, to) in [
+        ("    PLANAR2R_UNFUSED\n", ""),
+        ("const double t1 = ", "double t1 = "),
+        ("const double t1 = ", "const float t1 = "),
+        (
+            "const double t1 = ",
+            "const double t1 = 0.0;\n    const double t1 = ",
+        ),
+        (" * 4.905;", " * 4.905F;"),
+        (" * 4.905;", " / 4.905;"),
+        ("    c[0] = ", "    c[1] = "),
+        ("    c[0] = ", "    return;\n    c[0] = "),
+    ] {
+        let start = source.find(gravity).unwrap();
+        assert!(source[start..].contains(from), "{from}");
+        let changed = format!(
+            "{}{}",
+            &source[..start],
+            source[start..].replacen(from, to, 1)
+        );
+        let found = report(&changed);
+        let line = found
+            .lines
+            .iter()
+            .find(|line| line.name == "gravity")
+            .unwrap();
+        assert!(line.result.is_err() && !found.is_shown(), "{to}: {found:?}");
+    }
+    // A literal of doubles would have f32 computed in doubles.
+    let changed = source.replace("14.715F", "14.715");
+    assert!(!report(&changed).is_shown());
+}
