@@ -55,7 +55,7 @@ pub use arm::{Arm, Function};
 pub use check::STATES;
 pub use compile::Signature;
 pub use error::{CallError, CompileError, LoadError};
-pub use native::{Native, Real};
+pub use native::{MOST_ARGUMENTS, Native, Real};
 pub use request::{Cache, Load};
 pub use rows::{Place, Rows, RowsMut};
 

@@ -392,7 +392,7 @@ unsafe impl<T> Sync for Shared<T> {}
 const LEAST_STATES: usize = 2048;
 
 /// The most arguments that a function has.
-const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::function::Argument::COUNT;
+pub const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::function::Argument::COUNT;
 
 fn count(expected: usize, found: usize) -> Result<(), CallError> {
     match expected == found {

@@ -1,6 +1,6 @@
 //! A call with arrays: arguments checked and broadcast, results written in place or copied.
 
-use dalembert_jit::{CallError, Function as Compiled, Real};
+use dalembert_jit::{CallError, Function as Compiled, MOST_ARGUMENTS, Real};
 use numpy::{Element, PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -104,11 +104,13 @@ impl Call<'_> {
             (Some(_), _) => return None,
         };
         let native = self.function.native();
-        let mut slices: Vec<&[T]> = Vec::with_capacity(given.len());
-        for (object, &(_, length)) in given.iter().zip(&native.signature().arguments) {
+        let mut slices: [&[T]; MOST_ARGUMENTS] = [&[]; MOST_ARGUMENTS];
+        let arguments = given.iter().zip(&native.signature().arguments);
+        for (slice, (object, &(_, length))) in slices.iter_mut().zip(arguments) {
             let array = object.cast::<PyArrayDyn<T>>().ok()?;
-            slices.push(memory::entries(array).filter(|entries| entries.len() == length)?);
+            *slice = memory::entries(array).filter(|entries| entries.len() == length)?;
         }
+        let slices = slices.get(..given.len())?;
         if self.refuses_nan {
             let found = |own: &&[T]| own.iter().position(|value| value.to_f64().is_nan());
             let mut entries = slices.iter().map(found).enumerate();
@@ -116,8 +118,13 @@ impl Call<'_> {
                 return Some(Err(self.refused(place, 0, entry)));
             }
         }
+        if let ([(_, shape)], None) = (self.quantities, out) {
+            let array = memory::filled(py, shape, |result| native.call(slices, result));
+            let results = array.map(|array| vec![array]);
+            return Some(results.map_err(|error| self.failed(&error)));
+        }
         let mut values = vec![T::default(); native.program().outputs.len()];
-        if let Err(error) = native.call(&slices, &mut values) {
+        if let Err(error) = native.call(slices, &mut values) {
             return Some(Err(self.failed(&error)));
         }
         if let Some(array) = out {

@@ -148,6 +148,18 @@ pub(crate) fn entries<'a, T: Element>(array: &'a Bound<'_, PyArrayDyn<T>>) -> Op
     Some(unsafe { std::slice::from_raw_parts(array.data(), array.len()) })
 }
 
+/// Makes an array and fills it.
+pub(crate) fn filled<'py, T: Element, E>(
+    py: Python<'py>,
+    shape: &[usize],
+    fill: impl FnOnce(&mut [T]) -> Result<(), E>,
+) -> Result<Bound<'py, PyArrayDyn<T>>, E> {
+    let array = zeros(py, shape);
+    // SAFETY: it was made here, and nobody else has it; its entries are in one piece.
+    fill(unsafe { std::slice::from_raw_parts_mut(array.data(), array.len()) })?;
+    Ok(array)
+}
+
 /// Tells whether an array has this shape, lies in one piece and may be written.
 pub(crate) fn writeable<T: Element>(array: &Bound<'_, PyArrayDyn<T>>, shape: &[usize]) -> bool {
     // SAFETY: it is an array, whose object is NumPy's.
