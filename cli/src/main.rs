@@ -1,68 +1,8 @@
-//! The `dalembert` command: verified flat robot dynamics from a robot file.
-//!
-//! - [`args`]: the command line
-//! - [`generate`]: Rust source, written, printed or compared
-//! - [`import`]: a robot file of a URDF
-//! - [`show`]: the arm in two views
-//! - [`new`]: a crate to begin with
-//! - [`count`]: operation counts
-//! - [`verify`]: the exact proof and what rounding costs
-//! - [`explain`]: what each step brought, which coefficients vanish or repeat, and why
-//! - [`stress`]: numerical stability at the extremes, and growth
-//! - [`certify`]: a certificate checked again
-//! - [`tradeoff`]: certified error against operations
-//! - [`plot`]: charts as SVG
-//! - [`input`]: robot and state files
-//! - [`progress`]: a long search watched, and ended early
-//! - [`files`]: files that are written: checked first, all or none
-//! - [`output`]: standard output, tables
-//! - [`outcome`]: how a run ends
+//! The `dalembert` command, as a program of its own.
 #![forbid(unsafe_code)]
-
-mod args;
-mod certify;
-mod count;
-mod explain;
-mod files;
-mod generate;
-mod import;
-mod input;
-mod new;
-mod outcome;
-mod output;
-mod plot;
-mod progress;
-mod show;
-mod sines;
-mod stress;
-mod tradeoff;
-mod verify;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use args::{Args, Command};
-use outcome::Failure;
-
 fn main() -> ExitCode {
-    let outcome = match Args::parse().command {
-        Command::Generate(args) => generate::run(&args),
-        Command::Import(args) => import::run(&args),
-        Command::New(args) => new::run(&args),
-        Command::Show(args) => show::run(&args),
-        Command::Count(args) => count::run(&args),
-        Command::Verify(args) => verify::run(&args),
-        Command::Explain(args) => explain::run(&args),
-        Command::Stress(args) => stress::run(&args),
-        Command::Certify(args) => certify::run(&args),
-        Command::Tradeoff(args) => tradeoff::run(&args),
-    };
-    let (why, code) = match outcome {
-        Ok(()) => return ExitCode::SUCCESS,
-        Err(Failure::Check(why)) => (why, 1),
-        Err(Failure::Input(why)) => (why, 2),
-    };
-    output::note(&why);
-    ExitCode::from(code)
+    ExitCode::from(dalembert_cli::run(std::env::args_os()))
 }

@@ -77,7 +77,7 @@ pub mod certificate {
 pub mod clauses {
     pub use crate::clauses::{RobotFile, RobotFileError, expand, expand_from};
     pub mod words {
-        pub use crate::clauses::words::bundle;
+        pub use crate::clauses::words::{UnknownWord, Word, bundle, parse};
     }
 }
 

@@ -16,7 +16,7 @@ use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
 /// A value that users name by a word.
-pub(crate) trait Word: Copy {
+pub trait Word: Copy {
     /// The name in messages.
     const WHAT: &'static str;
 
@@ -109,7 +109,7 @@ impl Word for SinCos {
 ///
 /// # Errors
 /// [`UnknownWord`], with the word that was probably meant.
-pub(crate) fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
+pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
     let all = W::all();
     if let Some((_, value)) = all.iter().find(|(name, _)| *name == text) {
         return Ok(*value);
@@ -154,7 +154,7 @@ impl std::error::Error for NoBundle {}
 
 /// A word that names nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct UnknownWord {
+pub struct UnknownWord {
     /// The kind of word that it should be: `output`, `scalar`, …
     pub what: &'static str,
     /// The word.

@@ -1,0 +1,246 @@
+//! An arm: its functions by name, compiled in memory.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use dalembert_codegen::RobotFileError;
+use dalembert_codegen::workspace::function::{Argument, Function as Output, Sizes};
+use dalembert_codegen::workspace::generate::generate;
+use dalembert_codegen::workspace::language::Language;
+use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::program::{Counts, Lowered, ScalarType};
+use dalembert_import::MAX_BYTES;
+use dalembert_model::robot::Robot;
+
+use crate::cache::{self, Folder};
+use crate::compile::Signature;
+use crate::entry::{Entry, Proved};
+use crate::error::LoadError;
+use crate::make::{is_urdf, made, read_robot};
+use crate::native::Native;
+use crate::request::{Cache, Load};
+
+/// A function of an arm.
+pub struct Function {
+    output: Output,
+    sizes: Sizes,
+    proved: Proved,
+    native: Native,
+}
+
+impl Function {
+    /// Returns its name.
+    pub fn name(&self) -> &'static str {
+        self.output.name()
+    }
+
+    /// Returns which output it is: its results, their shapes and units.
+    pub fn output(&self) -> Output {
+        self.output
+    }
+
+    /// Returns the scalar that it computes in.
+    pub fn scalar(&self) -> ScalarType {
+        self.native.program().scalar
+    }
+
+    /// Returns what the lengths of its results follow from.
+    pub fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    /// Returns its operations.
+    pub fn counts(&self) -> Counts {
+        self.native.program().counts()
+    }
+
+    /// Returns what was proved of it, in a sentence.
+    pub fn proof(&self) -> &str {
+        &self.proved.proof
+    }
+
+    /// Returns the machine code.
+    pub fn native(&self) -> &Native {
+        &self.native
+    }
+}
+
+/// An arm: its functions as machine code.
+pub struct Arm {
+    robot: Robot,
+    entry: Entry,
+    functions: Vec<Function>,
+    load: Load,
+    is_from_cache: bool,
+}
+
+impl Arm {
+    /// Loads the arm of a robot file, or of a URDF, whose name ends in `.urdf` or whose text
+    /// begins with `<`.
+    ///
+    /// # Errors
+    /// [`LoadError`]: what is wrong with the file or the request, or what could not be
+    /// proved.
+    pub fn load(path: impl AsRef<Path>, load: &Load) -> Result<Arm, LoadError> {
+        let path = path.as_ref();
+        let shown = path.display().to_string();
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes))
+            .map_err(|error| {
+                LoadError::Robot(RobotFileError::of_system(path, &shown, &error).to_string())
+            })?;
+        let source = String::from_utf8(bytes)
+            .map_err(|_| LoadError::Robot(format!("error: `{shown}` is not UTF-8 text")))?;
+        let plan = match is_urdf(&source) {
+            true => None,
+            false => dalembert_codegen::workspace::plan::file::beside(path)
+                .map_err(|error| LoadError::Robot(format!("error: {error}")))?,
+        };
+        Arm::of(&source, &shown, plan, load)
+    }
+
+    /// Loads the arm of a robot file's text, or of a URDF's; messages call it by a name.
+    ///
+    /// # Errors
+    /// As [`Arm::load`].
+    pub fn parse(source: &str, name: &str, load: &Load) -> Result<Arm, LoadError> {
+        Arm::of(source, name, None, load)
+    }
+
+    fn of(source: &str, name: &str, plan: Option<Plan>, load: &Load) -> Result<Arm, LoadError> {
+        let folder = match &load.cache {
+            Cache::Off => None,
+            Cache::At(path) => Some(Folder::at(path)),
+            Cache::User => Folder::of_user(),
+        };
+        let plan_text = plan.as_ref().map(Plan::write);
+        let key = cache::key(source, name, plan_text.as_deref(), load);
+        let kept = folder.as_ref().and_then(|folder| folder.entry(&key));
+        // What is kept and damaged, or of a version that reads otherwise, is made anew.
+        if let Some(arm) = kept.and_then(|entry| Arm::of_entry(entry, load, true).ok()) {
+            return Ok(arm);
+        }
+        let entry = made(source, name, plan, load, folder.as_ref())?;
+        if let Some(folder) = &folder
+            && !entry.ended
+        {
+            folder.keep(&key, &entry);
+        }
+        Arm::of_entry(entry, load, false)
+    }
+
+    /// Compiles what was generated.
+    fn of_entry(entry: Entry, load: &Load, is_from_cache: bool) -> Result<Arm, LoadError> {
+        let reading = read_robot(&entry.robot, "the arm's robot file")?;
+        let functions: Result<Vec<Function>, LoadError> = entry
+            .functions
+            .iter()
+            .map(|proved| compiled(&entry, proved))
+            .collect();
+        Ok(Arm {
+            robot: reading.robot,
+            functions: functions?,
+            entry,
+            load: load.clone(),
+            is_from_cache,
+        })
+    }
+
+    /// Returns the robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Returns the functions, scalar by scalar.
+    pub fn functions(&self) -> &[Function] {
+        &self.functions
+    }
+
+    /// Returns the function of a name in a scalar.
+    pub fn function(&self, name: &str, scalar: ScalarType) -> Option<&Function> {
+        let mut all = self.functions.iter();
+        all.find(|function| function.name() == name && function.scalar() == scalar)
+    }
+
+    /// Returns the functions as Rust.
+    pub fn rust(&self) -> &str {
+        &self.entry.rust
+    }
+
+    /// Prints the functions as one header of C99, proved once more.
+    ///
+    /// # Errors
+    /// [`LoadError`]: among others, a name that no C compiler takes.
+    pub fn c(&self) -> Result<String, LoadError> {
+        let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
+        let mut request = self.load.request(&reading)?;
+        request.language = Language::C;
+        request.plan = Plan::parse(&self.entry.plan).ok();
+        let generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
+        Ok(generated.text)
+    }
+
+    /// Returns the robot as a robot file.
+    pub fn robot_file(&self) -> &str {
+        &self.entry.robot
+    }
+
+    /// Returns the plan: the programs that were found, to be kept beside the robot file.
+    pub fn plan(&self) -> &str {
+        &self.entry.plan
+    }
+
+    /// Returns the certificates of a scene's tolerance, as JSON.
+    pub fn certificates(&self) -> Option<&str> {
+        self.entry.certificates.as_deref()
+    }
+
+    /// Returns what a user should know of the robot and its functions.
+    pub fn notes(&self) -> &[String] {
+        &self.entry.notes
+    }
+
+    /// Tells whether nothing was searched for and proved, since it was kept.
+    pub fn is_from_cache(&self) -> bool {
+        self.is_from_cache
+    }
+
+    /// Tells whether the observer ended the search: a whole one might find cheaper
+    /// functions.
+    pub fn has_ended_early(&self) -> bool {
+        self.entry.ended
+    }
+}
+
+/// Reads a function out of the Rust text and compiles it.
+fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
+    let damaged = || LoadError::Request(format!("`{}` cannot be read back", proved.function));
+    let output = match proved.function == Output::Load.name() {
+        true => Output::Load,
+        false => Output::parse(&proved.function).map_err(|_| damaged())?,
+    };
+    let scalar = ScalarType::from_name(&proved.scalar).ok_or_else(damaged)?;
+    let mut sections = entry.rust.split("\npub mod ").skip(1);
+    let section = sections.nth(proved.section).ok_or_else(damaged)?;
+    let program = Lowered::parse(section, output, scalar).map_err(|_| damaged())?;
+    let sizes = proved.sizes();
+    let arguments = proved.arguments.iter().map(|name| {
+        let argument = Argument::from_name(name)?;
+        Some((argument, argument.length(sizes)))
+    });
+    let arguments: Option<Vec<(Argument, usize)>> = arguments.collect();
+    let signature = Signature {
+        arguments: arguments.ok_or_else(damaged)?,
+        results: output.quantities().iter().map(|q| q.len(sizes)).collect(),
+    };
+    let native = Native::compile(program, signature)
+        .map_err(|error| LoadError::Compile(output.name(), error))?;
+    Ok(Function {
+        output,
+        sizes,
+        proved: proved.clone(),
+        native,
+    })
+}

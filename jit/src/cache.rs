@@ -1,0 +1,234 @@
+//! A folder of what was generated before.
+//!
+//! A file's name is the hash of what it was made from, its first line the hash of the rest:
+//! an entry that was damaged, or cut off, is none. A writer writes into a file of its own
+//! and renames it, so that readers see one whole entry or another, whoever else writes.
+//! What cannot be written is not kept, and nobody is told: it is made anew the next time.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dalembert_codegen::workspace::plan::Plan;
+use hmac_sha256::Hash;
+
+use crate::entry::Entry;
+use crate::request::{Cache, Load};
+
+/// Changes when entries of before mean something else, or the generator's sources change.
+const GENERATOR: &str = concat!("entry 1 of ", env!("DALEMBERT_SOURCES"));
+
+/// Larger files are none of ours.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// A folder with entries and plans.
+pub(crate) struct Folder(PathBuf);
+
+/// Names an entry by all that it is made from.
+pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> String {
+    let request = Load {
+        // Where it is kept changes nothing.
+        cache: Cache::Off,
+        ..load.clone()
+    };
+    // Notes and the robot file tell the name.
+    let parts = [
+        source,
+        name,
+        plan.unwrap_or_default(),
+        &format!("{request:?}"),
+    ];
+    hash_of(GENERATOR, &parts)
+}
+
+/// Names the plan of a robot, by its hash: for all functions and scalars that are searched
+/// for in the same way.
+pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
+    let search = Load {
+        effort: load.effort,
+        prefer: load.prefer,
+        sincos: load.sincos,
+        fma: load.fma,
+        cache: Cache::Off,
+        ..Load::default()
+    };
+    hash_of(GENERATOR, &[robot, &format!("{search:?}")])
+}
+
+/// Returns the hash of texts, told apart by their lengths.
+fn hash_of(generator: &str, parts: &[&str]) -> String {
+    let mut hash = Hash::new();
+    for part in [generator].iter().chain(parts) {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    hexadecimal(hash.finalize())
+}
+
+fn hexadecimal(hash: [u8; 32]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+impl Folder {
+    /// Takes a folder; it is made when something is kept.
+    pub(crate) fn at(path: &Path) -> Folder {
+        Folder(path.to_owned())
+    }
+
+    /// Returns the user's folder, if the environment tells where that is.
+    pub(crate) fn of_user() -> Option<Folder> {
+        let set = |name| {
+            env::var_os(name)
+                .filter(|value| !value.is_empty())
+                .map(PathBuf::from)
+        };
+        if let Some(own) = set("DALEMBERT_CACHE") {
+            return Some(Folder(own));
+        }
+        let caches = if cfg!(windows) {
+            set("LOCALAPPDATA")
+        } else if cfg!(target_os = "macos") {
+            set("HOME").map(|home| home.join("Library/Caches"))
+        } else {
+            set("XDG_CACHE_HOME").or_else(|| set("HOME").map(|home| home.join(".cache")))
+        };
+        caches.map(|caches| Folder(caches.join("dalembert")))
+    }
+
+    /// Reads an entry that is whole.
+    pub(crate) fn entry(&self, key: &str) -> Option<Entry> {
+        serde_json::from_str(&self.read(&format!("{key}.json"))?).ok()
+    }
+
+    /// Keeps an entry.
+    pub(crate) fn keep(&self, key: &str, entry: &Entry) {
+        if let Ok(text) = serde_json::to_string(entry) {
+            self.write(&format!("{key}.json"), &text);
+        }
+    }
+
+    /// Reads a plan.
+    pub(crate) fn plan(&self, key: &str) -> Option<Plan> {
+        Plan::parse(&self.read(&format!("{key}.plan"))?).ok()
+    }
+
+    /// Keeps a plan. Of two writers at once, one's programs are searched for again.
+    pub(crate) fn keep_plan(&self, key: &str, plan: &Plan) {
+        self.write(&format!("{key}.plan"), &plan.write());
+    }
+
+    fn read(&self, name: &str) -> Option<String> {
+        let path = self.0.join(name);
+        let about = fs::metadata(&path).ok()?;
+        if !about.is_file() || about.len() > MAX_BYTES {
+            return None;
+        }
+        let text = fs::read_to_string(path).ok()?;
+        let (hash, rest) = text.split_once('\n')?;
+        (hash == hexadecimal(Hash::hash(rest.as_bytes()))).then(|| rest.to_owned())
+    }
+
+    fn write(&self, name: &str, text: &str) -> Option<()> {
+        static WRITES: AtomicUsize = AtomicUsize::new(0);
+        fs::create_dir_all(&self.0).ok()?;
+        let number = WRITES.fetch_add(1, Ordering::Relaxed);
+        let unfinished = self
+            .0
+            .join(format!("{name}.{}.{number}.tmp", process::id()));
+        let hash = hexadecimal(Hash::hash(text.as_bytes()));
+        let written = fs::write(&unfinished, format!("{hash}\n{text}"))
+            .and_then(|()| fs::rename(&unfinished, self.0.join(name)));
+        if written.is_err() {
+            // Best effort: the folder may be gone.
+            let _ = fs::remove_file(&unfinished);
+        }
+        written.ok()
+    }
+}
+
+#[cfg(test)]
+#[cfg(test)]
+#[path = "../sources.rs"]
+mod sources;
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use dalembert_codegen::workspace::simplify::Effort;
+
+    use super::{GENERATOR, hash_of, key, plan_key, sources};
+    use crate::request::{Cache, Load};
+
+    #[test]
+    fn another_generator_has_other_keys() {
+        let ours = sources::hash(Path::new("."), &sources::SOURCES).unwrap();
+        assert!(GENERATOR.ends_with(&ours), "of the sources as they are");
+        assert_ne!(
+            hash_of(GENERATOR, &["a"]),
+            hash_of("entry 1 of others", &["a"])
+        );
+    }
+
+    #[test]
+    fn every_byte_of_a_source_counts() {
+        let name = format!("dalembert-sources-{}", std::process::id());
+        let root = std::env::temp_dir().join(name);
+        fs::create_dir_all(root.join("a/b")).unwrap();
+        let mut found = vec![sources::hash(&root, &["a"]).unwrap()];
+        let files = [
+            ("a/b/one", "x"),
+            ("a/b/one", "y"),
+            ("a/two", "y"),
+            ("a/b/one", ""),
+        ];
+        for (file, text) in files {
+            fs::write(root.join(file), text).unwrap();
+            found.push(sources::hash(&root, &["a"]).unwrap());
+            fs::rename(root.join(file), root.join("a/renamed")).unwrap();
+            found.push(sources::hash(&root, &["a"]).unwrap());
+            fs::rename(root.join("a/renamed"), root.join(file)).unwrap();
+        }
+        fs::remove_dir_all(&root).unwrap();
+        let count = found.len();
+        found.sort();
+        found.dedup();
+        assert_eq!(found.len(), count);
+    }
+
+    #[test]
+    fn a_request_has_its_key_wherever_it_is_kept() {
+        let load = Load::default();
+        let off = Load {
+            cache: Cache::Off,
+            ..Load::default()
+        };
+        let thorough = Load {
+            effort: Effort::Thorough,
+            ..Load::default()
+        };
+        let exact = Load {
+            urdf: dalembert_import::Options {
+                exact: true,
+                ..Default::default()
+            },
+            ..Load::default()
+        };
+        assert_eq!(key("a", "b", None, &load), key("a", "b", None, &off));
+        let keys = [
+            key("a", "b", None, &load),
+            key("a", "b", Some("c"), &load),
+            key("ab", "", None, &load),
+            key("a", "b", None, &thorough),
+            key("a", "b", None, &exact),
+        ];
+        for (index, one) in keys.iter().enumerate() {
+            assert!(!keys[..index].contains(one), "{index}");
+        }
+        assert_eq!(plan_key("a", &load), plan_key("a", &exact));
+        assert_ne!(plan_key("a", &load), plan_key("a", &thorough));
+    }
+}

@@ -1,0 +1,144 @@
+//! The comparison of machine code with the program that it was made of.
+
+use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::program::run::State;
+
+use crate::error::{CallError, CompileError};
+use crate::native::{Native, Real};
+use crate::rows::{Place, Rows, RowsMut};
+
+/// How many states are compared.
+pub const STATES: usize = 64;
+
+/// Values that have branches, or no number.
+const SPECIAL: [f64; 8] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    -0.0,
+    1e5,
+    -8192.0,
+    100.5,
+    1e-310,
+];
+
+/// Draws an entry: from a SHA-256 of where it is. One of 31 is special.
+fn entry<T: Real>(state: usize, argument: Argument, index: usize) -> T {
+    let text = format!("{state} {} {index}", argument.name());
+    let hash = hmac_sha256::Hash::hash(text.as_bytes());
+    let mut number = [0; 8];
+    number.copy_from_slice(&hash[..8]);
+    let number = u64::from_le_bytes(number);
+    let special = (number % 31 == 0 && state % 2 == 1)
+        .then(|| SPECIAL[(number / 31) as usize % SPECIAL.len()]);
+    let unit = (number >> 11) as f64 / (1u64 << 53) as f64;
+    T::literal(special.unwrap_or((2.0 * unit - 1.0) * reach(argument)))
+}
+
+fn reach(argument: Argument) -> f64 {
+    match argument {
+        // All four quarter turns, and the next.
+        Argument::Position => 7.0,
+        other => other.reach(),
+    }
+}
+
+/// Draws the arguments of the states that are compared, in the order of the signature.
+fn drawn<T: Real>(native: &Native) -> Vec<Vec<Vec<T>>> {
+    let arguments = &native.signature().arguments;
+    let state = |state: usize| {
+        let of = |&(argument, len): &(Argument, usize)| {
+            (0..len)
+                .map(|index| entry(state, argument, index))
+                .collect()
+        };
+        arguments.iter().map(of).collect()
+    };
+    (0..STATES).map(state).collect()
+}
+
+/// Compares two results: equal bits, or both no number, whose bits no language fixes.
+fn is_same<T: Real>(left: T, right: T) -> bool {
+    let (left, right) = (left.to_f64(), right.to_f64());
+    left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
+}
+
+fn expected<T: Real>(native: &Native, arguments: &[Vec<T>]) -> Vec<T> {
+    let signature = &native.signature().arguments;
+    let of = |wanted| {
+        let place = signature
+            .iter()
+            .position(|&(argument, _)| argument == wanted);
+        place.map_or(&[][..], |place| &arguments[place])
+    };
+    native.program().run(State::of(of))
+}
+
+/// Finds the first result that differs.
+fn differing<T: Real>(expected: &[T], found: &[T]) -> Option<usize> {
+    if expected.len() != found.len() {
+        return Some(expected.len().min(found.len()));
+    }
+    let mut both = expected.iter().zip(found);
+    both.position(|(&expected, &found)| !is_same(expected, found))
+}
+
+/// Compares the code for one state.
+pub(crate) fn check<T: Real>(native: &Native) -> Result<(), CompileError> {
+    let mut found = vec![T::default(); native.program().outputs.len()];
+    for (state, arguments) in drawn::<T>(native).iter().enumerate() {
+        let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
+        // The lengths are the signature's: it can only be called.
+        native
+            .call(&slices, &mut found)
+            .map_err(|_| CompileError::PARAMETERS)?;
+        if let Some(result) = differing(&expected(native, arguments), &found) {
+            return Err(CompileError::Differs { state, result });
+        }
+    }
+    Ok(())
+}
+
+/// Compares the code for many states.
+pub(crate) fn check_many<T: Real>(native: &Native) -> Result<(), CallError> {
+    let (states, signature) = (drawn::<T>(native), native.signature());
+    let flat = |place: usize| -> Vec<T> {
+        states
+            .iter()
+            .flat_map(|state| state[place].iter().copied())
+            .collect()
+    };
+    let data: Vec<Vec<T>> = (0..signature.arguments.len()).map(flat).collect();
+    let rows = data
+        .iter()
+        .zip(&signature.arguments)
+        .map(|(data, &(_, len))| Rows {
+            data,
+            place: Place::rows(len),
+        });
+    let rows: Vec<Rows<'_, T>> = rows.collect();
+    let mut found: Vec<Vec<T>> = signature
+        .results
+        .iter()
+        .map(|len| vec![T::default(); len * STATES])
+        .collect();
+    let results = found
+        .iter_mut()
+        .zip(&signature.results)
+        .map(|(data, &len)| RowsMut {
+            data,
+            place: Place::rows(len),
+        });
+    native.rows(&rows, &mut results.collect::<Vec<_>>(), STATES, 1)?;
+    for (state, arguments) in states.iter().enumerate() {
+        let own = found.iter().zip(&signature.results);
+        let own: Vec<T> = own
+            .flat_map(|(found, &len)| found[state * len..][..len].iter().copied())
+            .collect();
+        if let Some(result) = differing(&expected(native, arguments), &own) {
+            let error = CompileError::Differs { state, result };
+            return Err(CallError::Compile(error));
+        }
+    }
+    Ok(())
+}

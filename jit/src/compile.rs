@@ -1,0 +1,236 @@
+//! Functions around a program: one state, and many in vectors.
+
+use cranelift_codegen::Context;
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{AbiParam, BlockArg, InstBuilder, MemFlagsData, Value, types};
+use cranelift_codegen::settings::{self, Configurable};
+use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
+use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
+use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::program::Lowered;
+
+use crate::emit::{Emitter, Lanes, bytes};
+use crate::error::CompileError;
+use crate::program;
+
+/// What a program reads and returns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Signature {
+    /// The arguments in order, each with its number of entries.
+    pub arguments: Vec<(Argument, usize)>,
+    /// The results in order, each with its number of entries.
+    pub results: Vec<usize>,
+}
+
+impl Signature {
+    /// Returns the place of an argument and its number of entries.
+    fn argument(&self, wanted: Argument) -> Option<(usize, usize)> {
+        let mut all = self.arguments.iter().enumerate();
+        all.find_map(|(place, &(argument, len))| (argument == wanted).then_some((place, len)))
+    }
+
+    /// Returns where the entries of an argument begin among those of all.
+    fn first_entry(&self, place: usize) -> usize {
+        self.arguments[..place].iter().map(|&(_, len)| len).sum()
+    }
+}
+
+/// The name by which code calls [`crate::native`]'s library of sines.
+const LIBRARY: &str = "dalembert_sines_of";
+
+/// A module of machine code, and where its one function is.
+pub(crate) struct Linked {
+    pub(crate) module: JITModule,
+    pub(crate) entry: *const u8,
+}
+
+/// Compiles a program: for one state, with arrays of arguments and one of results; or for
+/// states in vectors, with an address an entry and strides.
+pub(crate) fn compile(
+    code: &Lowered,
+    signature: &Signature,
+    lanes: Lanes,
+    library: *const u8,
+) -> Result<Linked, CompileError> {
+    let mut flags = settings::builder();
+    for (name, value) in [
+        ("use_colocated_libcalls", "false"),
+        ("is_pic", "false"),
+        ("opt_level", "speed"),
+        // Large programs have frames beyond a guard page.
+        ("enable_probestack", "true"),
+        ("probestack_strategy", "inline"),
+        (
+            "enable_verifier",
+            if cfg!(debug_assertions) {
+                "true"
+            } else {
+                "false"
+            },
+        ),
+    ] {
+        flags.set(name, value).map_err(CompileError::cranelift)?;
+    }
+    let isa = cranelift_native::builder().map_err(CompileError::cranelift)?;
+    let isa = isa.finish(settings::Flags::new(flags));
+    let isa = isa.map_err(CompileError::cranelift)?;
+    let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
+    builder.symbol(LIBRARY, library);
+    let mut module = JITModule::new(builder);
+    let function = define(&mut module, code, signature, lanes)?;
+    module
+        .finalize_definitions()
+        .map_err(CompileError::cranelift)?;
+    let entry = module.get_finalized_function(function);
+    Ok(Linked { module, entry })
+}
+
+fn define(
+    module: &mut JITModule,
+    code: &Lowered,
+    signature: &Signature,
+    lanes: Lanes,
+) -> Result<FuncId, CompileError> {
+    let mut library = module.make_signature();
+    library.params = vec![AbiParam::new(types::I64); 3];
+    let library = module.declare_function(LIBRARY, Linkage::Import, &library);
+    let library = library.map_err(CompileError::cranelift)?;
+    let mut own = module.make_signature();
+    own.params = vec![AbiParam::new(types::I64); lanes.parameters()];
+    let function = module.declare_function("function", Linkage::Local, &own);
+    let function = function.map_err(CompileError::cranelift)?;
+    let mut context: Context = module.make_context();
+    context.func.signature = own;
+    let library = module.declare_func_in_func(library, &mut context.func);
+    let mut frontend = FunctionBuilderContext::new();
+    let mut builder = FunctionBuilder::new(&mut context.func, &mut frontend);
+    let block = builder.create_block();
+    builder.append_block_params_for_function_params(block);
+    builder.switch_to_block(block);
+    let parameters = builder.block_params(block).to_vec();
+    let emitter = Emitter::new(builder, code.scalar, lanes, library);
+    match lanes {
+        Lanes::One => one(&emitter, code, signature, &parameters)?,
+        Lanes::Vector => many(&emitter, code, signature, &parameters)?,
+    }
+    let mut builder = emitter.into_builder();
+    builder.ins().return_(&[]);
+    builder.seal_all_blocks();
+    builder.finalize(module.target_config());
+    module
+        .define_function(function, &mut context)
+        .map_err(CompileError::cranelift)?;
+    Ok(function)
+}
+
+impl Lanes {
+    /// How many parameters the function has.
+    fn parameters(self) -> usize {
+        match self {
+            // Addresses of the arguments, and of the results.
+            Lanes::One => 2,
+            // Addresses of all arguments' entries, the arguments' strides, addresses of all
+            // results' entries, the results' strides, the number of states.
+            Lanes::Vector => 5,
+        }
+    }
+}
+
+fn one(
+    emitter: &Emitter<'_>,
+    code: &Lowered,
+    signature: &Signature,
+    parameters: &[Value],
+) -> Result<(), CompileError> {
+    let &[arguments, results] = parameters else {
+        return Err(CompileError::PARAMETERS);
+    };
+    let width = bytes(code.scalar) as i32;
+    let addresses = addresses(emitter, arguments, signature.arguments.len());
+    let read = |argument, index: usize| {
+        let (place, len) = signature.argument(argument)?;
+        (index < len).then(|| emitter.read(addresses[place], index as i32 * width))
+    };
+    let values = program::emit(emitter, code, read)?;
+    for (index, value) in values.into_iter().enumerate() {
+        emitter.write(value, results, index as i32 * width);
+    }
+    Ok(())
+}
+
+/// Reads pointers or strides from a table.
+fn addresses(emitter: &Emitter<'_>, table: Value, count: usize) -> Vec<Value> {
+    (0..count)
+        .map(|index| address(emitter, table, index))
+        .collect()
+}
+
+fn address(emitter: &Emitter<'_>, table: Value, index: usize) -> Value {
+    let flags = MemFlagsData::trusted();
+    emitter.with(|b| b.ins().load(types::I64, flags, table, 8 * index as i32))
+}
+
+/// As many states as vectors take: the loop ends before those that are left.
+fn many(
+    emitter: &Emitter<'_>,
+    code: &Lowered,
+    signature: &Signature,
+    parameters: &[Value],
+) -> Result<(), CompileError> {
+    let &[entries, strides, results, result_strides, states] = parameters else {
+        return Err(CompileError::PARAMETERS);
+    };
+    let lanes = Lanes::Vector.count(code.scalar);
+    let (head, body, end) = emitter.with(|b| {
+        let (head, body, end) = (b.create_block(), b.create_block(), b.create_block());
+        b.append_block_param(head, types::I64);
+        let zero = b.ins().iconst(types::I64, 0);
+        b.ins().jump(head, &[BlockArg::Value(zero)]);
+        (head, body, end)
+    });
+    let (first, next) = emitter.with(|b| {
+        b.switch_to_block(head);
+        let first = b.block_params(head)[0];
+        let next = b.ins().iadd_imm_s(first, lanes as i64);
+        let is_in = b.ins().icmp(IntCC::SignedLessThanOrEqual, next, states);
+        b.ins().brif(is_in, body, &[], end, &[]);
+        b.switch_to_block(body);
+        (first, next)
+    });
+    // The offset of each lane's state from the first, of everything with this stride.
+    let offsets = |strides: Value, place: usize| -> Vec<Value> {
+        let stride = address(emitter, strides, place);
+        emitter.with(|b| {
+            let mut offset = b.ins().imul(first, stride);
+            let mut all = vec![offset];
+            for _ in 1..lanes {
+                offset = b.ins().iadd(offset, stride);
+                all.push(offset);
+            }
+            all
+        })
+    };
+    let mut of_arguments: Vec<Option<Vec<Value>>> = vec![None; signature.arguments.len()];
+    let read = |argument, index: usize| {
+        let (place, len) = signature.argument(argument)?;
+        let at = (index < len).then(|| signature.first_entry(place) + index)?;
+        let offsets = of_arguments[place].get_or_insert_with(|| offsets(strides, place));
+        let base = address(emitter, entries, at);
+        Some(emitter.gather(base, offsets, 0))
+    };
+    let values = program::emit(emitter, code, read)?;
+    let mut values = values.into_iter().enumerate();
+    for (place, &len) in signature.results.iter().enumerate() {
+        let offsets = offsets(result_strides, place);
+        for (index, value) in values.by_ref().take(len) {
+            let base = address(emitter, results, index);
+            emitter.scatter(value, base, &offsets);
+        }
+    }
+    emitter.with(|b| {
+        b.ins().jump(head, &[BlockArg::Value(next)]);
+        b.switch_to_block(end);
+    });
+    Ok(())
+}

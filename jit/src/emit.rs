@@ -1,0 +1,268 @@
+//! Instructions of one function, on a number or on a vector of them.
+
+use std::cell::RefCell;
+
+use cranelift_codegen::ir::condcodes::FloatCC;
+use cranelift_codegen::ir::{
+    BlockArg, ConstantData, FuncRef, InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Type,
+    Value, types,
+};
+use cranelift_frontend::FunctionBuilder;
+use dalembert_codegen::workspace::program::ScalarType;
+
+/// The bytes of a vector.
+const VECTOR: usize = 16;
+
+/// How many numbers an instruction works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Lanes {
+    /// One state.
+    One,
+    /// The states of a vector: two in f64, four in f32.
+    Vector,
+}
+
+impl Lanes {
+    /// The number of states.
+    pub(crate) fn count(self, scalar: ScalarType) -> usize {
+        match self {
+            Lanes::One => 1,
+            Lanes::Vector => VECTOR / bytes(scalar),
+        }
+    }
+}
+
+/// The bytes of a number.
+pub(crate) fn bytes(scalar: ScalarType) -> usize {
+    match scalar {
+        ScalarType::F64 => 8,
+        ScalarType::F32 => 4,
+    }
+}
+
+/// Appends instructions to a function. Shared, since the text of the sines computes with
+/// values that can be copied.
+pub(crate) struct Emitter<'f> {
+    builder: RefCell<FunctionBuilder<'f>>,
+    scalar: ScalarType,
+    lanes: Lanes,
+    /// Computes sines outside of what the polynomials are for, or libm's: of the angles at
+    /// an address, so many, of which kind.
+    library: FuncRef,
+}
+
+/// A kind of call to the library of sines; the numbers are those of `native`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Call {
+    /// `dalembert-sines`, for the angles that its polynomials are not for.
+    Unusual = 0,
+    /// libm's sine.
+    Sine = 1,
+    /// libm's cosine.
+    Cosine = 2,
+    /// libm's sine and cosine at once.
+    Both = 3,
+}
+
+fn unaligned() -> MemFlagsData {
+    MemFlagsData::new().with_notrap()
+}
+
+impl<'f> Emitter<'f> {
+    pub(crate) fn new(
+        builder: FunctionBuilder<'f>,
+        scalar: ScalarType,
+        lanes: Lanes,
+        library: FuncRef,
+    ) -> Emitter<'f> {
+        Emitter {
+            builder: RefCell::new(builder),
+            scalar,
+            lanes,
+            library,
+        }
+    }
+
+    pub(crate) fn into_builder(self) -> FunctionBuilder<'f> {
+        self.builder.into_inner()
+    }
+
+    /// Runs what needs the builder itself.
+    pub(crate) fn with<R>(&self, run: impl FnOnce(&mut FunctionBuilder<'f>) -> R) -> R {
+        run(&mut self.builder.borrow_mut())
+    }
+
+    fn number(&self) -> Type {
+        match self.scalar {
+            ScalarType::F64 => types::F64,
+            ScalarType::F32 => types::F32,
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.lanes.count(self.scalar)
+    }
+
+    fn floats(&self) -> Type {
+        match (self.lanes, self.scalar) {
+            (Lanes::One, _) => self.number(),
+            (Lanes::Vector, ScalarType::F64) => types::F64X2,
+            (Lanes::Vector, ScalarType::F32) => types::F32X4,
+        }
+    }
+
+    pub(crate) fn integers(&self) -> Type {
+        match (self.lanes, self.scalar) {
+            (Lanes::One, ScalarType::F64) => types::I64,
+            (Lanes::One, ScalarType::F32) => types::I32,
+            (Lanes::Vector, ScalarType::F64) => types::I64X2,
+            (Lanes::Vector, ScalarType::F32) => types::I32X4,
+        }
+    }
+
+    /// A constant in every lane.
+    pub(crate) fn constant(&self, value: f64) -> Value {
+        self.with(|b| match (self.lanes, self.scalar) {
+            (Lanes::One, ScalarType::F64) => b.ins().f64const(value),
+            (Lanes::One, ScalarType::F32) => b.ins().f32const(value as f32),
+            (Lanes::Vector, ScalarType::F64) => vector(b, types::F64X2, &value.to_le_bytes()),
+            (Lanes::Vector, ScalarType::F32) => {
+                vector(b, types::F32X4, &(value as f32).to_le_bytes())
+            }
+        })
+    }
+
+    /// A power of two as integer in every lane.
+    pub(crate) fn power(&self, exponent: usize) -> Value {
+        let ty = self.integers();
+        self.with(|b| match (self.lanes, self.scalar) {
+            (Lanes::One, _) => b.ins().iconst(ty, (1u64 << exponent) as i64),
+            (Lanes::Vector, ScalarType::F64) => vector(b, ty, &(1u64 << exponent).to_le_bytes()),
+            (Lanes::Vector, ScalarType::F32) => vector(b, ty, &(1u32 << exponent).to_le_bytes()),
+        })
+    }
+
+    /// Whether the magnitude is at most this, in every lane: a truth for [`Emitter::and`].
+    pub(crate) fn is_within(&self, x: Value, largest: f64) -> Value {
+        let largest = self.constant(largest);
+        self.with(|b| {
+            let magnitude = b.ins().fabs(x);
+            b.ins().fcmp(FloatCC::LessThanOrEqual, magnitude, largest)
+        })
+    }
+
+    /// Reads a number of each lane, at a base and each lane's offset of bytes.
+    pub(crate) fn gather(&self, base: Value, offsets: &[Value], at: i32) -> Value {
+        let (number, floats) = (self.number(), self.floats());
+        self.with(|b| {
+            let mut load = |offset: &Value| {
+                let address = b.ins().iadd(base, *offset);
+                b.ins().load(number, unaligned(), address, at)
+            };
+            let loaded: Vec<Value> = offsets.iter().map(&mut load).collect();
+            match self.lanes {
+                Lanes::One => loaded[0],
+                Lanes::Vector => {
+                    let mut all = b.ins().scalar_to_vector(floats, loaded[0]);
+                    for (lane, value) in loaded.iter().enumerate().skip(1) {
+                        all = b.ins().insertlane(all, *value, lane as u8);
+                    }
+                    all
+                }
+            }
+        })
+    }
+
+    /// Reads a number beside an address; of one lane.
+    pub(crate) fn read(&self, address: Value, at: i32) -> Value {
+        let number = self.number();
+        self.with(|b| b.ins().load(number, unaligned(), address, at))
+    }
+
+    /// Writes each lane's number at a base and that lane's offset of bytes.
+    pub(crate) fn scatter(&self, value: Value, base: Value, offsets: &[Value]) {
+        self.with(|b| {
+            for (lane, offset) in offsets.iter().enumerate() {
+                let number = match self.lanes {
+                    Lanes::One => value,
+                    Lanes::Vector => b.ins().extractlane(value, lane as u8),
+                };
+                let address = b.ins().iadd(base, *offset);
+                b.ins().store(unaligned(), number, address, 0);
+            }
+        });
+    }
+
+    /// Writes a number beside an address; of one lane.
+    pub(crate) fn write(&self, value: Value, address: Value, at: i32) {
+        self.with(|b| b.ins().store(unaligned(), value, address, at));
+    }
+
+    /// Calls the library for sines and cosines: always, or unless `usual` holds in every
+    /// lane of what was computed.
+    pub(crate) fn call(
+        &self,
+        call: Call,
+        angles: &[Value],
+        computed: Option<(Value, &[(Value, Value)])>,
+    ) -> Vec<(Value, Value)> {
+        let (floats, each) = (self.floats(), self.count() * bytes(self.scalar));
+        let library = self.library;
+        let all = angles.len() * self.count();
+        let place = |index: usize| (index * each) as i32;
+        self.with(|b| {
+            let room = (3 * angles.len() * each) as u32;
+            let slot = StackSlotData::new(StackSlotKind::ExplicitSlot, room, 4);
+            let slot = b.create_sized_stack_slot(slot);
+            let join = computed.map(|(usual, computed)| {
+                let (rare, join) = (b.create_block(), b.create_block());
+                b.set_cold_block(rare);
+                let mut arguments = Vec::new();
+                for &(sin, cos) in computed {
+                    arguments.extend([BlockArg::Value(sin), BlockArg::Value(cos)]);
+                    b.append_block_param(join, floats);
+                    b.append_block_param(join, floats);
+                }
+                let usual = match self.lanes {
+                    Lanes::One => usual,
+                    Lanes::Vector => b.ins().vall_true(usual),
+                };
+                b.ins().brif(usual, join, &arguments, rare, &[]);
+                b.switch_to_block(rare);
+                join
+            });
+            let address = b.ins().stack_addr(types::I64, slot, 0);
+            for (index, &angle) in angles.iter().enumerate() {
+                b.ins().store(unaligned(), angle, address, place(index));
+            }
+            for (index, &(sin, cos)) in computed.iter().flat_map(|c| c.1).enumerate() {
+                let at = place(angles.len() + index);
+                b.ins().store(unaligned(), sin, address, at);
+                let at = place(2 * angles.len() + index);
+                b.ins().store(unaligned(), cos, address, at);
+            }
+            let count = b.ins().iconst(types::I64, all as i64);
+            let kind = b.ins().iconst(types::I64, call as i64);
+            b.ins().call(library, &[address, count, kind]);
+            let mut load = |index| b.ins().load(floats, unaligned(), address, place(index));
+            let mut pair = |index| (load(angles.len() + index), load(2 * angles.len() + index));
+            let called: Vec<(Value, Value)> = (0..angles.len()).map(&mut pair).collect();
+            let Some(join) = join else {
+                return called;
+            };
+            let arguments = called.iter().flat_map(|&(sin, cos)| [sin, cos]);
+            let arguments: Vec<BlockArg> = arguments.map(BlockArg::Value).collect();
+            b.ins().jump(join, &arguments);
+            b.switch_to_block(join);
+            let joined = b.block_params(join).chunks(2);
+            joined.map(|pair| (pair[0], pair[1])).collect()
+        })
+    }
+}
+
+/// A constant vector of repeated bytes.
+fn vector(b: &mut FunctionBuilder<'_>, ty: Type, lane: &[u8]) -> Value {
+    let bytes: Vec<u8> = lane.iter().copied().cycle().take(VECTOR).collect();
+    let handle = b.func.dfg.constants.insert(ConstantData::from(&bytes[..]));
+    b.ins().vconst(ty, handle)
+}

@@ -1,0 +1,171 @@
+//! Why there is no machine code, or it was not run.
+
+use std::fmt;
+
+use dalembert_codegen::workspace::generate::GenerateError;
+use dalembert_codegen::workspace::program::ScalarType;
+
+use crate::program::Unreadable;
+
+/// Why a program was not compiled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CompileError {
+    /// The program reads what it does not have.
+    Program,
+    /// The program returns another number of results than its signature says.
+    Results {
+        /// Of the signature.
+        expected: usize,
+        /// Of the program.
+        found: usize,
+    },
+    /// Cranelift refuses: an unknown processor, or no memory.
+    Cranelift(String),
+    /// At a state, the code computes another number than the program.
+    Differs {
+        /// Which of the states of the check.
+        state: usize,
+        /// Which result.
+        result: usize,
+    },
+}
+
+impl CompileError {
+    pub(crate) const PARAMETERS: CompileError = CompileError::Program;
+
+    pub(crate) fn cranelift(error: impl fmt::Display) -> CompileError {
+        CompileError::Cranelift(error.to_string())
+    }
+}
+
+impl From<Unreadable> for CompileError {
+    fn from(_: Unreadable) -> CompileError {
+        CompileError::Program
+    }
+}
+
+impl fmt::Display for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CompileError::Program => f.write_str(
+                "the program reads an argument or a step that it does not have: a defect of \
+                 this library",
+            ),
+            CompileError::Results { expected, found } => write!(
+                f,
+                "the program returns {found} numbers, expected {expected}: a defect of this library"
+            ),
+            CompileError::Cranelift(why) => write!(f, "no machine code for this machine: {why}"),
+            CompileError::Differs { state, result } => write!(
+                f,
+                "machine code is refused: at state {state} of the check, result {result} has \
+                 other bits than the proved program"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CompileError {}
+
+/// Why a function was not called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CallError {
+    /// It computes in the other scalar.
+    Scalar {
+        /// The function's.
+        expected: ScalarType,
+    },
+    /// Another number of arguments, or of results, than the function has.
+    Count {
+        /// The function's.
+        expected: usize,
+        /// The caller's.
+        found: usize,
+    },
+    /// An argument, or a result, has too few or too many numbers.
+    Length {
+        /// Its place in the signature; results come after the arguments.
+        place: usize,
+        /// The number of entries that it must have.
+        expected: usize,
+        /// The number that it has.
+        found: usize,
+    },
+    /// An entry of some state is outside of its slice.
+    Outside {
+        /// Its place in the signature.
+        place: usize,
+    },
+    /// Two states, or two entries, of a result are at the same place.
+    Overlap {
+        /// Its place in the signature.
+        place: usize,
+    },
+    /// There is no machine code for many states.
+    Compile(CompileError),
+}
+
+impl fmt::Display for CallError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CallError::Scalar { expected } => {
+                write!(f, "the function computes in {}", expected.name())
+            }
+            CallError::Count { expected, found } => {
+                write!(f, "expected {expected} arguments or results, found {found}")
+            }
+            CallError::Length {
+                place,
+                expected,
+                found,
+            } => write!(
+                f,
+                "argument {place}: expected {expected} entries, found {found}"
+            ),
+            CallError::Outside { place } => {
+                write!(f, "argument {place}: an entry is outside of its slice")
+            }
+            CallError::Overlap { place } => {
+                write!(
+                    f,
+                    "result {place}: two numbers would be written to one place"
+                )
+            }
+            CallError::Compile(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CallError {}
+
+/// Why there is no arm.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The robot cannot be read: everything that is wrong with it, each at its place.
+    Robot(String),
+    /// The request asks for what there is not.
+    Request(String),
+    /// Nothing was generated, or not proved.
+    Generate(GenerateError),
+    /// A certificate does not hold.
+    Certificate(String),
+    /// A function was not compiled.
+    Compile(&'static str, CompileError),
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LoadError::Robot(text) | LoadError::Request(text) | LoadError::Certificate(text) => {
+                f.write_str(text.trim_end())
+            }
+            LoadError::Generate(error) => error.fmt(f),
+            LoadError::Compile(function, error) => write!(f, "`{function}`: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for LoadError {}

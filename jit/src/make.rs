@@ -1,0 +1,132 @@
+//! What is generated for a robot: read, searched for, proved and printed.
+
+use std::path::Path;
+
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{
+    GenerateError, Generated, Request, generate, generate_anew,
+};
+use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::scene::input_hash;
+use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_import::import;
+use dalembert_model::read::{self, Reading};
+use dalembert_model::robot::Robot;
+
+use crate::cache::{self, Folder};
+use crate::entry::{Entry, Proved};
+use crate::error::LoadError;
+use crate::request::Load;
+
+pub(crate) fn is_urdf(source: &str) -> bool {
+    source
+        .trim_start_matches('\u{feff}')
+        .trim_start()
+        .starts_with('<')
+}
+
+pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, LoadError> {
+    read::parse(source, &read::Options::default())
+        .map_err(|errors| LoadError::Robot(errors.render(name, source)))
+}
+
+/// Reads, searches, proves and prints.
+pub(crate) fn made(
+    source: &str,
+    name: &str,
+    plan: Option<Plan>,
+    load: &Load,
+    folder: Option<&Folder>,
+) -> Result<Entry, LoadError> {
+    let mut notes = Vec::new();
+    let text = match is_urdf(source) {
+        false => source.to_owned(),
+        true => {
+            let mut options = load.urdf.clone();
+            if options.file.is_empty() {
+                let file = Path::new(name).file_name().unwrap_or(name.as_ref());
+                options.file = file.to_string_lossy().into_owned();
+            }
+            let imported = import(source, &options)
+                .map_err(|errors| LoadError::Robot(errors.render(name, source)))?;
+            notes.extend(imported.notes.iter().map(|note| note.render(name, source)));
+            let snaps = imported.snaps.iter();
+            notes.extend(snaps.map(|snap| format!("{name}:{}: {snap}", snap.line(source))));
+            imported.text
+        }
+    };
+    let reading = read_robot(&text, name)?;
+    if !is_urdf(source) {
+        notes.extend(reading.notes.iter().map(|note| note.render(name, source)));
+    }
+    let mut request = load.request(&reading)?;
+    let key = cache::plan_key(&input_hash(&reading.robot), load);
+    let kept = folder.and_then(|folder| folder.plan(&key));
+    let generated = match plan {
+        Some(plan) => {
+            request.plan = Some(plan);
+            generate_anew(&reading.robot, &request, name)
+        }
+        None => {
+            request.plan = kept.clone();
+            generate(&reading.robot, &request).or_else(|error| {
+                // A scene of the same name was another one when its programs were kept.
+                request.plan.take().ok_or(error)?;
+                generate(&reading.robot, &request)
+            })
+        }
+    };
+    let generated = generated.map_err(LoadError::Generate)?;
+    let plan = keep(&reading.robot, &request, &generated, kept).plan;
+    if let Some(folder) = folder.filter(|_| !generated.ended) {
+        folder.keep_plan(&key, &plan);
+    }
+    notes.extend(generated.warnings.iter().cloned());
+    Ok(Entry {
+        robot: text,
+        notes,
+        functions: proved(&generated),
+        certificates: certificates(&reading.robot, &request, &generated)?,
+        plan: plan.write(),
+        rust: generated.text,
+        ended: generated.ended,
+    })
+}
+
+/// Says what was proved of each function in each scalar.
+fn proved(generated: &Generated) -> Vec<Proved> {
+    let functions = &generated.functions;
+    let emitted = generated.emitted.chunks(functions.len().max(1)).enumerate();
+    let of = |(section, emitted): (usize, &[Emitted])| {
+        let both = functions.iter().zip(emitted);
+        both.map(move |(function, emitted)| Proved::of(section, function, emitted))
+            .collect::<Vec<_>>()
+    };
+    emitted.flat_map(of).collect()
+}
+
+/// Writes the certificates of a scene with a tolerance, checked anew.
+fn certificates(
+    robot: &Robot,
+    request: &Request,
+    generated: &Generated,
+) -> Result<Option<String>, LoadError> {
+    use dalembert_codegen::workspace::certificate::format;
+    let admitted = generated
+        .functions
+        .iter()
+        .filter_map(|f| f.admitted.as_ref());
+    let all: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
+    if all.is_empty() {
+        return Ok(None);
+    }
+    let scene = request.scene_robot(robot);
+    let scene = scene.map_err(|error| LoadError::Generate(GenerateError::Scene(error)))?;
+    for certificate in &all {
+        certificate.check(&scene).map_err(|why| {
+            let function = certificate.emitted.function;
+            LoadError::Certificate(format!("the certificate of `{function}`: {why}"))
+        })?;
+    }
+    Ok(Some(format::write(&all)))
+}

@@ -1,0 +1,416 @@
+//! Machine code in memory, and calls of it: all unsafe code of this crate.
+//!
+//! What it rests on:
+//! - The code is what [`compile`](crate::compile) made of a program: it reads the entries
+//!   of its signature at the addresses given, writes the results, calls [`library`] and
+//!   nothing else, keeps nothing, and ends. It has no unwinding and no state, so that any
+//!   number of threads may run it at once.
+//! - Memory that holds code is never writable and executable at once: `JITModule` maps it
+//!   to be written, then makes it executable, and nothing is defined in it afterwards.
+//! - The memory lives as long as [`Code`], and every call borrows that.
+#![allow(unsafe_code)]
+
+use std::mem::ManuallyDrop;
+use std::sync::OnceLock;
+
+use cranelift_jit::JITModule;
+use dalembert_codegen::workspace::program::machine::Machine;
+use dalembert_codegen::workspace::program::{Lowered, ScalarType};
+
+use crate::check::{check, check_many};
+use crate::compile::{Linked, Signature, compile};
+use crate::emit::{Call, Lanes};
+use crate::error::{CallError, CompileError};
+use crate::rows::{Place, Rows, RowsMut};
+
+/// Memory with a function in it.
+struct Code {
+    /// Taken when dropped, to free the memory.
+    module: ManuallyDrop<JITModule>,
+    entry: *const u8,
+}
+
+// SAFETY: the module is not touched between its making and its end, and the address is of
+// memory that nobody writes: both may be anywhere.
+unsafe impl Send for Code {}
+// SAFETY: as above; shared, only the address is read, and the code has no state.
+unsafe impl Sync for Code {}
+
+impl Code {
+    fn new(linked: Linked) -> Code {
+        Code {
+            module: ManuallyDrop::new(linked.module),
+            entry: linked.entry,
+        }
+    }
+}
+
+impl Drop for Code {
+    fn drop(&mut self) {
+        // SAFETY: taken once, here, and not read afterwards.
+        let module = unsafe { ManuallyDrop::take(&mut self.module) };
+        // SAFETY: whoever runs the code borrows `self`: nobody does, and nobody has its
+        // address.
+        unsafe { module.free_memory() };
+    }
+}
+
+type One<T> = unsafe extern "C" fn(arguments: *const *const T, results: *mut T);
+type Many<T> = unsafe extern "C" fn(
+    entries: *const *const T,
+    strides: *const isize,
+    results: *const *mut T,
+    result_strides: *const isize,
+    states: isize,
+);
+
+/// A float that machine code computes in.
+pub trait Real: Machine + std::fmt::Debug + Default + Send + Sync + 'static {
+    /// Computes sines as a call asks.
+    #[doc(hidden)]
+    fn sines(angles: &[Self], sines: &mut [Self], cosines: &mut [Self], kind: usize);
+}
+
+macro_rules! real {
+    ($t:ty, $largest:expr, $together:path, $sin:path, $cos:path, $both:path) => {
+        impl Real for $t {
+            fn sines(angles: &[$t], sines: &mut [$t], cosines: &mut [$t], kind: usize) {
+                for ((&angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
+                    if kind == Call::Sine as usize {
+                        *sin = $sin(angle);
+                    } else if kind == Call::Cosine as usize {
+                        *cos = $cos(angle);
+                    } else if kind == Call::Both as usize {
+                        (*sin, *cos) = $both(angle);
+                    } else if angle.is_nan() || angle.abs() > $largest {
+                        let ([s], [c]) = $together(&[angle]);
+                        (*sin, *cos) = (s, c);
+                    }
+                }
+            }
+        }
+    };
+}
+real!(
+    f64,
+    dalembert_sines::LARGEST,
+    dalembert_sines::sincos,
+    libm::sin,
+    libm::cos,
+    libm::sincos
+);
+real!(
+    f32,
+    dalembert_sines::LARGEST_F32,
+    dalembert_sines::sincosf,
+    libm::sinf,
+    libm::cosf,
+    libm::sincosf
+);
+
+/// What code calls for sines: `count` angles at an address, behind them as many sines, then
+/// cosines.
+extern "C" fn library<T: Real>(angles: *mut T, count: usize, kind: usize) {
+    // SAFETY: the code passes the address of a slot of its own frame that has room for
+    // three times as many numbers and is aligned to them (whatever bits are there are a
+    // number); nothing else refers to it until this returns. `T` is the scalar that it was
+    // compiled for, since `library_address` chose this function by it.
+    let all = unsafe { std::slice::from_raw_parts_mut(angles, 3 * count) };
+    let (angles, pairs) = all.split_at_mut(count);
+    let (sines, cosines) = pairs.split_at_mut(count);
+    T::sines(angles, sines, cosines, kind);
+}
+
+fn library_address(scalar: ScalarType) -> *const u8 {
+    match scalar {
+        ScalarType::F64 => library::<f64> as *const u8,
+        ScalarType::F32 => library::<f32> as *const u8,
+    }
+}
+
+/// The machine code of a program.
+///
+/// It was compared with the program, to the last bit, at 64 states before anybody got it.
+pub struct Native {
+    program: Lowered,
+    signature: Signature,
+    one: Code,
+    /// Compiled when many states are asked for.
+    many: OnceLock<Result<Code, CompileError>>,
+    /// Whether that computes what the program does.
+    checked: OnceLock<Result<(), CallError>>,
+}
+
+impl Native {
+    /// Compiles a program.
+    ///
+    /// # Errors
+    /// [`CompileError`]: among others, the code computes other bits than the program.
+    pub fn compile(program: Lowered, signature: Signature) -> Result<Native, CompileError> {
+        let (expected, found) = (signature.results.iter().sum(), program.outputs.len());
+        if expected != found {
+            return Err(CompileError::Results { expected, found });
+        }
+        let library = library_address(program.scalar);
+        let one = compile(&program, &signature, Lanes::One, library)?;
+        let native = Native {
+            program,
+            signature,
+            one: Code::new(one),
+            many: OnceLock::new(),
+            checked: OnceLock::new(),
+        };
+        match native.program.scalar {
+            ScalarType::F64 => check::<f64>(&native)?,
+            ScalarType::F32 => check::<f32>(&native)?,
+        }
+        Ok(native)
+    }
+
+    /// Returns the program.
+    pub fn program(&self) -> &Lowered {
+        &self.program
+    }
+
+    /// Returns what it reads and returns.
+    pub fn signature(&self) -> &Signature {
+        &self.signature
+    }
+
+    fn check_scalar<T: Real>(&self) -> Result<(), CallError> {
+        let expected = self.program.scalar;
+        match T::SCALAR == expected {
+            true => Ok(()),
+            false => Err(CallError::Scalar { expected }),
+        }
+    }
+
+    /// Computes the results of one state, one array after the other.
+    ///
+    /// # Errors
+    /// [`CallError`], if a slice has another length than the signature says.
+    pub fn call<T: Real>(&self, arguments: &[&[T]], results: &mut [T]) -> Result<(), CallError> {
+        self.check_scalar::<T>()?;
+        let expected = &self.signature.arguments;
+        count(expected.len(), arguments.len())?;
+        let lengths = expected.iter().map(|&(_, len)| len).enumerate();
+        for ((place, expected), argument) in lengths.zip(arguments) {
+            length(place, expected, argument.len())?;
+        }
+        length(expected.len(), self.program.outputs.len(), results.len())?;
+        let mut addresses = [std::ptr::null(); MOST_ARGUMENTS];
+        for (address, argument) in addresses.iter_mut().zip(arguments) {
+            *address = argument.as_ptr();
+        }
+        self.run_one(&addresses, results);
+        Ok(())
+    }
+
+    fn run_one<T: Real>(&self, addresses: &[*const T; MOST_ARGUMENTS], results: &mut [T]) {
+        // SAFETY: the address is of a function of this type: compiled for one state, its
+        // two parameters are addresses, and `T` is its scalar.
+        let one = unsafe { std::mem::transmute::<*const u8, One<T>>(self.one.entry) };
+        // SAFETY: each address is of a slice of as many numbers as the signature says, and
+        // the code reads no others; the results are as many as it writes.
+        unsafe { one(addresses.as_ptr(), results.as_mut_ptr()) };
+    }
+
+    /// Computes the results of many states, on so many threads at most.
+    ///
+    /// # Errors
+    /// [`CallError`], if an entry is outside of its slice or two results are at one place.
+    pub fn call_rows<T: Real>(
+        &self,
+        arguments: &[Rows<'_, T>],
+        results: &mut [RowsMut<'_, T>],
+        states: usize,
+        threads: usize,
+    ) -> Result<(), CallError> {
+        self.prepare_rows()?;
+        self.rows(arguments, results, states, threads)
+    }
+
+    pub(crate) fn rows<T: Real>(
+        &self,
+        arguments: &[Rows<'_, T>],
+        results: &mut [RowsMut<'_, T>],
+        states: usize,
+        threads: usize,
+    ) -> Result<(), CallError> {
+        self.check_scalar::<T>()?;
+        let signature = &self.signature;
+        count(signature.arguments.len(), arguments.len())?;
+        count(signature.results.len(), results.len())?;
+        let lengths = signature.arguments.iter().map(|&(_, len)| len);
+        for ((place, len), rows) in lengths.enumerate().zip(arguments) {
+            rows.place.check(place, len, states, rows.data.len())?;
+        }
+        for ((place, &len), rows) in signature.results.iter().enumerate().zip(&*results) {
+            let place = place + arguments.len();
+            rows.place.check(place, len, states, rows.data.len())?;
+            rows.place.check_apart(place, states)?;
+        }
+        let read: Vec<(*const T, &Place)> = arguments
+            .iter()
+            .map(|rows| (rows.data.as_ptr(), &rows.place))
+            .collect();
+        let written: Vec<(*mut T, &Place)> = results
+            .iter_mut()
+            .map(|rows| (rows.data.as_mut_ptr(), &rows.place))
+            .collect();
+        let (read, written) = (Shared(read), Shared(written));
+        let many = self.many()?;
+        let lanes = Lanes::Vector.count(self.program.scalar);
+        let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
+        // Whole vectors to all but the last.
+        let each = states.div_ceil(threads).next_multiple_of(lanes);
+        std::thread::scope(|scope| {
+            for first in (each..states).step_by(each.max(1)) {
+                let (read, written) = (&read, &written);
+                scope.spawn(move || {
+                    self.run_many(many, read, written, first..(first + each).min(states));
+                });
+            }
+            self.run_many(many, &read, &written, 0..each.min(states));
+        });
+        Ok(())
+    }
+
+    /// Runs the states of a range; places were checked for all of them.
+    fn run_many<T: Real>(
+        &self,
+        many: &Code,
+        read: &Shared<Vec<(*const T, &Place)>>,
+        written: &Shared<Vec<(*mut T, &Place)>>,
+        states: std::ops::Range<usize>,
+    ) {
+        let size = size_of::<T>();
+        let stride = |place: &Place| (place.state * size) as isize;
+        let mut entries = Vec::new();
+        let mut strides = Vec::new();
+        for &(data, place) in &read.0 {
+            strides.push(stride(place));
+            for offset in &place.offsets {
+                // SAFETY: `Place::check` found it in its slice, or there is no state.
+                entries.push(unsafe { data.add(states.start * place.state + offset) });
+            }
+        }
+        let mut results = Vec::new();
+        let mut result_strides = Vec::new();
+        for &(data, place) in &written.0 {
+            result_strides.push(stride(place));
+            for offset in &place.offsets {
+                // SAFETY: as above.
+                results.push(unsafe { data.add(states.start * place.state + offset) });
+            }
+        }
+        // SAFETY: the address is of a function of this type: compiled for vectors, its
+        // parameters are four addresses and a count, and `T` is its scalar.
+        let function = unsafe { std::mem::transmute::<*const u8, Many<T>>(many.entry) };
+        // SAFETY: the tables have an address an entry and a stride an argument or result.
+        // All that the code reads and writes for these states was found to be inside of the
+        // slices. The slices of results are borrowed for this alone, no two numbers have one
+        // place there, and no other thread has these states.
+        unsafe {
+            function(
+                entries.as_ptr(),
+                strides.as_ptr(),
+                results.as_ptr(),
+                result_strides.as_ptr(),
+                states.len() as isize,
+            );
+        }
+        let lanes = Lanes::Vector.count(self.program.scalar);
+        let rest = states.start + states.len() / lanes * lanes..states.end;
+        let mut found = vec![T::default(); self.program.outputs.len()];
+        for state in rest {
+            let arguments: Vec<Vec<T>> = read
+                .0
+                .iter()
+                // SAFETY: `Place::check` found every entry of every state in its slice.
+                .map(|&(data, place)| unsafe { gathered(data, place, state) })
+                .collect();
+            let mut addresses = [std::ptr::null(); MOST_ARGUMENTS];
+            for (address, argument) in addresses.iter_mut().zip(&arguments) {
+                *address = argument.as_ptr();
+            }
+            self.run_one(&addresses, &mut found);
+            let mut values = found.iter();
+            for &(data, place) in &written.0 {
+                for (offset, &value) in place.offsets.iter().zip(values.by_ref()) {
+                    // SAFETY: as for the code's own results.
+                    unsafe { data.add(state * place.state + offset).write(value) };
+                }
+            }
+        }
+    }
+
+    fn many(&self) -> Result<&Code, CallError> {
+        let many = self.many.get_or_init(|| {
+            let library = library_address(self.program.scalar);
+            let linked = compile(&self.program, &self.signature, Lanes::Vector, library)?;
+            Ok(Code::new(linked))
+        });
+        many.as_ref()
+            .map_err(|error| CallError::Compile(error.clone()))
+    }
+
+    /// Compiles the code for many states, which the first call of it does otherwise, and
+    /// compares it with the program.
+    ///
+    /// # Errors
+    /// [`CallError::Compile`].
+    pub fn prepare_rows(&self) -> Result<(), CallError> {
+        let checked = self.checked.get_or_init(|| match self.program.scalar {
+            ScalarType::F64 => check_many::<f64>(self),
+            ScalarType::F32 => check_many::<f32>(self),
+        });
+        checked.clone()
+    }
+}
+
+/// The entries of a state.
+///
+/// # Safety
+/// All of them are in the memory at the address, which is readable.
+unsafe fn gathered<T: Copy>(data: *const T, place: &Place, state: usize) -> Vec<T> {
+    let at = |offset: &usize| {
+        // SAFETY: the caller's.
+        unsafe { data.add(state * place.state + offset).read() }
+    };
+    place.offsets.iter().map(at).collect()
+}
+
+/// Addresses that threads share for the time of a call.
+struct Shared<T>(T);
+
+// SAFETY: threads read disjoint states' entries through shared slices, and write those of
+// disjoint states: see `run_many`.
+unsafe impl<T> Sync for Shared<T> {}
+
+/// Fewer states a thread take less time than starting it.
+const LEAST_STATES: usize = 2048;
+
+/// The most arguments that a function has.
+pub const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::function::Argument::COUNT;
+
+fn count(expected: usize, found: usize) -> Result<(), CallError> {
+    match expected == found {
+        true => Ok(()),
+        false => Err(CallError::Count { expected, found }),
+    }
+}
+
+fn length(place: usize, expected: usize, found: usize) -> Result<(), CallError> {
+    match expected == found {
+        true => Ok(()),
+        false => Err(CallError::Length {
+            place,
+            expected,
+            found,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,108 @@
+//! Planted faults, and the memory that code is in.
+
+use dalembert_codegen::workspace::program::{Literal, Operand, Operation};
+
+use super::*;
+use crate::{Arm, Cache, Load};
+
+/// Compares code with a program that differs from what it was made of.
+fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lowered)) {
+    let program = native.program.clone();
+    plant(&mut native.program);
+    let one = check::<T>(native);
+    let many = check_many::<T>(native);
+    native.program = program;
+    let differs = |error: &CompileError| matches!(error, CompileError::Differs { .. });
+    assert!(one.as_ref().is_err_and(differs), "{fault}: {one:?}");
+    match many {
+        Err(CallError::Compile(error)) if differs(&error) => {}
+        other => panic!("{fault}: {other:?}"),
+    }
+}
+
+/// An arm's torques.
+fn torques(scalar: ScalarType) -> Native {
+    let load = Load {
+        outputs: Some(vec![crate::Output::InverseDynamics]),
+        scalars: Some(vec![scalar]),
+        cache: Cache::Off,
+        ..Load::default()
+    };
+    let robot = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../generated/robots/planar3r.toml"
+    );
+    let arm = Arm::load(robot, &load).unwrap();
+    let native = arm.functions()[0].native();
+    let native = Native::compile(native.program.clone(), native.signature.clone());
+    native.unwrap()
+}
+
+/// Every instruction that is another one is found by the check, in either code.
+fn every_fault_is_found<T: Real>() {
+    let mut native = torques(T::SCALAR);
+    native.prepare_rows().unwrap();
+    for index in 0..native.program.steps.len() {
+        let own = native.program.steps[index].operation;
+        for other in [Operation::Add, Operation::Sub, Operation::Mul] {
+            if other != own {
+                let fault = format!("{other:?} at step {index}");
+                refused::<T>(&mut native, &fault, |p| p.steps[index].operation = other);
+            }
+        }
+        let fault = format!("another operand of step {index}");
+        refused::<T>(&mut native, &fault, |p| {
+            p.steps[index].left = Operand::Constant(Literal(0.3));
+        });
+    }
+    for index in 0..native.program.outputs.len() {
+        let fault = format!("sign of result {index}");
+        refused::<T>(&mut native, &fault, |p| p.outputs[index].negative ^= true);
+    }
+}
+
+#[test]
+fn a_wrong_instruction_is_found() {
+    every_fault_is_found::<f64>();
+    every_fault_is_found::<f32>();
+}
+
+/// The permissions of the memory at addresses.
+#[cfg(target_os = "linux")]
+fn permissions(addresses: &[usize]) -> Vec<Option<String>> {
+    let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
+    let regions = maps.lines().map(|line| {
+        let (range, rest) = line.split_once(' ').unwrap();
+        let (begin, end) = range.split_once('-').unwrap();
+        let number = |text| usize::from_str_radix(text, 16).unwrap();
+        (number(begin)..number(end), rest[..4].to_owned())
+    });
+    let regions: Vec<_> = regions.collect();
+    let at = |address| regions.iter().find(|(range, _)| range.contains(address));
+    addresses
+        .iter()
+        .map(|address| at(address).map(|(_, permissions)| permissions.clone()))
+        .collect()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn code_is_never_writable_and_is_unmapped_when_dropped() {
+    let native = torques(ScalarType::F64);
+    let compiled = (0..50).map(|_| {
+        let other = Native::compile(native.program.clone(), native.signature.clone());
+        let other = other.unwrap();
+        other.prepare_rows().unwrap();
+        other
+    });
+    let compiled: Vec<Native> = compiled.collect();
+    let entries = |own: &Native| [own.one.entry as usize, own.many().unwrap().entry as usize];
+    let addresses: Vec<usize> = compiled.iter().flat_map(entries).collect();
+    let executable = Some("r-xp".to_owned());
+    assert_eq!(permissions(&addresses), vec![executable.clone(); 100]);
+    drop(compiled);
+    // Another test may have been given the place of some.
+    let left = permissions(&addresses);
+    let left = left.iter().filter(|own| **own == executable).count();
+    assert!(left < 50, "{left} of 100 are left");
+}

@@ -1,0 +1,108 @@
+//! Entries of many states in a slice, wherever they lie.
+
+use crate::error::CallError;
+
+/// Where the entries of an argument or a result lie in a slice, state by state: entry `k`
+/// of state `i` at `i * state + offsets[k]`. Of an argument that is the same for all
+/// states, `state` is 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The distance of a state from the one before.
+    pub state: usize,
+    /// The place of each entry of the first state.
+    pub offsets: Vec<usize>,
+}
+
+impl Place {
+    /// Arrays of states one after the other.
+    pub fn rows(entries: usize) -> Place {
+        Place {
+            state: entries,
+            offsets: (0..entries).collect(),
+        }
+    }
+
+    /// Columns of so many states one after the other.
+    pub fn columns(entries: usize, states: usize) -> Place {
+        Place {
+            state: 1,
+            offsets: (0..entries).map(|entry| entry * states).collect(),
+        }
+    }
+
+    /// The same entries for all states.
+    pub fn constant(entries: usize) -> Place {
+        Place {
+            state: 0,
+            ..Place::rows(entries)
+        }
+    }
+
+    /// Checks that all entries are in a slice of this length.
+    pub(crate) fn check(
+        &self,
+        place: usize,
+        entries: usize,
+        states: usize,
+        length: usize,
+    ) -> Result<(), CallError> {
+        if self.offsets.len() != entries {
+            return Err(CallError::Length {
+                place,
+                expected: entries,
+                found: self.offsets.len(),
+            });
+        }
+        let (Some(last), Some(&farthest)) = (states.checked_sub(1), self.offsets.iter().max())
+        else {
+            return Ok(());
+        };
+        let end = last.checked_mul(self.state);
+        let end = end.and_then(|end| end.checked_add(farthest));
+        // Offsets of bytes are signed in the code.
+        match end {
+            Some(end) if end < length && self.state < isize::MAX as usize / 8 => Ok(()),
+            _ => Err(CallError::Outside { place }),
+        }
+    }
+
+    /// Checks that no two numbers have one place: rows, columns, or a part of such.
+    pub(crate) fn check_apart(&self, place: usize, states: usize) -> Result<(), CallError> {
+        let mut sorted = self.offsets.clone();
+        sorted.sort_unstable();
+        let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+        let least = gaps.min().unwrap_or(usize::MAX);
+        let span = match (sorted.first(), sorted.last()) {
+            (Some(first), Some(last)) => last - first,
+            _ => return Ok(()),
+        };
+        let is_row = self.state > span;
+        let is_column = self.state > 0
+            && states
+                .saturating_sub(1)
+                .checked_mul(self.state)
+                .is_some_and(|length| length < least);
+        match states == 0 || (least > 0 && (states == 1 || is_row || is_column)) {
+            true => Ok(()),
+            false => Err(CallError::Overlap { place }),
+        }
+    }
+}
+
+/// An argument of many states.
+#[derive(Clone, Debug)]
+pub struct Rows<'a, T> {
+    /// The numbers.
+    pub data: &'a [T],
+    /// Where they are.
+    pub place: Place,
+}
+
+/// A result of many states.
+#[derive(Debug)]
+pub struct RowsMut<'a, T> {
+    /// The numbers.
+    pub data: &'a mut [T],
+    /// Where they go.
+    pub place: Place,
+}

@@ -1,0 +1,154 @@
+//! What is kept.
+
+use std::fs;
+use std::path::PathBuf;
+
+use dalembert_jit::{Arm, Cache, Load, Output, Scalar};
+
+use crate::support::{Folder, path};
+
+fn arm(load: &Load) -> Arm {
+    Arm::load(path("generated/robots/planar2r.toml"), load).unwrap()
+}
+
+fn gravity(arm: &Arm) -> [f64; 2] {
+    let mut c = [0.0; 2];
+    let function = arm.function("gravity", Scalar::F64).unwrap();
+    function.native().call(&[&[0.3, 0.4]], &mut c).unwrap();
+    c
+}
+
+fn files(folder: &Folder, extension: &str) -> Vec<PathBuf> {
+    let all = fs::read_dir(&folder.0)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    all.filter(|path| path.extension().is_some_and(|e| e == extension))
+        .collect()
+}
+
+#[test]
+fn a_second_load_searches_for_nothing() {
+    let folder = Folder::new("second");
+    let first = arm(&folder.load());
+    let second = arm(&folder.load());
+    assert_eq!(
+        [first.is_from_cache(), second.is_from_cache()],
+        [false, true]
+    );
+    assert_eq!(gravity(&first), gravity(&second));
+    assert_eq!(first.rust(), second.rust());
+    assert_eq!(first.functions()[0].proof(), second.functions()[0].proof());
+    // Another request is another entry, and takes its programs from the plan.
+    let more = Load {
+        outputs: Some(vec![Output::Gravity, Output::Inertia]),
+        ..folder.load()
+    };
+    assert!(!arm(&more).is_from_cache());
+    assert_eq!(files(&folder, "json").len(), 2);
+    assert_eq!(files(&folder, "plan").len(), 1);
+    assert_eq!(files(&folder, "tmp").len(), 0);
+}
+
+#[test]
+fn nothing_is_kept_where_nobody_wants_it() {
+    let off = Load {
+        cache: Cache::Off,
+        ..Folder::new("off").load()
+    };
+    assert!(!arm(&off).is_from_cache());
+    assert!(!arm(&off).is_from_cache());
+}
+
+/// Whatever happens to an entry: cut off, changed in one byte, emptied, no text.
+#[test]
+fn a_damaged_entry_is_made_anew() {
+    let folder = Folder::new("damaged");
+    let expected = gravity(&arm(&folder.load()));
+    let entry = files(&folder, "json").pop().unwrap();
+    let whole = fs::read(&entry).unwrap();
+    let mut changed = whole.clone();
+    let middle = changed.len() / 2;
+    changed[middle] ^= 1;
+    for damaged in [&whole[..whole.len() - 9], &changed, b"", b"\xff\xfe\n{}"] {
+        fs::write(&entry, damaged).unwrap();
+        let anew = arm(&folder.load());
+        assert!(!anew.is_from_cache());
+        assert_eq!(gravity(&anew), expected);
+        assert!(arm(&folder.load()).is_from_cache());
+    }
+    let plan = files(&folder, "plan").pop().unwrap();
+    fs::write(plan, "nonsense").unwrap();
+    fs::remove_file(&entry).unwrap();
+    assert_eq!(gravity(&arm(&folder.load())), expected);
+}
+
+/// An entry that is whole but tells nonsense, by whoever wrote it, is none.
+#[test]
+fn an_entry_of_another_kind_is_made_anew() {
+    let folder = Folder::new("other");
+    let expected = gravity(&arm(&folder.load()));
+    let entry = files(&folder, "json").pop().unwrap();
+    let text = fs::read_to_string(&entry).unwrap();
+    let (_, json) = text.split_once('\n').unwrap();
+    for (from, to) in [
+        ("\"f64\"", "\"f16\""),
+        ("pub fn gravity", "pub fn levity"),
+        ("{", "["),
+    ] {
+        let other = json.replacen(from, to, 1);
+        assert_ne!(other, json);
+        let hash = hmac_sha256::Hash::hash(other.as_bytes());
+        let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+        fs::write(&entry, format!("{hash}\n{other}")).unwrap();
+        let anew = arm(&folder.load());
+        assert!(!anew.is_from_cache(), "{to}");
+        assert_eq!(gravity(&anew), expected);
+    }
+}
+
+#[test]
+fn writers_at_once_leave_whole_entries() {
+    let folder = Folder::new("writers");
+    std::thread::scope(|scope| {
+        for _ in 0..8 {
+            scope.spawn(|| gravity(&arm(&folder.load())));
+        }
+    });
+    assert!(arm(&folder.load()).is_from_cache());
+    assert_eq!(files(&folder, "json").len(), 1);
+    assert_eq!(files(&folder, "tmp").len(), 0);
+}
+
+/// A folder that cannot be made: nothing is kept, and nothing fails.
+#[test]
+fn a_folder_that_cannot_be_written_is_no_error() {
+    let folder = Folder::new("file");
+    fs::write(&folder.0, "a file").unwrap();
+    assert!(!arm(&folder.load()).is_from_cache());
+    fs::remove_file(&folder.0).unwrap();
+}
+
+/// A chain of a URDF, and what is wrong with one.
+#[test]
+fn a_urdf_is_loaded() {
+    let folder = Folder::new("urdf");
+    let urdf = path("import/tests/data/panda.urdf");
+    let mut load = folder.load();
+    load.urdf.tip = Some("panda_link8".to_owned());
+    load.urdf.lock = ["panda_finger_joint1", "panda_finger_joint2"]
+        .map(|joint| (joint.to_owned(), "0".to_owned()))
+        .to_vec();
+    let arm = Arm::load(&urdf, &load).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(arm.robot().joints.len(), 7);
+    assert!(Arm::load(&urdf, &load).unwrap().is_from_cache());
+    load.urdf.tip = Some("panda_link9".to_owned());
+    let error = Arm::load(&urdf, &load).err().unwrap().to_string();
+    assert!(error.contains("panda_link9"), "{error}");
+    let error = Arm::load(path("nowhere.toml"), &load)
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(error.contains("there is no file"), "{error}");
+    let error = Arm::parse("<robot", "it", &load).err().unwrap().to_string();
+    assert!(error.contains("error"), "{error}");
+}

@@ -1,0 +1,237 @@
+//! Against the generated Rust as rustc compiles it: a program around an arm's text reads
+//! states and writes results, bit by bit.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use dalembert_jit::{Arm, Function, Load, Output, Real, Scalar, SinCos};
+
+use crate::support::{Folder, ROBOTS, drawn, fresh, is_same, robot, state};
+
+/// How many states each function is compared at.
+const STATES: usize = 10_000;
+
+/// The program's text around that of the functions.
+const FRAME: &str = "
+use std::io::{Read, Write};
+
+trait Number: Copy {
+    fn read(bytes: &mut &[u8]) -> Self;
+}
+trait Put {
+    fn put(&self, bytes: &mut Vec<u8>);
+}
+macro_rules! number {
+    ($t:ty) => {
+        impl Number for $t {
+            fn read(bytes: &mut &[u8]) -> Self {
+                let (own, rest) = bytes.split_first_chunk().unwrap();
+                *bytes = rest;
+                <$t>::from_le_bytes(*own)
+            }
+        }
+        impl Put for $t {
+            fn put(&self, bytes: &mut Vec<u8>) {
+                bytes.extend(self.to_le_bytes());
+            }
+        }
+    };
+}
+number!(f32);
+number!(f64);
+impl<P: Put, const N: usize> Put for [P; N] {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.iter().for_each(|entry| entry.put(bytes));
+    }
+}
+fn read<T: Number, const N: usize>(bytes: &mut &[u8]) -> [T; N] {
+    [(); N].map(|()| T::read(bytes))
+}
+";
+
+/// Calls of all functions, each at as many states.
+fn program(arm: &Arm) -> String {
+    let mut main = String::new();
+    for function in arm.functions() {
+        let scalar = function.scalar().name();
+        let module = match function.scalar() {
+            Scalar::F64 => arm.robot().name.clone(),
+            Scalar::F32 => format!("{}_f32", arm.robot().name),
+        };
+        let arguments = &function.native().signature().arguments;
+        let names: Vec<String> = arguments
+            .iter()
+            .map(|(a, _)| format!("&{}", a.name()))
+            .collect();
+        writeln!(main, "for _ in 0..{STATES} {{").unwrap();
+        for (argument, length) in arguments {
+            let name = argument.name();
+            writeln!(main, "let {name}: [{scalar}; {length}] = read(&mut input);").unwrap();
+        }
+        let (name, names) = (function.name(), names.join(", "));
+        writeln!(main, "let result = generated::{module}::{name}({names});").unwrap();
+        for quantity in function.output().quantities() {
+            match function.output().structure() {
+                None => writeln!(main, "result.put(&mut output);"),
+                Some(_) => writeln!(main, "result.{}.put(&mut output);", quantity.field()),
+            }
+            .unwrap();
+        }
+        writeln!(main, "}}").unwrap();
+    }
+    format!(
+        "mod generated {{\n{}\n}}\n{FRAME}\nfn main() {{\n\
+         let mut bytes = Vec::new();\nstd::io::stdin().read_to_end(&mut bytes).unwrap();\n\
+         let mut input = bytes.as_slice();\nlet mut output = Vec::new();\n{main}\
+         std::io::stdout().write_all(&output).unwrap();\n}}\n",
+        arm.rust(),
+    )
+}
+
+/// A library that this test is linked with, as cargo names it.
+fn library(folder: &Path, name: &str) -> PathBuf {
+    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap());
+    let is_it = |path: &PathBuf| {
+        let file = path.file_name().unwrap().to_string_lossy();
+        file.starts_with(&format!("lib{name}-")) && file.ends_with(".rlib")
+    };
+    let found = files.map(|file| file.path()).filter(is_it);
+    let modified = |path: &PathBuf| path.metadata().unwrap().modified().unwrap();
+    found.max_by_key(modified).unwrap()
+}
+
+/// Compiles a program by rustc.
+fn compiled(text: &str, folder: &Folder) -> PathBuf {
+    let own = std::env::current_exe().unwrap();
+    let dependencies = own.parent().unwrap();
+    std::fs::create_dir_all(&folder.0).unwrap();
+    let (source, program) = (folder.0.join("main.rs"), folder.0.join("main"));
+    std::fs::write(&source, text).unwrap();
+    let mut rustc = Command::new("rustc");
+    rustc.args(["--edition=2024", "-Copt-level=1", "--cap-lints=allow"]);
+    rustc.arg("-L").arg(dependencies);
+    for name in ["dalembert_sines", "libm"] {
+        let library = library(dependencies, name);
+        rustc
+            .arg("--extern")
+            .arg(format!("{name}={}", library.display()));
+    }
+    let done = rustc.arg(&source).arg("-o").arg(&program).output().unwrap();
+    assert!(
+        done.status.success(),
+        "{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    program
+}
+
+/// A float as bytes.
+trait Bytes: Real {
+    fn put(self, bytes: &mut Vec<u8>);
+    fn take(bytes: &mut &[u8]) -> Self;
+}
+macro_rules! bytes {
+    ($t:ty) => {
+        impl Bytes for $t {
+            fn put(self, bytes: &mut Vec<u8>) {
+                bytes.extend(self.to_le_bytes());
+            }
+            fn take(bytes: &mut &[u8]) -> Self {
+                let (own, rest) = bytes.split_first_chunk().unwrap();
+                *bytes = rest;
+                <$t>::from_le_bytes(*own)
+            }
+        }
+    };
+}
+bytes!(f32);
+bytes!(f64);
+
+/// The arguments of the states of a function, after those of others.
+fn put<T: Bytes>(function: &Function, input: &mut Vec<u8>) {
+    let states = drawn::<T>(function.native(), STATES, 7);
+    for at in 0..STATES {
+        let arguments = state(function.native(), &states, at);
+        arguments
+            .iter()
+            .flatten()
+            .for_each(|&entry| entry.put(input));
+    }
+}
+
+/// Compares results of the program with those of the code in memory.
+fn compare<T: Bytes>(name: &str, function: &Function, output: &mut &[u8]) {
+    let native = function.native();
+    let states = drawn::<T>(native, STATES, 7);
+    let mut found = vec![T::default(); native.program().outputs.len()];
+    for at in 0..STATES {
+        let arguments = state(native, &states, at);
+        let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
+        native.call(&slices, &mut found).unwrap();
+        for (entry, &found) in found.iter().enumerate() {
+            let expected = T::take(output);
+            let function = function.name();
+            assert!(
+                is_same(found, expected),
+                "{name}, {function}, result {entry}: {found:?} for {expected:?} at {arguments:?}"
+            );
+        }
+    }
+}
+
+fn same_as_rustc(name: &str, outputs: Option<Vec<Output>>, sincos: SinCos) {
+    let load = Load {
+        outputs,
+        scalars: Some(Scalar::ALL.to_vec()),
+        sincos,
+        ..fresh()
+    };
+    let arm = robot(name, &load);
+    let folder = Folder::new(&format!("rustc-{name}-{sincos:?}"));
+    let program = compiled(&program(&arm), &folder);
+    let mut input = Vec::new();
+    for function in arm.functions() {
+        match function.scalar() {
+            Scalar::F64 => put::<f64>(function, &mut input),
+            Scalar::F32 => put::<f32>(function, &mut input),
+        }
+    }
+    let mut process = Command::new(program)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    process.stdin.take().unwrap().write_all(&input).unwrap();
+    let output = process.wait_with_output().unwrap();
+    assert!(output.status.success());
+    let mut output = output.stdout.as_slice();
+    for function in arm.functions() {
+        match function.scalar() {
+            Scalar::F64 => compare::<f64>(name, function, &mut output),
+            Scalar::F32 => compare::<f32>(name, function, &mut output),
+        }
+    }
+    assert!(output.is_empty());
+}
+
+#[test]
+fn all_outputs_of_a_small_arm_by_either_library_of_sines() {
+    for sincos in [SinCos::Auto, SinCos::Libm] {
+        same_as_rustc("planar2r", Some(Output::ALL.to_vec()), sincos);
+    }
+}
+
+#[test]
+fn outputs_by_default_of_a_larger_arm() {
+    same_as_rustc("panda", None, SinCos::Auto);
+}
+
+#[test]
+#[ignore = "rustc takes minutes for the larger ones"]
+fn all_outputs_of_six_robots() {
+    for name in ROBOTS {
+        same_as_rustc(name, Some(Output::ALL.to_vec()), SinCos::Auto);
+    }
+}

@@ -1,0 +1,240 @@
+//! Robots, states, and what is expected at them.
+
+use std::path::{Path, PathBuf};
+
+use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::program::columns::Columns;
+use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real, Rows, RowsMut};
+
+/// The robots of `generated/`.
+pub const ROBOTS: [&str; 6] = [
+    "puma560", "stanford", "ur10", "panda", "planar2r", "planar3r",
+];
+
+/// How many states a function is compared at: without optimisation a dose.
+pub const STATES: usize = if cfg!(debug_assertions) {
+    1_000
+} else {
+    100_000
+};
+
+/// A file of the project.
+pub fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)
+}
+
+/// A robot of `generated/`, with the plan beside its file.
+pub fn robot(name: &str, load: &Load) -> Arm {
+    let path = path(&format!("generated/robots/{name}.toml"));
+    Arm::load(path, load).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// Nothing kept.
+pub fn fresh() -> Load {
+    Load {
+        cache: Cache::Off,
+        ..Load::default()
+    }
+}
+
+/// A folder that is removed at the end.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Folder {
+        let path = std::env::temp_dir().join(format!("dalembert-{name}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&path);
+        Folder(path)
+    }
+
+    pub fn load(&self) -> Load {
+        Load {
+            outputs: Some(vec![Output::Gravity]),
+            cache: Cache::At(self.0.clone()),
+            ..Load::default()
+        }
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Numbers of splitmix64.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Mostly within the reach; one of 200 is large, tiny, infinite or no number.
+    fn entry(&mut self, reach: f64) -> f64 {
+        const SPECIAL: [f64; 10] = [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            -0.0,
+            8192.0,
+            8192.5,
+            -100.25,
+            1e22,
+            5e-324,
+            -1e-40,
+        ];
+        match self.bits() % 200 {
+            0 => SPECIAL[self.bits() as usize % SPECIAL.len()],
+            _ => (2.0 * self.unit() - 1.0) * reach,
+        }
+    }
+}
+
+/// States in columns.
+pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Columns<T> {
+    let mut random = Random(seed);
+    let mut columns = Columns {
+        len: states,
+        ..Columns::default()
+    };
+    for &(argument, entries) in &native.signature().arguments {
+        let reach = match argument {
+            Argument::Position => 7.0,
+            other => other.reach(),
+        };
+        let mut column = |_| {
+            (0..states)
+                .map(|_| T::literal(random.entry(reach)))
+                .collect()
+        };
+        columns.arguments[argument.index()] = (0..entries).map(&mut column).collect();
+    }
+    columns
+}
+
+/// Equal bits, or both no number.
+pub fn is_same<T: Real>(left: T, right: T) -> bool {
+    let (left, right) = (left.to_f64(), right.to_f64());
+    left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
+}
+
+/// One state of columns, an array an argument.
+pub fn state<T: Real>(native: &Native, columns: &Columns<T>, at: usize) -> Vec<Vec<T>> {
+    let arguments = native.signature().arguments.iter();
+    let of = |&(argument, _): &(Argument, usize)| {
+        columns.arguments[argument.index()]
+            .iter()
+            .map(|column| column[at])
+            .collect()
+    };
+    arguments.map(of).collect()
+}
+
+/// The code for many states, its arguments and results as columns or as rows.
+pub fn called<T: Real>(
+    native: &Native,
+    columns: &Columns<T>,
+    in_rows: bool,
+    threads: usize,
+) -> Vec<Vec<T>> {
+    let (signature, states) = (native.signature(), columns.len);
+    let place = |entries| match in_rows {
+        true => Place::rows(entries),
+        false => Place::columns(entries, states),
+    };
+    let flat = |argument: Argument| -> Vec<T> {
+        let own = &columns.arguments[argument.index()];
+        match in_rows {
+            true => (0..states)
+                .flat_map(|at| own.iter().map(move |column| column[at]))
+                .collect(),
+            false => own.iter().flatten().copied().collect(),
+        }
+    };
+    let data: Vec<Vec<T>> = signature.arguments.iter().map(|&(a, _)| flat(a)).collect();
+    let rows = data.iter().zip(&signature.arguments);
+    let rows: Vec<Rows<'_, T>> = rows
+        .map(|(data, &(_, entries))| Rows {
+            data,
+            place: place(entries),
+        })
+        .collect();
+    let mut found: Vec<Vec<T>> = signature
+        .results
+        .iter()
+        .map(|entries| vec![T::default(); entries * states])
+        .collect();
+    let results = found.iter_mut().zip(&signature.results);
+    let mut results: Vec<RowsMut<'_, T>> = results
+        .map(|(data, &entries)| RowsMut {
+            data,
+            place: place(entries),
+        })
+        .collect();
+    native
+        .call_rows(&rows, &mut results, states, threads)
+        .unwrap();
+    let mut all = Vec::new();
+    for (found, &entries) in found.iter().zip(&signature.results) {
+        for entry in 0..entries {
+            let at = |state: usize| match in_rows {
+                true => found[state * entries + entry],
+                false => found[entry * states + state],
+            };
+            all.push((0..states).map(at).collect());
+        }
+    }
+    all
+}
+
+/// Compares the code with the interpreter: one state, columns, and rows, at so many states.
+pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
+    const CHUNK: usize = 999;
+    let mut done = 0;
+    let mut results = vec![T::default(); native.program().outputs.len()];
+    while done < states {
+        let len = CHUNK.min(states - done);
+        let columns = drawn::<T>(native, len, done as u64 + 1);
+        let expected = native.program().run_columns(&columns);
+        let many = [false, true].map(|in_rows| called(native, &columns, in_rows, 1));
+        for at in 0..len {
+            let arguments = state(native, &columns, at);
+            let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
+            native.call(&slices, &mut results).unwrap();
+            for (entry, expected) in expected.iter().enumerate() {
+                for found in [results[entry], many[0][entry][at], many[1][entry][at]] {
+                    assert!(
+                        is_same(expected[at], found),
+                        "{name}: result {entry} is {found:?}, expected {:?} at {arguments:?}",
+                        expected[at]
+                    );
+                }
+            }
+        }
+        done += len;
+    }
+}
+
+/// Compares every function of an arm.
+pub fn compare_all(name: &str, arm: &Arm, states: usize) {
+    for function in arm.functions() {
+        let name = format!(
+            "{name}: {} in {}",
+            function.name(),
+            function.scalar().name()
+        );
+        match function.scalar() {
+            dalembert_jit::Scalar::F64 => compare::<f64>(&name, function.native(), states),
+            dalembert_jit::Scalar::F32 => compare::<f32>(&name, function.native(), states),
+        }
+    }
+}

@@ -1,0 +1,21 @@
+"""Dynamics of robot arms: searched for, proved and compiled in memory for one arm.
+
+>>> import dalembert
+>>> arm = dalembert.load("panda.urdf", tip="panda_link8")   # doctest: +SKIP
+>>> tau = arm.inverse_dynamics(q, qd, qdd)                  # doctest: +SKIP
+
+Angles are in rad, lengths in m, masses in kg, torques in N·m, forces in N.
+"""
+
+from ._arm import Arm, Joint, Limits, load
+from ._dalembert import Function
+
+__all__ = ["Arm", "Function", "Joint", "Limits", "load", "outputs"]
+__version__ = "0.1.0"
+
+
+def outputs() -> dict[str, str]:
+    """Return the names of all outputs that ``load`` can be asked for, with a line each."""
+    from . import _dalembert
+
+    return dict(_dalembert.outputs())

@@ -1,0 +1,308 @@
+"""Arms: loading them, and what they know of themselves."""
+
+from __future__ import annotations
+
+import os
+from collections import namedtuple
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
+
+from . import _dalembert
+from ._progress import Line, is_watched
+from ._toml import text
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Joint(NamedTuple):
+    """A joint: its name, and whether it is ``revolute`` or ``prismatic``."""
+
+    name: str
+    kind: str
+
+
+class Limits(NamedTuple):
+    """Limits of all joints, an entry a joint; an infinity where there is none."""
+
+    lower: NDArray[np.float64]
+    """Lowest positions, rad or m."""
+    upper: NDArray[np.float64]
+    """Highest positions, rad or m."""
+    velocity: NDArray[np.float64]
+    """Largest speeds, rad/s or m/s."""
+    acceleration: NDArray[np.float64]
+    """Largest accelerations, rad/s² or m/s²."""
+    torque: NDArray[np.float64]
+    """Largest torques or forces, N·m or N."""
+
+
+class Arm:
+    """An arm: its functions as methods, compiled for it.
+
+    Which there are, ``load`` was told. Each takes one state, arrays of shape ``(n,)``, or
+    many, ``(N, n)``, broadcast against each other; see :class:`dalembert.Function`.
+    """
+
+    def __init__(self, native: _dalembert.Arm, nan: str) -> None:
+        self._native = native
+        self._functions: dict[str, _dalembert.Function] = {}
+        for name in dict.fromkeys(about["name"] for about in native.functions):
+            function = native.function(name, None, nan == "raise")
+            results = [field for field, _ in function.results]
+            if len(results) > 1:
+                title = "".join(word.capitalize() for word in name.split("_"))
+                structure = namedtuple(title, results)  # type: ignore[misc]
+                function = native.function(name, structure, nan == "raise")
+            self._functions[name] = function
+        self.__dict__.update(self._functions)
+
+    def __getattr__(self, name: str) -> _dalembert.Function:
+        # Functions are attributes of their own: these are what there is not.
+        if name in dict(_dalembert.outputs()):
+            functions = ", ".join(self.__dict__.get("_functions", {}))
+            raise AttributeError(
+                f"this arm was loaded without {name!r}: add it to outputs=, which were {functions}"
+            )
+        raise AttributeError(f"an arm has no {name!r}")
+
+    @property
+    def functions(self) -> Mapping[str, _dalembert.Function]:
+        """The functions by name."""
+        return dict(self._functions)
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return self._native.name
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The joints, from the base to the hand: q, qd and qdd have their order."""
+        return tuple(Joint(name, kind) for name, kind in self._native.joints)
+
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """The frames: the base, that of each joint's link, and the hand."""
+        return ("base", *(joint.name for joint in self.joints), "hand")
+
+    @property
+    def limits(self) -> Limits:
+        """The joints' limits, rounded to nearest."""
+        import numpy as np
+
+        return Limits(*np.array(self._native.limits).reshape(-1, 5).T.copy())
+
+    @property
+    def counts(self) -> dict[str, dict[str, int]]:
+        """The operations of each function."""
+        return {about["name"]: about["counts"] for about in reversed(self._native.functions)}
+
+    @property
+    def proof(self) -> dict[str, str]:
+        """What was proved of each function, in a sentence."""
+        return {about["name"]: about["proof"] for about in self._native.functions}
+
+    @property
+    def certificate(self) -> list[Any]:
+        """The certificates of a scene with a tolerance, as the command writes them."""
+        import json
+
+        found = json.loads(self._native.certificates or "[]")
+        return found if isinstance(found, list) else [found]
+
+    @property
+    def notes(self) -> list[str]:
+        """What there is to know of the robot: warnings, and numbers taken for others."""
+        return self._native.notes
+
+    @property
+    def is_from_cache(self) -> bool:
+        """Whether nothing was searched for and proved now, since it was kept."""
+        return self._native.is_from_cache
+
+    @property
+    def has_ended_early(self) -> bool:
+        """Whether Ctrl-C ended the search: these are the best functions so far."""
+        return self._native.has_ended_early
+
+    def to_rust(self, path: Path) -> None:
+        """Write the functions as flat Rust, as the command does."""
+        _write(path, self._native.rust)
+
+    def to_c(self, path: Path) -> None:
+        """Write the functions as one header of C99, which C++ reads too; proved once more."""
+        _write(path, self._native.c())
+
+    def save(self, path: Path) -> None:
+        """Write the robot file, and beside it the plan with the programs found.
+
+        ``load(path)`` and the command then search for nothing again. ``path`` ends in
+        ``.toml``; the plan's name ends in ``.plan``.
+        """
+        root, extension = os.path.splitext(os.fspath(path))
+        if extension != ".toml":
+            raise ValueError(f"path: a robot file's name ends in .toml, found {extension!r}")
+        _write(path, self._native.robot_file)
+        _write(root + ".plan", self._native.plan)
+
+    def svg(self, q: ArrayLike | None = None) -> str:
+        """Draw the arm at a position, zero by default, in two views with its table."""
+        import numpy as np
+
+        n = len(self.joints)
+        position = np.zeros(n) if q is None else np.asarray(q, dtype=float)
+        if position.shape != (n,):
+            raise ValueError(f"svg: argument `q` has shape {position.shape}, expected ({n},)")
+        return self._native.svg(position.tolist())
+
+    def __repr__(self) -> str:
+        functions = ", ".join(self._functions)
+        return f"<dalembert.Arm {self.name!r}: {len(self.joints)} joints; {functions}>"
+
+    def _repr_html_(self) -> str:
+        """Return the drawing and the table of functions, for notebooks."""
+        import html
+
+        rows = "".join(
+            "<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in cells) + "</tr>"
+            for cells in (
+                (
+                    about["name"],
+                    about["scalar"],
+                    about["counts"]["mul"],
+                    about["counts"]["add"],
+                    about["counts"]["sincos"],
+                    about["proof"],
+                )
+                for about in self._native.functions
+            )
+        )
+        heads = "".join(f"<th>{head}</th>" for head in _HEADS)
+        return f"<div>{self.svg()}<table><tr>{heads}</tr>{rows}</table></div>"
+
+
+_HEADS = ("function", "scalar", "mul", "add", "sincos", "proved")
+
+
+def _write(path: Path, text: str) -> None:
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
+        file.write(text)
+
+
+def _locked(lock: Mapping[str, float | str] | str | None) -> list[tuple[str, str]]:
+    if lock is None:
+        return []
+    if isinstance(lock, str):
+        if lock != "*":
+            raise ValueError(f'lock: expected "*" or a dictionary of positions, found {lock!r}')
+        return [("*", "0")]
+    return [(joint, str(at)) for joint, at in lock.items()]
+
+
+def _words(option: str, value: str | Iterable[str] | None) -> list[str] | None:
+    if value is None:
+        return None
+    words = [value] if isinstance(value, str) else list(value)
+    for word in words:
+        if not isinstance(word, str):
+            raise TypeError(f"{option}: expected names, found {word!r}")
+    return words
+
+
+def load(
+    source: Path | Mapping[str, Any],
+    *,
+    base: str | None = None,
+    tip: str | None = None,
+    lock: Mapping[str, float | str] | Literal["*"] | None = None,
+    without: str | Sequence[str] = (),
+    exact: bool = False,
+    outputs: str | Sequence[str] | None = None,
+    scalar: str | Sequence[str] | None = None,
+    parameters: str | Sequence[str] = (),
+    scene: str | None = None,
+    effort: str = "quick",
+    prefer: str = "accuracy",
+    sincos: str = "auto",
+    nan: str = "propagate",
+    cache: bool | Path = True,
+    progress: bool | None = None,
+) -> Arm:
+    """Load an arm: search for its functions, prove each, and compile them in memory.
+
+    Parameters
+    ----------
+    source
+        The path of a URDF or of a robot file, or a dictionary with what a robot file has.
+    base, tip
+        Of a URDF: the link that stands still, and the one whose frame is the hand.
+    lock
+        Of a URDF: joints that stay where they are, each with its position, such as
+        ``{"gripper": 0}`` or ``{"elbow": "90deg"}``; ``"*"``: all that hang on the chain, at
+        zero or the limit nearest to it.
+    without
+        Of a URDF: links to leave away, with everything that hangs on them.
+    exact
+        Of a URDF: take every digit as it stands; else 1.57079632679 is π/2.
+    outputs
+        The functions, of those that :func:`dalembert.outputs` lists, or
+        ``"NAME=OUTPUT+OUTPUT"``: one that returns what several do and shares their work.
+    scalar
+        ``"f64"``, the default, ``"f32"`` or both: arrays of float32 then are computed as
+        such.
+    parameters
+        What is an argument instead of a constant: ``"gravity"``, then functions take ``g``
+        (3,); ``"payload"``, then they take ``load``, which ``arm.load(payload)`` computes of
+        mass, centre of mass and inertia (10,).
+    scene
+        A scene of the robot file, with its tolerance, if it has one.
+    effort, prefer, sincos
+        ``"quick"`` or ``"thorough"``; ``"accuracy"``, ``"operations"`` or ``"latency"``;
+        ``"auto"``, ``"together"``, ``"libm"`` or ``"polynomial"``: as the command has them.
+    nan
+        ``"propagate"``: a NaN reaches the results that depend on it; ``"raise"``: it is a
+        ``ValueError`` that says where it is.
+    cache
+        Whether work is kept for the next time, or in which folder.
+    progress
+        Whether to show how far a search is; if ``None``, a thorough one in a terminal or a
+        notebook. Ctrl-C ends a thorough search with the best so far, any other without a
+        result.
+    """
+    if nan not in ("propagate", "raise"):
+        raise ValueError(f'nan: expected "propagate" or "raise", found {nan!r}')
+    options = {
+        "base": base,
+        "tip": tip,
+        "lock": _locked(lock),
+        "without": _words("without", without),
+        "exact": exact,
+        "outputs": _words("outputs", outputs),
+        "scalar": _words("scalar", scalar),
+        "parameters": _words("parameters", parameters),
+        "scene": scene,
+        "effort": effort,
+        "prefer": prefer,
+        "sincos": sincos,
+        "cache": bool(cache),
+        "cache_folder": None if isinstance(cache, bool) else os.fspath(cache),
+    }
+    if progress is None:
+        progress = effort == "thorough" and is_watched()
+    show = Line() if progress else None
+    try:
+        if isinstance(source, Mapping):
+            native = _dalembert.load("the dictionary", text(source), options, show)
+        else:
+            path = os.fspath(source)
+            if not os.path.exists(path):
+                raise FileNotFoundError(f"there is no file {path!r}")
+            native = _dalembert.load(path, None, options, show)
+    finally:
+        if show is not None:
+            show.end()
+    return Arm(native, nan)

@@ -1,0 +1,163 @@
+//! What is known of an arm.
+
+use std::sync::Arc;
+
+use dalembert_jit::Output;
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::{Joint, JointKind, Position};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::function::Function;
+use crate::load::raised;
+
+/// An arm; `dalembert.Arm` is what users have of it.
+#[pyclass(frozen, module = "dalembert._dalembert")]
+pub struct Arm(pub(crate) Arc<dalembert_jit::Arm>);
+
+/// Returns the names of all outputs, each with a line about it.
+#[pyfunction]
+pub fn outputs() -> Vec<(&'static str, &'static str)> {
+    let about = |output: Output| (output.name(), output.summary());
+    Output::ALL.into_iter().map(about).collect()
+}
+
+#[pymethods]
+impl Arm {
+    /// The robot's name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.robot().name
+    }
+
+    /// The joints: their names and kinds.
+    #[getter]
+    fn joints(&self) -> Vec<(String, &'static str)> {
+        let joints = self.0.robot().joints.iter().enumerate();
+        let of = |(index, joint): (usize, &Joint)| {
+            let name = joint.name.clone();
+            let name = name.unwrap_or_else(|| format!("joint{}", index + 1));
+            let kind = match joint.kind {
+                JointKind::Revolute => "revolute",
+                JointKind::Prismatic => "prismatic",
+            };
+            (name, kind)
+        };
+        joints.map(of).collect()
+    }
+
+    /// Each joint's limits: lowest and highest position, velocity, acceleration, torque;
+    /// an infinity where there is none.
+    #[getter]
+    fn limits(&self) -> Vec<[f64; 5]> {
+        let value = |position: &Position| match position {
+            Position::Angle(angle) => angle.to_f64(),
+            Position::Length(length) => f64::nearest_rational(length),
+        };
+        let joints = self.0.robot().joints.iter().map(|joint| {
+            let limits = &joint.limits;
+            let all = [f64::NEG_INFINITY, f64::INFINITY];
+            let [low, high] = limits
+                .position
+                .as_ref()
+                .map_or(all, |l| l.each_ref().map(value));
+            let [velocity, acceleration, torque] =
+                [&limits.velocity, &limits.acceleration, &limits.torque]
+                    .map(|most| most.as_ref().map_or(f64::INFINITY, f64::nearest_rational));
+            [low, high, velocity, acceleration, torque]
+        });
+        joints.collect()
+    }
+
+    /// Operations and proof of each function, by name and scalar.
+    #[getter]
+    fn functions<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let about = |function: &dalembert_jit::Function| {
+            let counts = function.counts();
+            let all = PyDict::new(py);
+            for (name, count) in [
+                ("mul", counts.mul),
+                ("add", counts.add),
+                ("div", counts.div),
+                ("sqrt", counts.sqrt),
+                ("sincos", counts.sincos),
+                ("trig_mul", counts.trig_mul),
+                ("trig_add", counts.trig_add),
+            ] {
+                all.set_item(name, count)?;
+            }
+            let said = PyDict::new(py);
+            said.set_item("name", function.name())?;
+            said.set_item("scalar", function.scalar().name())?;
+            said.set_item("proof", function.proof())?;
+            said.set_item("counts", all)?;
+            Ok(said)
+        };
+        self.0.functions().iter().map(about).collect()
+    }
+
+    /// A function by its name; `structure` makes the named tuple of several results.
+    #[pyo3(signature = (name, structure, refuses_nan))]
+    fn function(
+        &self,
+        name: &str,
+        structure: Option<Py<PyAny>>,
+        refuses_nan: bool,
+    ) -> PyResult<Function> {
+        Function::new(&self.0, name, structure, refuses_nan)
+    }
+
+    /// The certificates of a scene's tolerance, as JSON.
+    #[getter]
+    fn certificates(&self) -> Option<&str> {
+        self.0.certificates()
+    }
+
+    /// What there is to know of the robot and its functions.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.notes().to_vec()
+    }
+
+    /// Whether nothing was searched for, since it was kept.
+    #[getter]
+    fn is_from_cache(&self) -> bool {
+        self.0.is_from_cache()
+    }
+
+    /// Whether the search was ended early.
+    #[getter]
+    fn has_ended_early(&self) -> bool {
+        self.0.has_ended_early()
+    }
+
+    /// The functions as Rust.
+    #[getter]
+    fn rust(&self) -> &str {
+        self.0.rust()
+    }
+
+    /// The functions as one header of C99.
+    fn c(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| self.0.c()).map_err(|error| raised(&error))
+    }
+
+    /// The robot as a robot file.
+    #[getter]
+    fn robot_file(&self) -> &str {
+        self.0.robot_file()
+    }
+
+    /// The programs that were found, as a plan beside the robot file.
+    #[getter]
+    fn plan(&self) -> &str {
+        self.0.plan()
+    }
+
+    /// The arm at a position, drawn as SVG.
+    fn svg(&self, q: Vec<f64>) -> PyResult<String> {
+        dalembert_report::drawing::svg(self.0.robot(), &q)
+            .map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+}

@@ -1,0 +1,216 @@
+//! Functions: what is known of them, and their arguments by place or by name.
+
+use std::sync::Arc;
+
+use dalembert_jit::{Function as Compiled, Real, Scalar};
+use numpy::{Element, PyArrayDyn};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::call::Call;
+use crate::convert::dtype;
+use crate::results::Quantity;
+use crate::shape::shown;
+use crate::xla;
+
+/// A function of an arm, in one scalar or both.
+///
+/// Call it with NumPy arrays: one state, ``(n,)``, or many, ``(N, n)``, which may be
+/// broadcast against each other. Results have the same leading axes.
+#[pyclass(frozen, module = "dalembert")]
+pub struct Function {
+    arm: Arc<dalembert_jit::Arm>,
+    /// Where it is among the arm's functions, in each scalar that it is compiled in.
+    places: Vec<usize>,
+    arguments: Vec<&'static str>,
+    quantities: Vec<Quantity>,
+    /// What several results are returned in.
+    structure: Option<Py<PyAny>>,
+    refuses_nan: bool,
+}
+
+impl Function {
+    /// Finds the function of a name in every scalar.
+    pub(crate) fn new(
+        arm: &Arc<dalembert_jit::Arm>,
+        name: &str,
+        structure: Option<Py<PyAny>>,
+        refuses_nan: bool,
+    ) -> PyResult<Function> {
+        let all = arm.functions().iter().enumerate();
+        let named = all.filter(|(_, function)| function.name() == name);
+        let places: Vec<usize> = named.map(|(place, _)| place).collect();
+        let Some(any) = places.first().map(|&place| &arm.functions()[place]) else {
+            return Err(PyValueError::new_err(format!(
+                "there is no function `{name}`"
+            )));
+        };
+        let shape = |quantity: &dalembert_jit::Quantity| {
+            let lengths = quantity.shape().lengths(any.sizes());
+            (quantity.field(), lengths.collect())
+        };
+        let arguments = any.native().signature().arguments.iter();
+        Ok(Function {
+            arguments: arguments.map(|(argument, _)| argument.name()).collect(),
+            quantities: any.output().quantities().iter().map(shape).collect(),
+            arm: arm.clone(),
+            places,
+            structure,
+            refuses_nan,
+        })
+    }
+
+    /// Returns the code, in each scalar that there is code for.
+    fn compiled(&self) -> impl Iterator<Item = &Compiled> {
+        let all = self.arm.functions();
+        self.places.iter().map(|&place| &all[place])
+    }
+
+    fn in_scalar(&self, scalar: Scalar) -> Option<&Compiled> {
+        self.compiled().find(|function| function.scalar() == scalar)
+    }
+}
+
+#[pymethods]
+impl Function {
+    /// The function's name.
+    #[getter]
+    fn __name__(&self) -> &'static str {
+        self.compiled().next().map_or("", Compiled::name)
+    }
+
+    /// The names of the arguments, in order.
+    #[getter]
+    fn arguments(&self) -> Vec<&'static str> {
+        self.arguments.clone()
+    }
+
+    /// The results by name, each with its shape for one state.
+    #[getter]
+    fn results(&self) -> Vec<Quantity> {
+        self.quantities.clone()
+    }
+
+    /// The dtypes that it computes in.
+    #[getter]
+    fn dtypes(&self) -> Vec<&'static str> {
+        self.compiled().map(|own| dtype(own.scalar())).collect()
+    }
+
+    /// Makes it known to compiled programs of JAX, and returns the number by which they call
+    /// it. The arm then lives as long as the process.
+    fn xla(&self, name: &str) -> PyResult<u64> {
+        let mut all = self.places.iter().copied();
+        let place = all.find(|&place| dtype(self.arm.functions()[place].scalar()) == name);
+        let place = place.ok_or_else(|| {
+            let (own, dtypes) = (self.__name__(), self.dtypes().join(" and "));
+            PyTypeError::new_err(format!(
+                "{own}: arrays are {name}, but the arm computes in {dtypes}"
+            ))
+        })?;
+        Ok(xla::register(&self.arm, place))
+    }
+
+    fn __repr__(&self) -> String {
+        let results = self.quantities.iter();
+        let results: Vec<String> = results
+            .map(|(name, shape)| format!("{name} {}", shown(shape)))
+            .collect();
+        let (name, arguments) = (self.__name__(), self.arguments.join(", "));
+        format!("{name}({arguments}) -> {}", results.join(", "))
+    }
+
+    #[pyo3(signature = (*args, out=None, threads=1, **kwargs))]
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        args: &Bound<'py, PyTuple>,
+        out: Option<Bound<'py, PyAny>>,
+        threads: usize,
+        kwargs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = self.given(args, kwargs)?;
+        if threads == 0 {
+            let name = self.__name__();
+            return Err(PyValueError::new_err(format!(
+                "{name}: `threads` is 0, expected 1 or more"
+            )));
+        }
+        let out = out.as_ref().filter(|out| !out.is_none());
+        // Of both, floats are for who gives nothing else.
+        let is_f32 = |array: &Bound<'_, PyAny>| array.cast::<PyArrayDyn<f32>>().is_ok();
+        match (self.in_scalar(Scalar::F64), self.in_scalar(Scalar::F32)) {
+            (Some(own), None) => self.call::<f64>(py, own, &given, out, threads),
+            (None, Some(own)) => self.call::<f32>(py, own, &given, out, threads),
+            (Some(_), Some(own)) if given.iter().all(is_f32) => {
+                self.call::<f32>(py, own, &given, out, threads)
+            }
+            (Some(own), Some(_)) => self.call::<f64>(py, own, &given, out, threads),
+            (None, None) => Err(PyTypeError::new_err("nothing was compiled")),
+        }
+    }
+}
+
+impl Function {
+    /// Returns the arguments in order, given by place or by name.
+    fn given<'py>(
+        &self,
+        args: &Bound<'py, PyTuple>,
+        kwargs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let names = &self.arguments;
+        let mut given: Vec<Bound<'py, PyAny>> = args.iter().collect();
+        let wrong = |what: String| {
+            let (name, arguments) = (self.__name__(), names.join(", "));
+            Err(PyTypeError::new_err(format!("{name}({arguments}): {what}")))
+        };
+        if given.len() > names.len() {
+            let (expected, found) = (names.len(), given.len());
+            return wrong(format!("expected {expected} arguments, {found} were given"));
+        }
+        for name in kwargs.iter().flat_map(|kwargs| kwargs.keys()) {
+            let name: String = name.extract()?;
+            match names.iter().position(|own| *own == name) {
+                None => return wrong(format!("there is no argument `{name}`")),
+                Some(place) if place < args.len() => {
+                    return wrong(format!("argument `{name}` is given twice"));
+                }
+                Some(_) => {}
+            }
+        }
+        for name in &names[given.len()..] {
+            let value = kwargs.map(|kwargs| kwargs.get_item(name)).transpose()?;
+            match value.flatten() {
+                Some(value) => given.push(value),
+                None => return wrong(format!("argument `{name}` is missing")),
+            }
+        }
+        Ok(given)
+    }
+
+    fn call<'py, T: Real + Element>(
+        &self,
+        py: Python<'py>,
+        function: &Compiled,
+        given: &[Bound<'py, PyAny>],
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let call = Call {
+            function,
+            quantities: &self.quantities,
+            refuses_nan: self.refuses_nan,
+            threads,
+        };
+        let mut results = call.run::<T>(py, given, out)?.into_iter();
+        match (&self.structure, results.next()) {
+            (None, Some(result)) => Ok(result.into_any()),
+            (Some(structure), first) => {
+                let all: Vec<_> = first.into_iter().chain(results).collect();
+                structure.bind(py).call1(PyTuple::new(py, all)?)
+            }
+            (None, None) => Err(PyTypeError::new_err("the function has no results")),
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! The Rust side of the Python package: arms, and functions that take NumPy arrays.
+//!
+//! - `load`: loading an arm, with progress and an end by Ctrl-C
+//! - `arm`: what is known of an arm
+//! - `function`: what is known of a function, and its arguments by place or by name
+//! - `call`: a call with arrays; `convert`: objects as arrays, `shape`: broadcasting,
+//!   `results`: where results go
+//! - `xla`: calls from compiled programs of JAX
+//! - `memory`: arrays and buffers as slices: all that is `unsafe`
+#![deny(unsafe_code)]
+
+mod arm;
+mod call;
+mod convert;
+mod function;
+mod load;
+mod memory;
+mod results;
+mod shape;
+mod xla;
+
+use std::ffi::OsString;
+
+use pyo3::prelude::*;
+
+/// Runs the command with its arguments, the first of which is its name, and returns the exit
+/// code.
+#[pyfunction]
+fn command(arguments: Vec<OsString>) -> u8 {
+    dalembert_cli::run(arguments)
+}
+
+/// The compiled part of `dalembert`.
+#[pymodule]
+mod _dalembert {
+    #[pymodule_export]
+    use super::arm::{Arm, outputs};
+    #[pymodule_export]
+    use super::command;
+    #[pymodule_export]
+    use super::function::Function;
+    #[pymodule_export]
+    use super::load::load;
+    #[pymodule_export]
+    use super::memory::xla_handler;
+}

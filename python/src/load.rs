@@ -1,0 +1,192 @@
+//! Loading an arm, with progress and an end by Ctrl-C.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use dalembert_jit::watch::{Observer, Progress, Watch};
+use dalembert_jit::words::{Word, bundle, parse};
+use dalembert_jit::{Cache, Effort, Load, LoadError};
+use pyo3::conversion::FromPyObjectOwned;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arm::Arm;
+
+/// How often a waiting interpreter looks for signals.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Deep expressions of large arms.
+const STACK: usize = 64 << 20;
+
+/// Who waits: what to show, and whether to end.
+#[derive(Default)]
+struct Waiting {
+    last: Mutex<Option<Progress>>,
+    stop: AtomicBool,
+}
+
+impl Observer for Waiting {
+    fn step(&self, progress: &Progress) {
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(*progress);
+    }
+
+    fn stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+impl Waiting {
+    /// Shows how far it is, if that has changed: a text, and a part of one.
+    fn show(&self, progress: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(news) = last.take() else {
+            return Ok(());
+        };
+        drop(last);
+        let best = news.best.map(|best| format!(", best {best}"));
+        let text = format!(
+            "{}: {}{}",
+            news.function,
+            news.part,
+            best.unwrap_or_default()
+        );
+        let done = (news.rounds > 0).then(|| news.round as f64 / news.rounds as f64);
+        progress.call1((text, done))?;
+        Ok(())
+    }
+}
+
+/// Loads an arm from a file, or from the text of a robot file with a name for messages;
+/// `options` are those of `dalembert.load`.
+#[pyfunction]
+#[pyo3(signature = (path, text, options, progress))]
+pub fn load(
+    py: Python<'_>,
+    path: PathBuf,
+    text: Option<String>,
+    options: &Bound<'_, PyDict>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Arm> {
+    let waiting = Arc::new(Waiting::default());
+    let mut load = wanted(&Options(options))?;
+    load.watch = Watch::by(waiting.clone());
+    let is_thorough = load.effort == Effort::Thorough;
+    let (sender, receiver) = channel();
+    // Shared with the closure that waits while other threads of Python run.
+    let receiver = Mutex::new(receiver);
+    let work = move || {
+        let arm = match text {
+            Some(text) => dalembert_jit::Arm::parse(&text, &path.display().to_string(), &load),
+            None => dalembert_jit::Arm::load(path, &load),
+        };
+        // Nobody may wait any more.
+        let _ = sender.send(arm);
+    };
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(work);
+    thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    loop {
+        let found = py.detach(|| {
+            let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
+            receiver.recv_timeout(PATIENCE)
+        });
+        match found {
+            Ok(Ok(arm)) => return Ok(Arm(Arc::new(arm))),
+            Ok(Err(error)) => return Err(raised(&error)),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the search ended without a result"));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if let Err(error) = py.check_signals() {
+            // A thorough search has a best so far, the first time that it is asked for.
+            let is_first = !waiting.stop.swap(true, Ordering::Relaxed);
+            if !(is_thorough && is_first && error.is_instance_of::<PyKeyboardInterrupt>(py)) {
+                return Err(error);
+            }
+        }
+        if let Some(progress) = &progress {
+            waiting.show(progress)?;
+        }
+    }
+}
+
+/// Returns the exception for an error: of what a user asked for, or of this package.
+pub(crate) fn raised(error: &LoadError) -> PyErr {
+    match error {
+        LoadError::Compile(..) | LoadError::Certificate(_) => {
+            PyRuntimeError::new_err(error.to_string())
+        }
+        _ => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// Options by their names; `None` where nothing was chosen.
+struct Options<'a, 'py>(&'a Bound<'py, PyDict>);
+
+impl<'py> Options<'_, 'py> {
+    fn get<T: FromPyObjectOwned<'py>>(&self, name: &str) -> PyResult<Option<T>> {
+        let value = self.0.get_item(name)?.filter(|value| !value.is_none());
+        let Some(value) = value else {
+            return Ok(None);
+        };
+        let found = value.extract();
+        found.map(Some).map_err(|_| {
+            let kind = value.get_type();
+            PyTypeError::new_err(format!("{name}: {value} is of another type, {kind}"))
+        })
+    }
+
+    fn word<W: Word>(&self, name: &str) -> PyResult<Option<W>> {
+        let word: Option<String> = self.get(name)?;
+        word.map(|word| value(name, &word)).transpose()
+    }
+
+    fn words<W: Word>(&self, name: &str) -> PyResult<Option<Vec<W>>> {
+        let words: Option<Vec<String>> = self.get(name)?;
+        words
+            .map(|words| words.iter().map(|word| value(name, word)).collect())
+            .transpose()
+    }
+}
+
+/// Returns the value of a word, which an option has.
+fn value<W: Word>(option: &str, word: &str) -> PyResult<W> {
+    parse(word).map_err(|error| PyValueError::new_err(format!("{option}: {error}")))
+}
+
+/// Reads the request.
+fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
+    let mut load = Load::default();
+    load.urdf.base = options.get("base")?;
+    load.urdf.tip = options.get("tip")?;
+    load.urdf.lock = options.get("lock")?.unwrap_or_default();
+    load.urdf.without = options.get("without")?.unwrap_or_default();
+    load.urdf.exact = options.get("exact")?.unwrap_or_default();
+    if let Some(names) = options.get::<Vec<String>>("outputs")? {
+        let output = |name: &String| match name.contains(['=', '+']) {
+            true => {
+                bundle(name).map_err(|error| PyValueError::new_err(format!("outputs: {error}")))
+            }
+            false => value("outputs", name),
+        };
+        load.outputs = Some(names.iter().map(output).collect::<PyResult<_>>()?);
+    }
+    load.scalars = options.words("scalar")?;
+    load.parameters = options.words("parameters")?.unwrap_or_default();
+    load.scene = options.get("scene")?;
+    load.effort = options.word("effort")?.unwrap_or(load.effort);
+    load.prefer = options.word("prefer")?.unwrap_or_default();
+    load.sincos = options.word("sincos")?.unwrap_or_default();
+    load.cache = match options.get::<PathBuf>("cache_folder")? {
+        Some(folder) => Cache::At(folder),
+        None => match options.get("cache")?.unwrap_or(true) {
+            true => Cache::User,
+            false => Cache::Off,
+        },
+    };
+    Ok(load)
+}

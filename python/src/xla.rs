@@ -1,0 +1,76 @@
+//! Calls from compiled programs of JAX, by XLA's foreign-function interface: the safe part.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use dalembert_jit::{Arm, Function, Place, Real, Rows, RowsMut};
+
+/// What programs may call: an arm, and the place of the function among its own. XLA keeps
+/// programs for as long as it likes, so nothing is taken out.
+static KNOWN: Mutex<Vec<(Arc<Arm>, usize)>> = Mutex::new(Vec::new());
+
+/// Makes a function known, and returns its number.
+pub(crate) fn register(arm: &Arc<Arm>, place: usize) -> u64 {
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let same = |(other, at): &(Arc<Arm>, usize)| Arc::ptr_eq(arm, other) && *at == place;
+    let number = known.iter().position(same).unwrap_or_else(|| {
+        known.push((arm.clone(), place));
+        known.len() - 1
+    });
+    number as u64
+}
+
+/// Finds the function of a number.
+pub(crate) fn find(number: u64) -> Option<(Arc<Arm>, usize)> {
+    let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    known.get(usize::try_from(number).ok()?).cloned()
+}
+
+/// Computes the results of as many states as the arguments have, row by row.
+///
+/// # Errors
+/// The buffers are not of as many states, each of the function's lengths.
+pub(crate) fn run<T: Real>(
+    function: &Function,
+    arguments: &[&[T]],
+    results: Vec<&mut [T]>,
+) -> Result<(), String> {
+    let native = function.native();
+    let signature = native.signature();
+    let lengths: Vec<usize> = signature.arguments.iter().map(|&(_, len)| len).collect();
+    let found = [arguments.len(), results.len()];
+    let expected = [lengths.len(), signature.results.len()];
+    if found != expected {
+        return Err(format!(
+            "expected {expected:?} arguments and results, found {found:?}"
+        ));
+    }
+    let states = match (arguments.first(), lengths.first()) {
+        (Some(first), Some(length)) => first.len() / length,
+        _ => 0,
+    };
+    let whole = |(found, length): (usize, &usize)| found == states * length;
+    let mut read = arguments.iter().map(|data| data.len()).zip(&lengths);
+    let mut written = results
+        .iter()
+        .map(|data| data.len())
+        .zip(&signature.results);
+    if !(read.all(whole) && written.all(whole)) {
+        let name = function.name();
+        return Err(format!(
+            "{name}: expected {lengths:?} numbers of {states} states"
+        ));
+    }
+    let rows = arguments.iter().zip(&lengths).map(|(&data, &length)| Rows {
+        data,
+        place: Place::rows(length),
+    });
+    let rows: Vec<Rows<'_, T>> = rows.collect();
+    let out = results.into_iter().zip(&signature.results);
+    let out = out.map(|(data, &length)| RowsMut {
+        data,
+        place: Place::rows(length),
+    });
+    let mut out: Vec<RowsMut<'_, T>> = out.collect();
+    let done = native.call_rows(&rows, &mut out, states, 1);
+    done.map_err(|error| format!("{}: {error}", function.name()))
+}

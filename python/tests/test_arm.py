@@ -1,0 +1,302 @@
+"""Arms: how they are loaded, and what they know."""
+
+import ctypes
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import ROBOTS, data, robot, urdf
+from numpy.testing import assert_allclose, assert_array_equal
+
+import dalembert
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_golden_values(name):
+    """Torques, D, h and c of an independent library."""
+    arm = dalembert.load(
+        robot(name), outputs=["inverse_dynamics", "inertia", "coriolis", "gravity"]
+    )
+    given = data("golden", name)["states"]
+    q, qd, qdd, tau, h, c, d = (
+        np.array([state[key] for state in given]) for key in ("q", "qd", "qdd", "tau", "h", "c", "D")
+    )
+    close = {"rtol": 0, "atol": 1e-12}
+    for found, expected in [
+        (arm.inverse_dynamics(q, qd, qdd), tau),
+        (arm.coriolis(q, qd), h),
+        (arm.gravity(q), c),
+        (arm.inertia(q), d.reshape(len(q), *arm.inertia(q[0]).shape)),
+    ]:
+        scale = np.abs(expected).max() or 1
+        assert_allclose(found / scale, expected / scale, **close)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_values_of_other_outputs(name):
+    """Every other output that an independent library has."""
+    arm = dalembert.load(robot(name), outputs=list(dalembert.outputs()))
+    assert set(arm.functions) == set(dalembert.outputs())
+    states = data("outputs", name)["states"]
+    n = len(arm.joints)
+
+    def given(key):
+        return np.array([state[key] for state in states])
+
+    q, qd, qdd, torque = (given(key) for key in ("q", "qd", "qdd", "torque"))
+    inverse = 100 * 2.0**-53 * given("condition").max()
+    by_tau = arm.forward_dynamics_derivatives(q, qd, torque)
+    of_tau = arm.inverse_dynamics_derivatives(q, qd, qdd)
+    for found, key, close in [
+        (arm.forward_dynamics(q, qd, torque), "forward_dynamics", inverse),
+        (arm.inertia_inverse(q), "inertia_inverse", inverse),
+        (by_tau.dqdd_dq, "dqdd_dq", inverse),
+        (by_tau.dqdd_dqd, "dqdd_dqd", inverse),
+        (by_tau.dqdd_dtau, "inertia_inverse", inverse),
+        (of_tau.dtau_dq, "dtau_dq", 1e-12),
+        (of_tau.dtau_dqd, "dtau_dqd", 1e-12),
+        (arm.forward_kinematics(q), "pose", 1e-12),
+        (arm.jacobian(q), "jacobian", 1e-12),
+        (arm.jacobian_rate(q, qd), "jacobian_rate_qd", 1e-12),
+        (arm.kinetic_energy(q, qd), "kinetic", 1e-12),
+        (arm.potential_energy(q), "potential", 1e-12),
+        (arm.reaction_wrenches(q, qd, qdd), "wrench", 1e-12),
+        (arm.full_regressor(q, qd, qdd), "regressor", 1e-12),
+    ]:
+        expected = given(key).reshape(found.shape)
+        scale = np.abs(expected).max() or 1
+        assert_allclose(found / scale, expected / scale, rtol=0, atol=close, err_msg=key)
+    # What follows from these.
+    tau, c = arm.inverse_dynamics(q, qd, qdd), arm.gravity(q)
+    d, h, gravity = arm.manipulator_equation(q, qd)
+    assert_allclose(gravity, c, atol=1e-12 * (np.abs(c).max() or 1))
+    p, ct_qd = arm.momentum(q, qd)
+    rate = np.einsum("kij,kj->ki", arm.coriolis_matrix(q, qd), qd)
+    terms = arm.dalembert_terms(q, qd)
+    coefficients = arm.dynamic_coefficients(q)
+    for left, right in [
+        (p, np.einsum("kij,kj->ki", d, qd)),
+        (rate, h),
+        (ct_qd, np.einsum("kij,ki->kj", arm.coriolis_matrix(q, qd), qd)),
+        (terms.d_rot + terms.d_tran, d),
+        (terms.h_rot + terms.h_tran, h),
+        (np.einsum("kijl,kj,kl->ki", coefficients.h, qd, qd), h),
+        (arm.passivity(q, qd, qd, qdd), tau),
+        (arm.passivity_regressor(q, qd, qd, qdd), arm.regressor(q, qd, qdd)),
+        (arm.link_poses(q)[:, -1], arm.forward_kinematics(q)),
+    ]:
+        scale = np.abs(right).max() or 1
+        assert_allclose(left / scale, right / scale, rtol=0, atol=1e-12)
+    base = np.linalg.lstsq(arm.regressor(q, qd, qdd).reshape(len(q) * n, -1), tau.ravel())[0]
+    assert_allclose(arm.regressor(q, qd, qdd) @ base, tau, atol=1e-9 * np.abs(tau).max())
+
+
+def test_what_an_arm_knows(planar):
+    assert planar.name == "planar3r"
+    assert [joint.kind for joint in planar.joints] == ["revolute"] * 3
+    assert planar.frames[0] == "base" and len(planar.frames) == 5
+    assert planar.limits.lower.shape == (3,)
+    assert planar.counts["gravity"]["mul"] > 0
+    assert "random points" in planar.proof["inverse_dynamics"]
+    assert planar.certificate == []
+    assert "inverse_dynamics" in dir(planar) and "planar3r" in repr(planar)
+    assert repr(planar.gravity) == "gravity(q) -> c (3,)"
+    html = planar._repr_html_()
+    assert "<svg" in html and "inverse_dynamics" in html
+    with pytest.raises(AttributeError, match="loaded without 'coriolis'"):
+        planar.coriolis
+    with pytest.raises(AttributeError, match="no 'colour'"):
+        planar.colour
+
+
+def test_urdf_and_locks(tmp_path):
+    options = {"outputs": "gravity", "cache": tmp_path}
+    options |= {"tip": "gripper_frame_link"}
+    arm = dalembert.load(urdf("so101"), lock={"gripper": 0}, **options)
+    n = len(arm.joints)
+    last = arm.joints[-1].name
+    assert (n, last) == (5, "wrist_roll")
+    shorter = dalembert.load(urdf("so101"), lock={last: 0.1, "gripper": 0}, **options)
+    assert len(shorter.joints) == n - 1
+    q = np.linspace(0.1, 0.3, n)
+    q[-1] = 0.1
+    assert_allclose(shorter.gravity(q[:-1]), arm.gravity(q)[:-1], atol=1e-12)
+    again = dalembert.load(urdf("so101"), lock={"gripper": 0}, **options)
+    assert again.is_from_cache
+    every = dalembert.load(urdf("so101"), lock="*", **options)
+    assert_array_equal(every.gravity(q), arm.gravity(q))
+    with pytest.raises(ValueError, match="gripper"):
+        dalembert.load(urdf("so101"), **options)
+    with pytest.raises(ValueError, match="nowhere"):
+        dalembert.load(urdf("so101"), **{**options, "tip": "nowhere"})
+    with pytest.raises(ValueError, match="expected ... or a dictionary"):
+        dalembert.load(urdf("so101"), lock="all")
+
+
+def test_a_dictionary(planar):
+    pendulum = {
+        "name": "pendulum",
+        "convention": "standard",
+        "gravity": [0, -9.81, 0],
+        "joint": [
+            {"kind": "revolute", "a": 1, "mass": 2, "com": np.array([-0.5, 0, 0]),
+             "inertia": [0, 0.1, 0.1, 0, 0, 0]},
+        ],
+    }
+    arm = dalembert.load(pendulum, outputs="gravity")
+    assert_allclose(arm.gravity([0.3]), [2 * 9.81 * 0.5 * np.cos(0.3)], rtol=1e-14)
+    with pytest.raises(ValueError, match="mass"):
+        dalembert.load({**pendulum, "joint": [{"kind": "revolute", "mass": -1}]})
+    with pytest.raises(TypeError, match="joint.com"):
+        dalembert.load({"joint": [{"com": object()}]})
+
+
+def test_parameters_are_arguments():
+    arm = dalembert.load(
+        robot("planar2r"), outputs="gravity", parameters=["payload", "gravity"]
+    )
+    assert arm.gravity.arguments == ["q", "g", "load"]
+    none = arm.load(np.zeros(10))
+    carried = arm.load([1.5, 0.1, 0, 0, 0, 0, 0, 0, 0, 0])
+    q, g = [0.3, 0.2], [0, -9.81, 0]
+    fixed = dalembert.load(robot("planar2r"), outputs="gravity")
+    assert_allclose(arm.gravity(q, g, none), fixed.gravity(q), atol=1e-12)
+    assert np.abs(arm.gravity(q, g, carried) - fixed.gravity(q)).max() > 1
+
+
+def test_wrong_options():
+    for options, words in [
+        ({"outputs": ["gravty"]}, "outputs: unknown output `gravty`: did you mean `gravity`?"),
+        ({"outputs": "a=gravity"}, "outputs: a bundle has two parts at least"),
+        ({"scalar": "f16"}, "scalar: unknown scalar `f16`"),
+        ({"effort": "much"}, "known: quick, thorough"),
+        ({"scene": "lunch"}, "lunch"),
+        ({"nan": "ignore"}, "propagate"),
+    ]:
+        with pytest.raises(ValueError) as error:
+            dalembert.load(robot("planar2r"), **options)
+        assert words in str(error.value)
+    with pytest.raises(FileNotFoundError, match="nowhere.urdf"):
+        dalembert.load("nowhere.urdf")
+
+
+def test_nan_raises_where_that_is_wanted():
+    arm = dalembert.load(robot("planar2r"), outputs="gravity", nan="raise")
+    q = np.zeros((4, 2))
+    arm.gravity(q)
+    q[2, 1] = np.nan
+    with pytest.raises(ValueError, match="argument `q` is not a number at state 2, entry 1"):
+        arm.gravity(q)
+
+
+def test_saved_arms_are_loaded_without_a_search(tmp_path, planar):
+    arm = dalembert.load(robot("planar2r"), outputs="gravity", cache=False)
+    arm.save(tmp_path / "arm.toml")
+    assert (tmp_path / "arm.plan").exists()
+    again = dalembert.load(tmp_path / "arm.toml", outputs="gravity", cache=False)
+    assert again.counts == arm.counts
+    assert_array_equal(again.gravity([0.1, 0.2]), arm.gravity([0.1, 0.2]))
+    arm.to_rust(tmp_path / "arm.rs")
+    assert "pub fn gravity" in (tmp_path / "arm.rs").read_text()
+    with pytest.raises(ValueError, match="ends in .toml"):
+        arm.save(tmp_path / "arm.txt")
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
+def test_c_has_the_same_bits(tmp_path):
+    arm = dalembert.load(robot("planar3r"), outputs="gravity")
+    arm.to_c(tmp_path / "arm.h")
+    (tmp_path / "arm.c").write_text(
+        '#include "arm.h"\nvoid run(const double *q, double *c) { planar3r_gravity(q, c); }\n'
+    )
+    command = ["cc", "-std=c99", "-O2", "-shared", "-fPIC", "arm.c", "-o", "arm.so", "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    run = ctypes.CDLL(str(tmp_path / "arm.so")).run
+    q, c = np.random.default_rng(1).normal(size=(100, 3)), np.empty(3)
+    for row, expected in zip(q, arm.gravity(q)):
+        run(ctypes.c_void_p(row.ctypes.data), ctypes.c_void_p(c.ctypes.data))
+        assert_array_equal(c, expected)
+
+
+def test_a_bundle_shares_work():
+    arm = dalembert.load(robot("planar2r"), outputs=["servo=inverse_dynamics+jacobian"])
+    found = arm.servo([0.1, 0.2], [0.3, 0.4], [0.5, 0.6])
+    assert type(found).__name__ == "Servo" and found._fields == ("tau", "jacobian")
+    assert found.tau.shape == (2,) and found.jacobian.shape == (6, 2)
+
+
+def test_a_scene_with_a_tolerance_has_certificates():
+    arm = dalembert.load(robot("stanford"), scene="swing")
+    name = arm.certificate[0]["function"]
+    assert name in arm.functions and "certificate" in arm.proof[name]
+
+
+def command(*arguments):
+    call = [sys.executable, "-m", "dalembert", *map(str, arguments)]
+    return subprocess.run(call, capture_output=True, text=True, check=False)
+
+
+def test_the_package_is_the_command(tmp_path):
+    written = tmp_path / "arm.rs"
+    done = command("generate", robot("planar2r"), "--outputs=gravity", "-o", written)
+    assert done.returncode == 0 and "pub fn gravity" in written.read_text(), done.stderr
+    assert "dalembert" in command("--version").stdout
+    wrong = command("generate", tmp_path / "nowhere.toml")
+    assert wrong.returncode == 2 and "nowhere.toml" in wrong.stderr
+
+
+def run(code, **environment):
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_no_compiler_is_needed(tmp_path):
+    code = (
+        "import dalembert, shutil;"
+        "assert shutil.which('cc') is None and shutil.which('rustc') is None;"
+        f"arm = dalembert.load({str(robot('planar2r'))!r}, outputs='gravity', cache=False);"
+        "print(arm.gravity([0.1, 0.2]).shape)"
+    )
+    assert run(code, PATH=str(tmp_path)).strip() == "(2,)"
+
+
+def test_an_import_is_light():
+    code = "import sys, dalembert; print(sorted({'numpy', 'json', 'html'} & set(sys.modules)))"
+    assert run(code).strip() == "[]"
+
+
+def test_an_interrupt_ends_a_short_search_at_once():
+    code = (
+        "import dalembert, signal, threading, os, time\n"
+        "threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
+        "try:\n"
+        f"    dalembert.load({str(robot('puma560'))!r}, outputs='full_regressor', cache=False)\n"
+        "    time.sleep(9)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('ended')\n"
+    )
+    assert run(code).strip() == "ended"
+
+
+def test_the_first_interrupt_of_a_long_search_keeps_the_best(tmp_path):
+    # Without the plan that is beside the file.
+    shutil.copy(robot("puma560"), tmp_path / "arm.toml")
+    code = (
+        "import dalembert, signal, threading, os\n"
+        "threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
+        f"arm = dalembert.load({str(tmp_path / 'arm.toml')!r}, outputs='inverse_dynamics', "
+        "effort='thorough', cache=False, progress=True)\n"
+        "print(arm.has_ended_early, arm.inverse_dynamics(*[[0.1] * 6] * 3).shape)"
+    )
+    said = run(code).strip()
+    assert said == "True (6,)"
