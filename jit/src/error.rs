@@ -150,8 +150,6 @@ pub enum LoadError {
     Request(String),
     /// Nothing was generated, or not proved.
     Generate(GenerateError),
-    /// A certificate does not hold.
-    Certificate(String),
     /// A function was not compiled.
     Compile(&'static str, CompileError),
 }
@@ -159,9 +157,7 @@ pub enum LoadError {
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            LoadError::Robot(text) | LoadError::Request(text) | LoadError::Certificate(text) => {
-                f.write_str(text.trim_end())
-            }
+            LoadError::Robot(text) | LoadError::Request(text) => f.write_str(text.trim_end()),
             LoadError::Generate(error) => error.fmt(f),
             LoadError::Compile(function, error) => write!(f, "`{function}`: {error}"),
         }

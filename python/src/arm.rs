@@ -9,8 +9,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::convert::raised;
 use crate::function::Function;
-use crate::load::raised;
 
 /// An arm; `dalembert.Arm` is what users have of it.
 #[pyclass(frozen, module = "dalembert._dalembert")]

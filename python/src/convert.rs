@@ -1,8 +1,8 @@
-//! Objects of Python as arrays of the scalar that is computed in.
+//! Objects of Python as arrays of the scalar that is computed in, and errors as exceptions.
 
-use dalembert_jit::{Real, Scalar};
+use dalembert_jit::{LoadError, Real, Scalar};
 use numpy::{Element, PyArrayDyn};
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -43,4 +43,12 @@ pub(crate) fn array<'py, T: Real + Element>(
     let cast = array.call_method("astype", (expected,), Some(&options));
     let cast = cast.map_err(|_| wrong(format!("of dtype {found}")))?;
     Ok(cast.cast_into::<PyArrayDyn<T>>()?)
+}
+
+/// Returns the exception for an error: of what a user asked for, or of this package.
+pub(crate) fn raised(error: &LoadError) -> PyErr {
+    match error {
+        LoadError::Compile(..) => PyRuntimeError::new_err(error.to_string()),
+        _ => PyValueError::new_err(error.to_string()),
+    }
 }

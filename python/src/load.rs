@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arm::Arm;
+use crate::convert::raised;
 
 /// How often a waiting interpreter looks for signals.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -111,16 +112,6 @@ pub fn load(
         if let Some(progress) = &progress {
             waiting.show(progress)?;
         }
-    }
-}
-
-/// Returns the exception for an error: of what a user asked for, or of this package.
-pub(crate) fn raised(error: &LoadError) -> PyErr {
-    match error {
-        LoadError::Compile(..) | LoadError::Certificate(_) => {
-            PyRuntimeError::new_err(error.to_string())
-        }
-        _ => PyValueError::new_err(error.to_string()),
     }
 }
 
