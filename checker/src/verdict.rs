@@ -102,17 +102,18 @@ pub fn audit_within(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Resul
     let places = claim.function()?.places(claim.rows.len());
     let most = attainable(claim, &setting, &places)?;
     let largest = claim.scale.iter().copied().fold(0.0, f64::max);
+    let rows: Vec<usize> = claim.rows.iter().map(|row| row - 1).collect();
     let mut outputs = Vec::new();
     for (index, (found, (_, place))) in found.into_iter().zip(&places).enumerate() {
-        let joints: Vec<usize> = place.iter().map(|&place| claim.rows[place] - 1).collect();
+        let joints: Vec<usize> = place.iter().map(|&place| rows[place]).collect();
         let scale = claim.scale[index];
         let is_zero = scale == 0.0 && most[index] == 0.0;
-        let tolerance = setting.tolerance.as_ref().map(|all| {
-            let each = joints.iter().map(|&joint| all[joint]);
-            each.fold(f64::INFINITY, f64::min)
+        // What is of no joint, such as an energy, is held to the strictest tolerance.
+        let held = if joints.is_empty() { &rows } else { &joints };
+        let tolerated = setting.tolerance.as_ref().filter(|_| !is_zero).map(|all| {
+            let each = held.iter().map(|&joint| all[joint]);
+            below(each.fold(f64::INFINITY, f64::min) * scale.min(most[index]))
         });
-        let tolerated = tolerance.filter(|_| !is_zero);
-        let tolerated = tolerated.map(|tolerance| below(tolerance * scale.min(most[index])));
         outputs.push(Output {
             joints,
             scale,

@@ -267,3 +267,17 @@ fn terms_that_a_prime_divides() {
         assert!(verdict.is_shown(), "{verdict:?}");
     }
 }
+
+/// An energy has no joint, and so had no tolerance: a claim that its error is as large as the
+/// energy itself was shown.
+#[test]
+fn a_result_of_no_joint_is_held_to_a_tolerance() {
+    let robot = read(&attack("energy.toml"));
+    let forged = audit(&claim(&attack("energy.json")), &robot).unwrap();
+    assert!(!forged.is_shown(), "{forged:?}");
+    let [output] = &forged.outputs[..] else {
+        panic!("{forged:?}");
+    };
+    let tolerated = output.tolerated.unwrap();
+    assert!(tolerated < output.found.bound() && tolerated < 0.0101 * output.scale);
+}
