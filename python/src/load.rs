@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use dalembert_jit::watch::{Observer, Progress, Watch};
 use dalembert_jit::words::{Word, bundle, parse};
-use dalembert_jit::{Cache, Effort, Load, LoadError};
+use dalembert_jit::{Cache, Effort, Load};
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
