@@ -1,22 +1,22 @@
 //! The `dalembert` command: verified flat robot dynamics from a robot file.
 //!
-//! - [`args`]: the command line
-//! - [`generate`]: Rust source, written, printed or compared
-//! - [`import`]: a robot file of a URDF
-//! - [`show`]: the arm in two views
-//! - [`new`]: a crate to begin with
-//! - [`count`]: operation counts
-//! - [`verify`]: the exact proof and what rounding costs
-//! - [`explain`]: what each step brought, which coefficients vanish or repeat, and why
-//! - [`stress`]: numerical stability at the extremes, and growth
-//! - [`certify`]: a certificate checked again
-//! - [`tradeoff`]: certified error against operations
-//! - [`plot`]: charts as SVG
-//! - [`input`]: robot and state files
-//! - [`progress`]: a long search watched, and ended early
-//! - [`files`]: files that are written: checked first, all or none
-//! - [`output`]: standard output, tables
-//! - [`outcome`]: how a run ends
+//! - `args`: the command line
+//! - `generate`: Rust source, written, printed or compared
+//! - `import`: a robot file of a URDF
+//! - `show`: the arm in two views
+//! - `new`: a crate to begin with
+//! - `count`: operation counts
+//! - `verify`: the exact proof and what rounding costs
+//! - `explain`: what each step brought, which coefficients vanish or repeat, and why
+//! - `stress`: numerical stability at the extremes, and growth
+//! - `certify`: a certificate checked again
+//! - `tradeoff`: certified error against operations
+//! - `plot`: charts as SVG
+//! - `input`: robot and state files
+//! - `progress`: a long search watched, and ended early
+//! - `files`: files that are written: checked first, all or none
+//! - `output`: standard output, tables
+//! - `outcome`: how a run ends
 #![forbid(unsafe_code)]
 
 mod args;
