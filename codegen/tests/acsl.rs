@@ -19,7 +19,7 @@ use crate::support::compiled::{folder, there};
 const SCENE: &str = "[scene.near]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n\
     box = { velocity = [1, 3], acceleration = [3, 3] }\n";
 
-/// What of a file's first scene has contracts.
+/// Returns what of a file's first scene has contracts.
 fn contracts(reading: &mut Reading, functions: &[Function]) -> (Request, Generated) {
     let request = Request {
         language: Language::C,

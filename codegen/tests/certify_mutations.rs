@@ -197,8 +197,8 @@ fn execute(text: &str, state: &JointState, scalar: ScalarType) -> Option<Vec<f64
     None
 }
 
-/// Whether what was shown of a claim is true at corners and random states, as far as doubles
-/// can tell: E, or the scene's tolerance.
+/// Returns whether what was shown of a claim is true at corners and random states, as far as
+/// doubles can tell: E, or the scene's tolerance.
 fn is_true(claim: &Claim, verdict: &Verdict, scene_robot: &SceneRobot) -> bool {
     let runtime = Runtime::in_scene(scene_robot.clone());
     let function = Function::parse(&claim.function).unwrap();

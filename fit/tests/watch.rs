@@ -79,7 +79,7 @@ impl Scene {
     }
 }
 
-/// What a watch says at each time of a log, and its level there.
+/// Returns what a watch says at each time of a log, and its level there.
 fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)> {
     let right = true_parameters(&scene.truth);
     let sigma: Vec<f64> = (0..6).map(noise).collect();

@@ -125,7 +125,7 @@ fn define(
 }
 
 impl Lanes {
-    /// How many parameters the function has.
+    /// Returns how many parameters the function has.
     fn parameters(self) -> usize {
         match self {
             // Addresses of the arguments, and of the results.

@@ -142,7 +142,7 @@ impl<'f> Emitter<'f> {
         })
     }
 
-    /// Whether the magnitude is at most this, in every lane: a truth for [`Emitter::and`].
+    /// Returns whether the magnitude is at most this, in every lane: a truth for [`Emitter::and`].
     pub(crate) fn is_within(&self, x: Value, largest: f64) -> Value {
         let largest = self.constant(largest);
         self.with(|b| {

@@ -114,19 +114,19 @@ impl Arm {
         self.0.certificates()
     }
 
-    /// What there is to know of the robot and its functions.
+    /// Returns what there is to know of the robot and its functions.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.0.notes().to_vec()
     }
 
-    /// Whether nothing was searched for, since it was kept.
+    /// Returns whether nothing was searched for, since it was kept.
     #[getter]
     fn is_from_cache(&self) -> bool {
         self.0.is_from_cache()
     }
 
-    /// Whether the search was ended early.
+    /// Returns whether the search was ended early.
     #[getter]
     fn has_ended_early(&self) -> bool {
         self.0.has_ended_early()

@@ -79,7 +79,7 @@ fn certificates(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
     }
 }
 
-/// What was found of an output.
+/// Returns what was found of an output.
 fn words(output: &Output) -> &'static str {
     match (output.holds(), output.is_shown()) {
         _ if output.found.seen.off > output.claimed => "E is refuted at a state",
@@ -120,7 +120,7 @@ fn of_output(output: &Output) -> Value {
     })
 }
 
-/// What was found, a row an output.
+/// Returns what was found, a row an output.
 fn table(verdict: &Verdict) -> String {
     let head = ["joint", "T", "real", "rounding", "bound", "E", "seen", ""];
     let mut rows = vec![head.map(str::to_owned).to_vec()];

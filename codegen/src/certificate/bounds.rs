@@ -40,13 +40,13 @@ impl<'s> Shared<'s> {
         }
     }
 
-    /// What the edits cost, relative to each output's T.
+    /// Returns what the edits cost, relative to each output's T.
     fn edits(&self, effort: usize) -> Vec<f64> {
         let found = self.models[effort].get_or_init(|| self.subject.model(EFFORTS[effort]));
         self.subject.relative(found)
     }
 
-    /// What rounding and sines cost in a scalar.
+    /// Returns what rounding and sines cost in a scalar.
     fn rounding(&self, effort: usize, scalar: ScalarType) -> Vec<ErrorByCause> {
         let found = &self.sensitivities[effort];
         let found = found.get_or_init(|| (self.sensitivity)(EFFORTS[effort]));
@@ -55,7 +55,7 @@ impl<'s> Shared<'s> {
 }
 
 impl Certificate {
-    /// Whether all that is claimed of bounds and of D can be shown; the bounds
+    /// Returns whether all that is claimed of bounds and of D can be shown; the bounds
     /// that were found.
     pub(crate) fn check_claims(&self, shared: &Shared<'_>) -> Result<Vec<ErrorByCause>, Refuted> {
         let found = self.check_bounds(shared)?;
@@ -131,7 +131,7 @@ impl Certificate {
     }
 }
 
-/// What the coarse bounds come to if they show the claims; if not, the smaller of
+/// Returns what the coarse bounds come to if they show the claims; if not, the smaller of
 /// those and the fine ones.
 fn least<T>(
     of: impl Fn(usize) -> Vec<T>,

@@ -243,7 +243,7 @@ impl Certificate {
             .collect()
     }
 
-    /// What its bounds rest on besides arithmetic. Where sines are polynomials,
+    /// Returns what its bounds rest on besides arithmetic. Where sines are polynomials,
     /// nothing is taken for granted of them: their errors are proved. Of called ones it
     /// is said what is proved and what is assumed.
     pub fn assumptions(&self) -> Vec<&'static str> {

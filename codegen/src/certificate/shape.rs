@@ -15,7 +15,7 @@ use crate::program::text::input_name;
 use crate::program::{Operand, Program};
 use crate::scene::SceneRobot;
 
-/// Whether all parts of a claim fit the scene and each other.
+/// Returns whether all parts of a claim fit the scene and each other.
 pub(super) fn check(certificate: &Certificate, scene_robot: &SceneRobot) -> Result<(), Refuted> {
     let Certificate {
         emitted, limits, ..

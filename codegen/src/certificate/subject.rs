@@ -74,7 +74,7 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// What sines and rounding cost, relative to the scales.
+    /// Returns what sines and rounding cost, relative to the scales.
     pub(super) fn rounding(
         &self,
         scalar: ScalarType,
@@ -115,7 +115,7 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// What bounds of the emitted program's rounding need.
+    /// Returns what bounds of the emitted program's rounding need.
     pub(crate) fn sensitivity(&self, bound_effort: BoundEffort) -> Sensitivity {
         Sensitivity::of(self.emitted, self.limits, bound_effort)
     }
@@ -172,7 +172,7 @@ pub(super) fn direct<'s>(stages: &'s [Stage], emitted: &Program) -> Option<&'s P
     }
 }
 
-/// Whether D is an output and differs from the model's by more than rounding:
+/// Returns whether D is an output and differs from the model's by more than rounding:
 /// something was left out of it, or its sines are polynomials.
 pub(super) fn changes_inertia(stages: &[Stage], emitted: &Program, sines: &[AngleKernel]) -> bool {
     has_inertia(emitted) && (has_edits(stages) || !sines.is_empty())

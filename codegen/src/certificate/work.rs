@@ -62,7 +62,7 @@ impl fmt::Display for TooMuch {
 
 impl std::error::Error for TooMuch {}
 
-/// Whether a variant can be proved with bounded work.
+/// Returns whether a variant can be proved with bounded work.
 pub(super) fn check(certificate: &Certificate) -> Result<(), TooMuch> {
     let stages = &certificate.stages;
     within("the variant", "stages", stages.len(), MAX_STAGES)?;

@@ -123,7 +123,7 @@ fn comment(clauses: &[String]) -> String {
     format!("/*@ {}\n*/\n", clauses.join("\n    "))
 }
 
-/// What can be read and written, and that nothing that is written overlaps.
+/// Returns what can be read and written, and that nothing that is written overlaps.
 fn validity(read: &[String], written: &[String]) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
     all.extend(read.iter().map(|block| format!("\\valid_read({block})")));
@@ -136,7 +136,7 @@ fn validity(read: &[String], written: &[String]) -> Vec<String> {
     clauses.collect()
 }
 
-/// How far each result may be from the full model's.
+/// Returns how far each result may be from the full model's.
 fn bounds(exact: &str, certificate: &Certificate, printed: &Printed<'_>) -> Vec<String> {
     let names: Vec<&str> = printed.arguments.iter().map(|a| a.name()).collect();
     let targets = match c99::is_number(printed.function) {

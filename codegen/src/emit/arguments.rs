@@ -12,7 +12,7 @@ use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
 use crate::program::ScalarType;
 use crate::scene::SceneRobot;
 
-/// What gravity is, for the header.
+/// Returns what gravity is, for the header.
 pub(super) fn gravity(robot: &Robot, scene_robot: &SceneRobot) -> String {
     let components: Vec<String> = robot.gravity.iter().map(decimal).collect();
     let file = components.join(", ");
@@ -95,7 +95,7 @@ fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
     );
 }
 
-/// What a function's arguments are that are no joint vectors.
+/// Returns what a function's arguments are that are no joint vectors.
 pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
     let mut lines = Vec::new();
     if scene_robot.takes(function, RuntimeParameter::Gravity) {

@@ -53,7 +53,7 @@ pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
     dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// Where a frame is in another.
+/// Returns where a frame is in another.
 pub(super) fn placed(placement: &dalembert_model::robot::Placement) -> String {
     let xyz = placement.xyz.each_ref().map(decimal).join(", ");
     let rpy = placement.rpy.each_ref().map(ToString::to_string).join(", ");

@@ -2,7 +2,7 @@
 
 use crate::program::Program;
 
-/// What a function's documentation says of them, if it has any.
+/// Returns what a function's documentation says of them, if it has any.
 pub(super) fn doc(program: &Program) -> Vec<String> {
     if !program.fuses() {
         return Vec::new();

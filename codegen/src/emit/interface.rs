@@ -41,7 +41,7 @@ pub fn question(function: Function) -> Option<String> {
     (!is_own).then(|| function.camel())
 }
 
-/// What the trait answers, of these lengths: an array, or the struct of this name that
+/// Returns what the trait answers, of these lengths: an array, or the struct of this name that
 /// fits every robot.
 pub(crate) fn answer(
     function: Function,
@@ -75,7 +75,7 @@ pub(super) fn write(functions: &[GeneratedFunction], scalar: ScalarType, path: &
     text
 }
 
-/// What the type answers by one function.
+/// Returns what the type answers by one function.
 fn implementation(generated: &GeneratedFunction, scalar: ScalarType, path: &str) -> String {
     let (function, program) = (generated.function, &generated.program);
     let n = program.joints;
@@ -115,7 +115,7 @@ fn implementation(generated: &GeneratedFunction, scalar: ScalarType, path: &str)
     )
 }
 
-/// Whether a trait has this signature: a scene may have left arguments or rows out,
+/// Returns whether a trait has this signature: a scene may have left arguments or rows out,
 /// and parameters may be arguments.
 fn fits(generated: &GeneratedFunction) -> bool {
     let program = &generated.program;

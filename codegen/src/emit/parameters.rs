@@ -13,7 +13,7 @@ use crate::program::{Literal, ScalarType};
 use crate::scene::SceneRobot;
 use crate::scene::base::{BaseParameters, Parameter};
 
-/// What the columns of a function's regressor are; nothing of other functions.
+/// Returns what the columns of a function's regressor are; nothing of other functions.
 pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
     let mut lines = match function.columns() {
         Columns::None => return Vec::new(),

@@ -4,7 +4,7 @@ use super::figures::bound_of;
 use crate::program::ScalarType;
 use crate::sincos::{AngleKernel, angle_name, counts};
 
-/// What a function's documentation says about its sines.
+/// Returns what a function's documentation says about its sines.
 pub(super) fn doc(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     if sines.is_empty() {
         return Vec::new();

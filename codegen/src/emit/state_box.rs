@@ -21,7 +21,7 @@ pub(super) struct StateBox {
 }
 
 impl StateBox {
-    /// Where all of the functions hold; `None` if that is everywhere.
+    /// Returns where all of the functions hold; `None` if that is everywhere.
     pub(super) fn of(
         functions: &[GeneratedFunction],
         scene_robot: &SceneRobot,
@@ -181,7 +181,7 @@ fn bound(
     }
 }
 
-/// What is in both of two ranges that meet.
+/// Returns what is in both of two ranges that meet.
 fn narrower(known: Option<Interval>, range: Interval) -> Interval {
     let both = known.and_then(|known| {
         Interval::new(known.low().max(range.low()), known.high().min(range.high()))

@@ -50,7 +50,7 @@ pub(super) fn describe(
 /// How many omissions a function's documentation lists.
 const MAX_LISTED: usize = 3;
 
-/// How much was left out, and the omissions that save most.
+/// Returns how much was left out, and the omissions that save most.
 fn omitted(mut left_out: Vec<Omission>) -> Vec<String> {
     let count = left_out.len();
     // Stable: of equal ones the first.

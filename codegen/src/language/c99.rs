@@ -69,7 +69,7 @@ impl Names {
         self.language
     }
 
-    /// How its functions are written.
+    /// Returns how its functions are written.
     pub(crate) fn dialect(&self) -> Dialect {
         match self.language {
             Language::Cuda => Dialect::cuda(self.scalar),
@@ -241,12 +241,12 @@ pub(crate) fn single(printed: &Printed<'_>, names: &Names) -> String {
     )
 }
 
-/// Whether sines are of the crate's algorithm, which calls others for angles that are far.
+/// Returns whether sines are of the crate's algorithm, which calls others for angles that are far.
 fn is_together(code: &Lowered) -> bool {
     code.library == Library::Together && code.trig.iter().any(|trig| trig.kernel.is_none())
 }
 
-/// Where the numbers of a result go, in their order; none of a number that is returned.
+/// Returns where the numbers of a result go, in their order; none of a number that is returned.
 pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
     let function = printed.function;
     if is_number(function) {
@@ -260,8 +260,8 @@ pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
     fields.collect()
 }
 
-/// Whether the function is told whether angles may be far: in batches that are vectors, where
-/// calls would be in the way.
+/// Returns whether the function is told whether angles may be far: in batches that are vectors,
+/// where calls would be in the way.
 pub(crate) fn is_told(code: &Lowered, names: &Names) -> bool {
     names.language == Language::C && is_together(code)
 }

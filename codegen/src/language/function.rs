@@ -141,7 +141,7 @@ pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType
     }
 }
 
-/// What it returns.
+/// Returns what it returns.
 pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) -> String {
     match function.structure() {
         Some(name) => name.to_owned(),

@@ -29,7 +29,7 @@ impl Scope {
         lane: "[l]",
     };
 
-    /// How the scope names the angle that sines are taken of, whose sum stands
+    /// Returns how the scope names the angle that sines are taken of, whose sum stands
     /// in a line of its own.
     pub(super) fn angle(self, angle: AngleSum) -> String {
         match (angle.additions(), angle.terms().next()) {
@@ -53,7 +53,7 @@ impl Scope {
         sum
     }
 
-    /// What a line gives values to: the sine, the cosine or both.
+    /// Returns what a line gives values to: the sine, the cosine or both.
     pub(super) fn pair(self, trig: &LoweredTrig) -> String {
         let (angle, lane) = (trig.angle, self.lane);
         match (trig.sin, trig.cos) {

@@ -32,7 +32,7 @@ pub(super) fn write(text: &mut String, code: &Lowered, path: &str) {
     together(text, code, path, "", angle);
 }
 
-/// Whether an angle's sines are of those that one call gives.
+/// Returns whether an angle's sines are of those that one call gives.
 pub(super) fn is_together(trig: &LoweredTrig, code: &Lowered) -> bool {
     code.library == Library::Together && trig.kernel.is_none()
 }

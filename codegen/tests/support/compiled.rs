@@ -180,7 +180,7 @@ fn states(count: usize) -> Vec<Vec<f64>> {
     (0..count).map(state).collect()
 }
 
-/// What the proved programs give.
+/// Returns what the proved programs give.
 fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
     let mut all = Vec::new();
     for emitted in &generated.emitted {

@@ -59,7 +59,7 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// What is written of a certificate.
+    /// Returns what is written of a certificate.
     pub(super) fn of(certificate: &Certificate) -> Document {
         let Certificate {
             limits, emitted, ..

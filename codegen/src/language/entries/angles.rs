@@ -36,12 +36,12 @@ impl Angles {
         }
     }
 
-    /// How many there are.
+    /// Returns how many there are.
     pub fn count(&self) -> usize {
         self.joints + self.sums.len()
     }
 
-    /// Where an angle's sine stands.
+    /// Returns where an angle's sine stands.
     pub fn place(&self, angle: AngleSum) -> Option<usize> {
         if angle.additions() == 0 {
             return angle.terms().next().map(|(joint, _)| joint);

@@ -80,7 +80,7 @@ fn parameters(printed: &Printed<'_>, around: &Around<'_>) -> Vec<String> {
     arguments.chain(pair).collect()
 }
 
-/// Whether an entry of the argument is read; a sine is none.
+/// Returns whether an entry of the argument is read; a sine is none.
 fn reads(code: &Lowered, argument: Argument) -> bool {
     let is = |operand: &Operand<Literal>| match operand {
         Operand::Input(Input::Entry(read, _)) => *read == argument,

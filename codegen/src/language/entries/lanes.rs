@@ -85,7 +85,7 @@ fn in_lane(argument: Argument, sizes: Sizes) -> String {
     }
 }
 
-/// What it returns: arrays with an array of lanes for every number.
+/// Returns what it returns: arrays with an array of lanes for every number.
 pub(super) fn result_type(printed: &Printed<'_>) -> String {
     let function = printed.function;
     let lanes = format!("[{}; L]", printed.code.scalar);

@@ -153,7 +153,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// What Coulomb friction reads: `1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001)`.
+    /// Returns what Coulomb friction reads: `1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001)`.
     fn speed(&mut self, name: &str, value: &str) -> Result<(), String> {
         let not =
             || format!("`{value}` is not one over the root of a velocity's square and a width's");
