@@ -1,10 +1,12 @@
 //! The comparison of machine code with the program that it was made of.
 
 use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::program::Lowered;
+use dalembert_codegen::workspace::program::machine::Machine;
 use dalembert_codegen::workspace::program::run::State;
 
+use crate::compile::Signature;
 use crate::error::{CallError, CompileError};
-use crate::native::{Native, Real};
 use crate::rows::{Place, Rows, RowsMut};
 
 /// How many states are compared.
@@ -23,7 +25,7 @@ const SPECIAL: [f64; 8] = [
 ];
 
 /// Draws an entry: from a SHA-256 of where it is. One of 31 is special.
-fn entry<T: Real>(state: usize, argument: Argument, index: usize) -> T {
+fn entry<T: Machine>(state: usize, argument: Argument, index: usize) -> T {
     let text = format!("{state} {} {index}", argument.name());
     let hash = hmac_sha256::Hash::hash(text.as_bytes());
     let mut number = [0; 8];
@@ -44,38 +46,35 @@ fn reach(argument: Argument) -> f64 {
 }
 
 /// Draws the arguments of the states that are compared, in the order of the signature.
-fn drawn<T: Real>(native: &Native) -> Vec<Vec<Vec<T>>> {
-    let arguments = &native.signature().arguments;
+fn drawn<T: Machine>(signature: &Signature) -> Vec<Vec<Vec<T>>> {
     let state = |state: usize| {
         let of = |&(argument, len): &(Argument, usize)| {
             (0..len)
                 .map(|index| entry(state, argument, index))
                 .collect()
         };
-        arguments.iter().map(of).collect()
+        signature.arguments.iter().map(of).collect()
     };
     (0..STATES).map(state).collect()
 }
 
 /// Compares two results: equal bits, or both no number, whose bits no language fixes.
-fn is_same<T: Real>(left: T, right: T) -> bool {
+fn is_same<T: Machine>(left: T, right: T) -> bool {
     let (left, right) = (left.to_f64(), right.to_f64());
     left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
 }
 
-fn expected<T: Real>(native: &Native, arguments: &[Vec<T>]) -> Vec<T> {
-    let signature = &native.signature().arguments;
+fn expected<T: Machine>(program: &Lowered, signature: &Signature, state: &[Vec<T>]) -> Vec<T> {
     let of = |wanted| {
-        let place = signature
-            .iter()
-            .position(|&(argument, _)| argument == wanted);
-        place.map_or(&[][..], |place| &arguments[place])
+        let mut arguments = signature.arguments.iter();
+        let place = arguments.position(|&(argument, _)| argument == wanted);
+        place.map_or(&[][..], |place| &state[place])
     };
-    native.program().run(State::of(of))
+    program.run(State::of(of))
 }
 
 /// Finds the first result that differs.
-fn differing<T: Real>(expected: &[T], found: &[T]) -> Option<usize> {
+fn differing<T: Machine>(expected: &[T], found: &[T]) -> Option<usize> {
     if expected.len() != found.len() {
         return Some(expected.len().min(found.len()));
     }
@@ -83,25 +82,31 @@ fn differing<T: Real>(expected: &[T], found: &[T]) -> Option<usize> {
     both.position(|(&expected, &found)| !is_same(expected, found))
 }
 
-/// Compares the code for one state.
-pub(crate) fn check<T: Real>(native: &Native) -> Result<(), CompileError> {
-    let mut found = vec![T::default(); native.program().outputs.len()];
-    for (state, arguments) in drawn::<T>(native).iter().enumerate() {
+/// Compares the code for one state, which `call` runs, with the program.
+pub(crate) fn check<T: Machine + Default>(
+    program: &Lowered,
+    signature: &Signature,
+    call: impl Fn(&[&[T]], &mut [T]) -> Result<(), CallError>,
+) -> Result<(), CompileError> {
+    let mut found = vec![T::default(); program.outputs.len()];
+    for (state, arguments) in drawn::<T>(signature).iter().enumerate() {
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         // The lengths are the signature's: it can only be called.
-        native
-            .call(&slices, &mut found)
-            .map_err(|_| CompileError::PARAMETERS)?;
-        if let Some(result) = differing(&expected(native, arguments), &found) {
+        call(&slices, &mut found).map_err(|_| CompileError::PARAMETERS)?;
+        if let Some(result) = differing(&expected(program, signature, arguments), &found) {
             return Err(CompileError::Differs { state, result });
         }
     }
     Ok(())
 }
 
-/// Compares the code for many states.
-pub(crate) fn check_many<T: Real>(native: &Native) -> Result<(), CallError> {
-    let (states, signature) = (drawn::<T>(native), native.signature());
+/// Compares the code for many states, which `call` runs at [`STATES`] rows, with the program.
+pub(crate) fn check_many<T: Machine + Default>(
+    program: &Lowered,
+    signature: &Signature,
+    call: impl Fn(&[Rows<'_, T>], &mut [RowsMut<'_, T>]) -> Result<(), CallError>,
+) -> Result<(), CallError> {
+    let states = drawn::<T>(signature);
     let flat = |place: usize| -> Vec<T> {
         states
             .iter()
@@ -129,13 +134,13 @@ pub(crate) fn check_many<T: Real>(native: &Native) -> Result<(), CallError> {
             data,
             place: Place::rows(len),
         });
-    native.rows(&rows, &mut results.collect::<Vec<_>>(), STATES, 1)?;
+    call(&rows, &mut results.collect::<Vec<_>>())?;
     for (state, arguments) in states.iter().enumerate() {
         let own = found.iter().zip(&signature.results);
         let own: Vec<T> = own
             .flat_map(|(found, &len)| found[state * len..][..len].iter().copied())
             .collect();
-        if let Some(result) = differing(&expected(native, arguments), &own) {
+        if let Some(result) = differing(&expected(program, signature, arguments), &own) {
             let error = CompileError::Differs { state, result };
             return Err(CallError::Compile(error));
         }

@@ -17,7 +17,7 @@ use cranelift_jit::JITModule;
 use dalembert_codegen::workspace::program::machine::Machine;
 use dalembert_codegen::workspace::program::{Lowered, ScalarType};
 
-use crate::check::{check, check_many};
+use crate::check::{STATES, check, check_many};
 use crate::compile::{Linked, Signature, compile};
 use crate::emit::{Call, Lanes};
 use crate::error::{CallError, CompileError};
@@ -161,10 +161,22 @@ impl Native {
             checked: OnceLock::new(),
         };
         match native.program.scalar {
-            ScalarType::F64 => check::<f64>(&native)?,
-            ScalarType::F32 => check::<f32>(&native)?,
+            ScalarType::F64 => native.check_one::<f64>()?,
+            ScalarType::F32 => native.check_one::<f32>()?,
         }
         Ok(native)
+    }
+
+    pub(crate) fn check_one<T: Real>(&self) -> Result<(), CompileError> {
+        check(&self.program, &self.signature, |arguments, results| {
+            self.call::<T>(arguments, results)
+        })
+    }
+
+    pub(crate) fn check_rows<T: Real>(&self) -> Result<(), CallError> {
+        check_many(&self.program, &self.signature, |arguments, results| {
+            self.rows::<T>(arguments, results, STATES, 1)
+        })
     }
 
     /// Returns the program.
@@ -230,7 +242,7 @@ impl Native {
         self.rows(arguments, results, states, threads)
     }
 
-    pub(crate) fn rows<T: Real>(
+    fn rows<T: Real>(
         &self,
         arguments: &[Rows<'_, T>],
         results: &mut [RowsMut<'_, T>],
@@ -286,24 +298,20 @@ impl Native {
     ) {
         let size = size_of::<T>();
         let stride = |place: &Place| (place.state * size) as isize;
-        let mut entries = Vec::new();
-        let mut strides = Vec::new();
-        for &(data, place) in &read.0 {
-            strides.push(stride(place));
-            for offset in &place.offsets {
-                // SAFETY: `Place::check` found it in its slice, or there is no state.
-                entries.push(unsafe { data.add(states.start * place.state + offset) });
-            }
-        }
-        let mut results = Vec::new();
-        let mut result_strides = Vec::new();
-        for &(data, place) in &written.0 {
-            result_strides.push(stride(place));
-            for offset in &place.offsets {
-                // SAFETY: as above.
-                results.push(unsafe { data.add(states.start * place.state + offset) });
-            }
-        }
+        let strides: Vec<isize> = read.0.iter().map(|(_, place)| stride(place)).collect();
+        let result_strides: Vec<isize> = written.0.iter().map(|(_, place)| stride(place)).collect();
+        let entries = read.0.iter().flat_map(|&(data, place)| {
+            let first = place.entries(states.start);
+            // SAFETY: `Place::check` found it in its slice, or there is no state.
+            first.map(move |entry| unsafe { data.add(entry) })
+        });
+        let entries: Vec<*const T> = entries.collect();
+        let results = written.0.iter().flat_map(|&(data, place)| {
+            let first = place.entries(states.start);
+            // SAFETY: as above.
+            first.map(move |entry| unsafe { data.add(entry) })
+        });
+        let results: Vec<*mut T> = results.collect();
         // SAFETY: the address is of a function of this type: compiled for vectors, its
         // parameters are four addresses and a count, and `T` is its scalar.
         let function = unsafe { std::mem::transmute::<*const u8, Many<T>>(many.entry) };
@@ -362,8 +370,8 @@ impl Native {
     /// [`CallError::Compile`].
     pub fn prepare_rows(&self) -> Result<(), CallError> {
         let checked = self.checked.get_or_init(|| match self.program.scalar {
-            ScalarType::F64 => check_many::<f64>(self),
-            ScalarType::F32 => check_many::<f32>(self),
+            ScalarType::F64 => self.check_rows::<f64>(),
+            ScalarType::F32 => self.check_rows::<f32>(),
         });
         checked.clone()
     }

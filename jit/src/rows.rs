@@ -38,6 +38,12 @@ impl Place {
         }
     }
 
+    /// Returns where the entries of a state lie.
+    pub(crate) fn entries(&self, state: usize) -> impl Iterator<Item = usize> {
+        let first = state * self.state;
+        self.offsets.iter().map(move |offset| first + offset)
+    }
+
     /// Checks that all entries are in a slice of this length.
     pub(crate) fn check(
         &self,

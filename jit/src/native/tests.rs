@@ -9,8 +9,8 @@ use crate::{Arm, Cache, Load};
 fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lowered)) {
     let program = native.program.clone();
     plant(&mut native.program);
-    let one = check::<T>(native);
-    let many = check_many::<T>(native);
+    let one = native.check_one::<T>();
+    let many = native.check_rows::<T>();
     native.program = program;
     let differs = |error: &CompileError| matches!(error, CompileError::Differs { .. });
     assert!(one.as_ref().is_err_and(differs), "{fault}: {one:?}");

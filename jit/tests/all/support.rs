@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::function::Argument;
 use dalembert_codegen::workspace::program::columns::Columns;
+use dalembert_codegen::workspace::random::Random;
 use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real, Rows, RowsMut};
 
 /// The robots of `generated/`.
@@ -62,46 +63,29 @@ impl Drop for Folder {
     }
 }
 
-/// Numbers of splitmix64.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Mostly within the reach; one of 200 is large, tiny, infinite or no number.
-    fn entry(&mut self, reach: f64) -> f64 {
-        const SPECIAL: [f64; 10] = [
-            f64::NAN,
-            f64::INFINITY,
-            f64::NEG_INFINITY,
-            -0.0,
-            8192.0,
-            8192.5,
-            -100.25,
-            1e22,
-            5e-324,
-            -1e-40,
-        ];
-        match self.bits() % 200 {
-            0 => SPECIAL[self.bits() as usize % SPECIAL.len()],
-            _ => (2.0 * self.unit() - 1.0) * reach,
-        }
+/// Mostly within the reach; one of 200 is large, tiny, infinite or no number.
+fn entry(random: &mut Random, reach: f64) -> f64 {
+    const SPECIAL: [f64; 10] = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        -0.0,
+        8192.0,
+        8192.5,
+        -100.25,
+        1e22,
+        5e-324,
+        -1e-40,
+    ];
+    match random.bits() % 200 {
+        0 => SPECIAL[random.bits() as usize % SPECIAL.len()],
+        _ => (2.0 * random.unit() - 1.0) * reach,
     }
 }
 
 /// States in columns.
 pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Columns<T> {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut columns = Columns {
         len: states,
         ..Columns::default()
@@ -113,7 +97,7 @@ pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Columns<T> {
         };
         let mut column = |_| {
             (0..states)
-                .map(|_| T::literal(random.entry(reach)))
+                .map(|_| T::literal(entry(&mut random, reach)))
                 .collect()
         };
         columns.arguments[argument.index()] = (0..entries).map(&mut column).collect();
