@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::interval::sin_cos;
-use crate::polynomial::{ANGLES, Key, Polynomial, Variable, exponent, key};
+use crate::polynomial::{ANGLES, Key, MAX_JOINTS, Polynomial, Variable, exponent, key};
 use crate::ring::Ring;
 
 /// One angle's turn: what its powers are multiplied with, and where that is added to.
@@ -21,6 +21,9 @@ pub(crate) struct Level {
 pub(crate) struct Search {
     pub(crate) levels: Vec<Level>,
     pub(crate) values: Vec<Vec<f64>>,
+    /// Of each value behind the last level, the factors of a product of velocities that are
+    /// as large backwards as forwards: joint k's is factor k + 1, and factor 0 is 1.
+    factors: Vec<Option<[usize; 2]>>,
     /// The sum of the magnitudes of all terms, before they were added up.
     pub(crate) mass: f64,
     /// Multiplications that may still be done.
@@ -49,6 +52,7 @@ impl Search {
         let mut search = Search {
             levels: Vec::new(),
             values: Vec::new(),
+            factors: Vec::new(),
             mass,
             steps,
         };
@@ -104,6 +108,14 @@ impl Search {
             search.values.push(vec![0.0; next.len()]);
             keys = next;
         }
+        let power = |k: usize| k.checked_sub(1).map_or(0, |k| key(Variable::Velocity, k));
+        let factors = |&(group, _): &(Key, Key)| {
+            let others = group & !(1 << 127);
+            let second = (0..=MAX_JOINTS).rfind(|&k| others >= power(k))?;
+            let first = (0..second.max(1)).find(|&k| others == power(k) + power(second))?;
+            (group == 0 || ring.factor(others).0 == 0.0).then_some([first, second])
+        };
+        search.factors = keys.iter().map(factors).collect();
         search
     }
 
@@ -124,8 +136,21 @@ impl Search {
         self.steps = self.steps.saturating_sub(from.len() as u64 + 20);
     }
 
+    /// A bound of F without looking at the angles from a level on; behind the last, F.
     pub(crate) fn norm(&self, level: usize) -> f64 {
-        self.values[level].iter().map(|value| value.abs()).sum()
+        let values = &self.values[level];
+        if level < self.levels.len() {
+            return values.iter().map(|value| value.abs()).sum();
+        }
+        let (mut products, mut radius) = ([[0.0; MAX_JOINTS + 1]; MAX_JOINTS + 1], 0.0);
+        for (value, factors) in values.iter().zip(&self.factors) {
+            match *factors {
+                Some([first, second]) => products[first][second] = *value,
+                None => radius += value.abs(),
+            }
+        }
+        let [low, high] = corners(&products, 1, products[0][0], products[0]);
+        radius + high.max(-low)
     }
 
     /// A bound of F by amplitudes in the next angle: each coefficient of the level behind
@@ -163,4 +188,27 @@ impl Search {
         }
         self.norm(at.len())
     }
+}
+
+/// The least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It
+/// is linear in each of them, so that it is found where all are −1 or 1. `linear` is what
+/// those from `next` on are multiplied with, the others being in `sum`.
+fn corners<const N: usize>(
+    products: &[[f64; N]; N],
+    next: usize,
+    sum: f64,
+    linear: [f64; N],
+) -> [f64; 2] {
+    let Some(row) = products.get(next) else {
+        return [sum; 2];
+    };
+    let of = |sign: f64| {
+        let linear = std::array::from_fn(|k| linear[k] + sign * row[k]);
+        corners(products, next + 1, sum + sign * linear[next], linear)
+    };
+    if linear[next] == 0.0 && *row == [0.0; N] {
+        return of(0.0);
+    }
+    let (plus, minus) = (of(1.0), of(-1.0));
+    [plus[0].min(minus[0]), plus[1].max(minus[1])]
 }

@@ -2,8 +2,9 @@
 //!
 //! Rates and errors enter monomial by monomial, each at its worst: with the middle μ and
 //! half the length ρ of a monomial's range, and g its coefficient, a trigonometric
-//! polynomial in the angles, |P| ≤ F = |Σ μ g| + Σ ρ |g|. That F ≤ B everywhere is shown
-//! angle by angle. At given other angles let F be largest, M, at x in a cell of middle c
+//! polynomial in the angles, |P| ≤ F = |Σ μ g| + Σ ρ |g|; but products of velocities, and
+//! what is linear in one, at the worst corner of their box together. That F ≤ B everywhere
+//! is shown angle by angle. At given other angles let F be largest, M, at x in a cell of middle c
 //! and half width δ, and let d be the degree in this angle. F is the maximum of finitely
 //! many trigonometric polynomials ±g ± …, and of the one that is M at x:
 //!

@@ -3,12 +3,13 @@
 //! An output is a polynomial of degree two in the rates, whose coefficients
 //! depend on the position. At each sampled position a program is run at the
 //! few motions that give these coefficients, and an error is measured as the
-//! certificate measures it: every monomial at its worst. So only positions
+//! certificate measures it: rates at their worst. So only positions
 //! are sampled, which are few and smooth, and not the signs of 2n rates.
 //!
 //! A program that multiplies a velocity by an acceleration has further
 //! monomials, which are missed here; the certificate decides.
 
+use crate::bound::corners::Corners;
 use crate::bound::input_box::InputBox;
 use crate::function::Argument;
 use crate::interval::Interval;
@@ -106,21 +107,47 @@ impl Motions {
 
     /// The largest magnitude at one position, from its monomials.
     pub(super) fn largest(&self, block: &[f64]) -> f64 {
+        self.beyond(block, 0.0)
+    }
+
+    /// The largest magnitude at any of some positions, from their monomials.
+    pub(super) fn largest_of(&self, blocks: &[f64]) -> f64 {
+        let blocks = blocks.chunks_exact(self.len());
+        blocks.fold(0.0, |most, block| f64::max(most, self.beyond(block, most)))
+    }
+
+    /// The same at one position, or anything smaller than a magnitude that it is not above.
+    fn beyond(&self, block: &[f64], most: f64) -> f64 {
         let (a, v) = (self.accelerations.len(), self.velocities.len());
-        let (mut high, mut low) = (block[0], block[0]);
-        for x in &block[1..=a] {
+        let (single, products) = block.split_at(1 + a + 2 * v);
+        let (mut low, mut high) = (block[0], block[0]);
+        for x in &single[1..=a] {
             high += x.abs();
             low -= x.abs();
         }
-        for pair in block[1 + a..1 + a + 2 * v].chunks_exact(2) {
-            high += pair[0].abs() + pair[1].max(0.0);
-            low += pair[1].min(0.0) - pair[0].abs();
+        let pairs = single[1 + a..].chunks_exact(2);
+        for square in pairs.clone().map(|pair| pair[1]) {
+            high += square.max(0.0);
+            low += square.min(0.0);
         }
-        for x in &block[1 + a + 2 * v..] {
-            high += x.abs();
-            low -= x.abs();
+        let linear = pairs.clone().map(|pair| pair[0]);
+        let alone: f64 = linear.chain(products.iter().copied()).map(f64::abs).sum();
+        let (mut least, mut greatest) = (-alone, alone);
+        if f64::max(high, -low) + alone > most
+            && let Some(mut corners) = Corners::new(v)
+        {
+            for (k, pair) in pairs.enumerate() {
+                *corners.of(0, 1 + k) = pair[0];
+            }
+            let mut next = products.iter();
+            for k in 0..v {
+                for l in k + 1..v {
+                    *corners.of(1 + k, 1 + l) = next.next().copied().unwrap_or_default();
+                }
+            }
+            (least, greatest) = corners.extremes();
         }
-        high.max(-low)
+        f64::max(high + greatest, -(low + least))
     }
 }
 

@@ -10,8 +10,10 @@
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
 //!   over the sub-boxes of `subdivide`, and written out. `distinct`: equal
 //!   outputs once
+//! - `corners`: products of velocities at their worst together
 //! - `work`: work counted, for who cannot wait
 
+pub(crate) mod corners;
 pub(crate) mod definite;
 mod distinct;
 mod expand;

@@ -48,7 +48,7 @@ impl Subject<'_> {
             None if has_edits(self.stages) => difference(self.stages),
             None => return vec![0.0; self.scales.len()],
         };
-        magnitudes(&error, self.limits, self.scales, 0.0, bound_effort.budget)
+        magnitudes(&error, self.limits, self.scales, bound_effort.budget)
     }
 
     /// Bounds by cause, relative to the scales, with the edits' and the

@@ -69,6 +69,10 @@ pub struct PruneSettings {
     /// Smaller models to start from as well; none where work is limited, of which a
     /// thread counts its own.
     pub models: usize,
+    /// Times that the best programs are edited again, with other samples.
+    pub restarts: u64,
+    /// Added to the seed of the samples and of what is taken back.
+    pub seed: u64,
     /// Units of work at most, if there is a limit: what was found by then counts.
     pub work: Option<u64>,
 }
@@ -86,6 +90,8 @@ impl Default for PruneSettings {
             effort: Effort::Quick,
             refit: true,
             models: 2,
+            restarts: 1,
+            seed: 0,
             work: None,
         }
     }
@@ -115,6 +121,8 @@ impl PruneSettings {
         effort: Effort::Quick,
         refit: true,
         models: 0,
+        restarts: 0,
+        seed: 0,
         work: None,
     };
 
@@ -130,6 +138,8 @@ impl PruneSettings {
         effort: Effort::Thorough,
         refit: true,
         models: 5,
+        restarts: 8,
+        seed: 0,
         work: None,
     };
 
@@ -232,7 +242,7 @@ pub(crate) fn watched(
             ..nothing.clone()
         },
     };
-    let mut random = Random::new(SEED);
+    let mut random = Random::new(SEED + settings.seed);
     let motions = Motions::new(program, limits);
     let mut positions = motions::positions(limits, settings.samples, &mut random);
     // What a model errs is no guess.

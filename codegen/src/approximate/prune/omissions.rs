@@ -43,7 +43,7 @@ impl Pruned {
             };
             let ones = vec![1.0; alone.program.outputs.len()];
             let graph = difference(std::slice::from_ref(&alone));
-            omission.errors = magnitudes(&graph, limits, &ones, 0.0, BoxEffort::QUICK);
+            omission.errors = magnitudes(&graph, limits, &ones, BoxEffort::QUICK);
         }
         omissions
     }

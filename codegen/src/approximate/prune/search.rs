@@ -271,7 +271,7 @@ impl Search<'_> {
     ) -> (Pruned, Vec<f64>) {
         let (mut pruned, error) = self.variant(original, state, greedy);
         let budget = self.settings.budget;
-        pruned.errors = magnitude::magnitudes(&error, self.limits, self.allowances, 1.0, budget);
+        pruned.errors = magnitude::judged(&error, self.limits, self.allowances, budget);
         let pairs = pruned.errors.iter().zip(self.allowances);
         let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
         // Too much went as well if D may become singular: the next guess

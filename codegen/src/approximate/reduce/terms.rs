@@ -74,14 +74,9 @@ impl Terms {
             outputs: Vec::new(),
             motions,
         };
-        let block = terms.motions.len();
         let whole = terms.values(exact, &states);
         for (output, (values, &allowance)) in whole.iter().zip(allowances).enumerate() {
-            let blocks = values.chunks_exact(block);
-            let most = blocks.fold(0.0, |most, block| {
-                f64::max(most, terms.motions.largest(block))
-            });
-            if most > NOTHING * allowance {
+            if terms.motions.largest_of(values) > NOTHING * allowance {
                 // What may not err at all cannot be fitted.
                 if allowance <= 0.0 {
                     return None;

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use super::harmonics::{bits, multiple, phases};
-use crate::bound::expand::Key;
+use crate::bound::corners::Corners;
+use crate::bound::expand::{Key, rates};
 use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
 
@@ -38,6 +39,11 @@ pub(super) struct Layout {
     pub groups: Vec<Vec<Group>>,
     /// The range of the rates of each value that comes out.
     pub output: Vec<(f64, f64)>,
+    /// Of each value that comes out, the factors that are at their worst together with
+    /// those of the others.
+    factors: Vec<Option<(usize, usize)>>,
+    /// No products of these factors.
+    corners: Option<Corners>,
     /// What is left of the key of each value that comes out.
     pub rest: Vec<Key>,
     pub slack: f64,
@@ -144,8 +150,12 @@ impl Layout {
             let range = range(key);
             (range.low(), range.high())
         });
+        let output: Vec<(f64, f64)> = output.collect();
+        let (factors, corners) = factors(&terms, &output, n);
         Layout {
-            output: output.collect(),
+            output,
+            factors,
+            corners,
             rounding,
             rest: terms.clone(),
             joints,
@@ -172,7 +182,7 @@ impl Layout {
     pub(super) fn crude(&self, level: usize, values: &[f64]) -> f64 {
         // After the last angle only rates are left.
         let Some(groups) = self.groups.get(level) else {
-            return self.value(values) * (1.0 + 1e-9);
+            return self.each_at_worst(values) * (1.0 + 1e-9);
         };
         let (mut sum, mut from) = (self.slack, 0);
         for group in groups {
@@ -221,9 +231,12 @@ impl Layout {
         let (fold, len) = &self.folds[level];
         let mut sums = vec![[0.0; W]; *len];
         for (&x, &[base, to]) in before.iter().zip(fold) {
-            let row = &rows[base as usize % BASES];
-            for (sum, value) in sums[to as usize].iter_mut().zip(row) {
-                *sum += x * value;
+            let (row, sum) = (&rows[base as usize % BASES], &mut sums[to as usize]);
+            // Counted: a pair of iterators takes as long to make as this takes.
+            let mut lane = 0;
+            while lane < W {
+                sum[lane] += x * row[lane];
+                lane += 1;
             }
         }
         for lane in 0..angles.len() {
@@ -231,8 +244,13 @@ impl Layout {
         }
     }
 
-    /// The value at a point, rates at their worst.
-    pub(super) fn value(&self, values: &[f64]) -> f64 {
+    /// Returns whether the value at a point is at most a bound.
+    pub(super) fn is_below(&self, values: &[f64], bound: f64) -> bool {
+        self.each_at_worst(values) <= bound || self.value(values) <= bound
+    }
+
+    /// The value at a point, monomial by monomial at its worst.
+    fn each_at_worst(&self, values: &[f64]) -> f64 {
         let (mut low, mut high) = (0.0, 0.0);
         for (x, &(least, greatest)) in values.iter().zip(&self.output) {
             let (a, b) = (x * least, x * greatest);
@@ -241,6 +259,54 @@ impl Layout {
         }
         f64::max(high, -low) + self.slack
     }
+
+    /// The value at a point, rates at their worst.
+    pub(super) fn value(&self, values: &[f64]) -> f64 {
+        let Some(mut corners) = self.corners.clone() else {
+            return self.each_at_worst(values);
+        };
+        let (mut low, mut high) = (0.0, 0.0);
+        for ((x, &(least, greatest)), factors) in values.iter().zip(&self.output).zip(&self.factors)
+        {
+            if let Some((first, second)) = *factors {
+                *corners.of(first, second) = x * greatest;
+                continue;
+            }
+            let (a, b) = (x * least, x * greatest);
+            low += a.min(b);
+            high += a.max(b);
+        }
+        let (least, most) = corners.extremes();
+        f64::max(high + most, -(low + least)) + self.slack
+    }
+}
+
+/// Returns which values are products of two velocities, or a velocity alone, that are as
+/// large backwards as forwards: by their factors, of which 0 is the constant.
+fn factors(
+    terms: &[Key],
+    output: &[(f64, f64)],
+    joints: usize,
+) -> (Vec<Option<(usize, usize)>>, Option<Corners>) {
+    let velocities = |(&key, &(low, high)): (&Key, &(f64, f64))| {
+        let [a, b] = rates(key).map(usize::from);
+        let (first, second) = (a.min(b), a.max(b));
+        let is_alone = key >> 16 == 0;
+        (is_alone && low == -high && first < second && second <= joints).then_some((first, second))
+    };
+    let mut found: Vec<_> = terms.iter().zip(output).map(velocities).collect();
+    let mut moving: Vec<usize> = found.iter().flatten().flat_map(|&(a, b)| [a, b]).collect();
+    moving.retain(|factor| *factor > 0);
+    moving.sort_unstable();
+    moving.dedup();
+    let place = |factor: usize| moving.binary_search(&factor).map_or(0, |place| 1 + place);
+    for pair in found.iter_mut().flatten() {
+        *pair = (place(pair.0), place(pair.1));
+    }
+    // One of them by itself is at its worst anyway.
+    let is_some = found.iter().flatten().nth(1).is_some();
+    let corners = Corners::new(moving.len()).filter(|_| is_some);
+    (found, corners)
 }
 
 /// Returns what rounding costs a value at a point, against the sum of the magnitudes

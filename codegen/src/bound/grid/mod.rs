@@ -16,7 +16,8 @@
 //! So M ≤ B is shown by showing m(c) ≤ B·cos(d·δ) for every cell, angle after
 //! angle; a cell for which that fails is cut in three. Every B that is tried is a
 //! value that T takes and a little more. For each point the rates are at their
-//! worst, monomial by monomial.
+//! worst: accelerations and squares one by one, products of velocities together
+//! ([`corners`](super::corners)).
 //!
 //! What the arithmetic costs: coefficients are intervals, of which the points
 //! take the middle; their radii are added to each value, and so is what
@@ -117,6 +118,9 @@ pub(super) enum Aim {
     Least(f64),
     /// At most this, or it does not matter.
     Within(f64),
+    /// At most the second, which need not be smaller than the first; or, where that cannot
+    /// be shown, about the largest value that is taken, as a number above the second.
+    Judged(f64, f64),
 }
 
 /// The largest magnitude over a box of a polynomial in multiples of its angles
@@ -148,7 +152,7 @@ pub(super) fn magnitude(
         return bound(&layout, limits, None, aim, closeness);
     }
     // Of the circles only the size matters, for what lies between points.
-    let (Aim::Least(goal) | Aim::Within(goal)) = aim;
+    let (Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _)) = aim;
     let rough = GridEffort {
         points: closeness.points / 16,
         ..closeness
@@ -167,7 +171,7 @@ fn largest(
 ) -> f64 {
     let layout = Layout::new(polynomial, limits, sliding, &|key| range(key, limits), 0.0);
     let value = |values: &[f64]| layout.value(values);
-    let accept = |values: &[f64], bound| value(values) <= bound;
+    let accept = |values: &[f64], bound| layout.is_below(values, bound);
     let without = |level: usize, values: &[f64]| layout.crude(level, values);
     let mut cells = Cells::new(&layout, limits, None, &accept);
     cells.is_positive = true;
@@ -202,12 +206,12 @@ fn bound(
     let points = closeness.points;
     let crude = layout.crude(0, &layout.coefficients);
     let enough = match aim {
-        Aim::Least(goal) | Aim::Within(goal) => crude <= goal,
+        Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _) => crude <= goal,
     };
     if points == 0 || enough {
         return crude;
     }
-    let accept = |values: &[f64], bound| layout.value(values) <= bound;
+    let accept = |values: &[f64], bound| layout.is_below(values, bound);
     let without = |level: usize, values: &[f64]| layout.crude(level, values);
     let mut cells = Cells::new(layout, limits, whole, &accept);
     cells.crude = Some(&without);
@@ -216,7 +220,7 @@ fn bound(
     let least = climb(&mut cells, closeness.starts, &value);
     let tries = tries(least, 2.0 * layout.slack, crude, closeness.close);
     let start = match aim {
-        Aim::Least(goal) => {
+        Aim::Least(goal) | Aim::Judged(goal, _) => {
             let enough = tries.iter().position(|&bound| bound >= goal);
             enough.unwrap_or(tries.len().saturating_sub(1))
         }
@@ -229,13 +233,21 @@ fn bound(
         cells.points = points;
         cells.below(0, bound)
     };
-    if tries.get(start).is_some_and(|&bound| shown(bound)) {
-        return tries[start];
+    let first = tries.get(start).copied();
+    if let Aim::Judged(_, most) = aim {
+        let first = first.filter(|&bound| bound < most);
+        let found = first
+            .into_iter()
+            .chain([most])
+            .find(|&bound| least <= bound && bound < crude && shown(bound));
+        let above = f64::max(least * (1.0 + closeness.close), most.next_up());
+        return found.unwrap_or(above.min(crude));
     }
-    if matches!(aim, Aim::Within(_)) {
-        return crude;
+    match first.filter(|&bound| shown(bound)) {
+        Some(bound) => bound,
+        None if matches!(aim, Aim::Within(_)) => crude,
+        None => least_shown(&tries, start, &mut shown).unwrap_or(crude),
     }
-    least_shown(&tries, start, &mut shown).unwrap_or(crude)
 }
 
 /// Bounds to try: from a value that is taken up to the crude bound.

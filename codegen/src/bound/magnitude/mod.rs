@@ -35,25 +35,38 @@ impl BoxEffort {
     };
 }
 
+/// The part of a limit below which no bound need be.
+const ENOUGH: f64 = 0.85;
+
 /// Bounds of |output| over the box, one an output. `scales` say what a unit
 /// of each output is worth: the largest |output|/scale is tightened.
-/// `goal`: stop as soon as every |output|/scale is at most that.
-pub fn magnitudes(
-    graph: &Graph,
-    whole: &InputBox,
-    scales: &[f64],
-    goal: f64,
-    budget: BoxEffort,
-) -> Vec<f64> {
+pub fn magnitudes(graph: &Graph, whole: &InputBox, scales: &[f64], budget: BoxEffort) -> Vec<f64> {
     let (graph, scales, distinct) = distinct_outputs(graph, scales);
-    // Close enough to the goal to tell how far from it.
-    let aims = scales.iter().map(|scale| Aim::Least(0.85 * goal * scale));
+    let aims = scales.iter().map(|_| Aim::Least(0.0));
     let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, goal, budget));
+    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, 0.0, budget));
     distinct.scatter(&most)
 }
 
-/// The same, if every output is shown to be at most its limit; at a grid, the
+/// The same for who searches: an output is shown to be at most its limit, and need not be
+/// shown to be below [`ENOUGH`] of it; or, where it cannot be, the number is larger, about as
+/// large as the output is, and no bound.
+pub(crate) fn judged(
+    graph: &Graph,
+    whole: &InputBox,
+    limits: &[f64],
+    budget: BoxEffort,
+) -> Vec<f64> {
+    let (graph, limits, distinct) = distinct_outputs(graph, limits);
+    let aims = limits
+        .iter()
+        .map(|&limit| Aim::Judged(ENOUGH * limit, limit));
+    let most = written_out(&graph, whole, aims, budget);
+    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
+    distinct.scatter(&most)
+}
+
+/// The same as [`magnitudes`], if every output is shown to be at most its limit; at a grid, the
 /// first for which it is not ends the search.
 pub(crate) fn magnitudes_within(
     graph: &Graph,
@@ -143,16 +156,12 @@ mod tests {
             velocity: vec![Interval::ZERO],
             acceleration: vec![Interval::symmetric(30.0)],
         };
-        let bound =
-            |limits: &InputBox| magnitudes(&graph, limits, &[1.0], 0.0, BoxEffort::QUICK)[0];
+        let bound = |limits: &InputBox| magnitudes(&graph, limits, &[1.0], BoxEffort::QUICK)[0];
         assert_eq!(bound(&limits), 0.0);
         let zero = Builder::new(Folding::Syntactic).finish(&[Value::Constant(Exact::from(
             Rational::from_integer(0.into()),
         ))]);
-        assert_eq!(
-            magnitudes(&zero, &limits, &[0.0], 0.0, BoxEffort::QUICK),
-            [0.0]
-        );
+        assert_eq!(magnitudes(&zero, &limits, &[0.0], BoxEffort::QUICK), [0.0]);
         // Nor is there a step from one subnormal to the next.
         limits.velocity = vec![Interval::symmetric(5e-324)];
         assert!(bound(&limits) < 1e-150);
@@ -172,7 +181,7 @@ mod tests {
             acceleration: vec![Interval::symmetric(30.0)],
         };
         for budget in [BoxEffort::QUICK, BoxEffort::CERTIFY] {
-            let bound = magnitudes(&graph, &limits, &[1.0], 0.0, budget)[0];
+            let bound = magnitudes(&graph, &limits, &[1.0], budget)[0];
             assert!((1.2e-3..1.3e-3).contains(&bound), "{bound:e}");
         }
     }

@@ -34,8 +34,7 @@ impl Greedy<'_> {
             .zip(&self.allowances);
         outputs
             .map(|(errors, allowance)| {
-                let blocks = errors.chunks_exact(self.motions.len());
-                let most = blocks.fold(0.0, |e, block| f64::max(e, self.motions.largest(block)));
+                let most = self.motions.largest_of(errors);
                 (most / allowance.max(TINY)).min(4.0)
             })
             .collect()
@@ -102,8 +101,7 @@ impl Greedy<'_> {
         let (mut sum, mut worst) = (0.0, 0.0f64);
         let outputs = self.allowances.iter().zip(&self.prices);
         for (errors, (allowance, price)) in errors.chunks_exact(m).zip(outputs) {
-            let blocks = errors.chunks_exact(self.motions.len());
-            let error = blocks.fold(0.0f64, |e, block| e.max(self.motions.largest(block)));
+            let error = self.motions.largest_of(errors);
             let relative = if error <= 1e-13 {
                 0.0
             } else {
