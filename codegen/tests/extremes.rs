@@ -3,8 +3,9 @@
 //! against, overflow and underflow as the code does.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::{self, Reading};
 
 use crate::support;

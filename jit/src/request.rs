@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::{Fma, Prefer, Request, in_scene};
+use dalembert_codegen::workspace::task::{Fma, Prefer, Request, in_scene};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Library, ScalarType};
 use dalembert_codegen::workspace::simplify::Effort;

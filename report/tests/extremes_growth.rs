@@ -1,10 +1,11 @@
 //! Longer chains: linear inverse dynamics, code in parts, refusals.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_report::stress::deviation::Measure;
 use dalembert_report::stress::growth::{chain, measure};
 use dalembert_report::stress::subject::Code;

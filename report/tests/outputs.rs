@@ -2,11 +2,12 @@
 //! rounding, and what an independent library says of them.
 
 use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::plan::{Entry, Plan};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::scene::input_hash;
 use dalembert_codegen::workspace::states::{JointState, SEED, STATES, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::scene::Scene;
