@@ -106,8 +106,8 @@ pub mod function {
 
 pub mod generate {
     pub use crate::generate::{
-        GenerateError, Generated, GeneratedFunction, MAX_OUTPUTS, TextDefect, ToleranceError,
-        Unbounded, generate, generate_anew,
+        GenerateError, Generated, GeneratedFunction, MAX_OUTPUTS, ToleranceError, Unbounded,
+        generate, generate_anew,
     };
     pub mod early {
         pub use crate::generate::early::price;

@@ -77,12 +77,9 @@ fn reading(seed: usize, scene: &str) -> Reading {
 fn never_contradicted(reading: &Reading, request: &Request, seed: usize) -> bool {
     match generate(&reading.robot, request) {
         Ok(_) => true,
-        Err(
-            error @ (GenerateError::Contradicted { .. }
-            | GenerateError::Edited(..)
-            | GenerateError::Text(..)
-            | GenerateError::Disproved(..)),
-        ) => panic!("seed {seed}: {error}\n{}", arm(seed)),
+        Err(error @ (GenerateError::Defect(..) | GenerateError::Disproved(..))) => {
+            panic!("seed {seed}: {error}\n{}", arm(seed))
+        }
         Err(_) => false,
     }
 }

@@ -16,7 +16,6 @@ use super::messages as m;
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::function::Function;
-use crate::generate::parameters::ParameterError;
 use crate::generate::{GenerateError, Generated, generate_anew};
 use crate::language::Entries;
 use crate::plan::{self, Plan};
@@ -222,32 +221,7 @@ fn functions(
     };
     generate_anew(robot, &request, &shown)
         .map_err(|error| {
-            let function = match &error {
-                GenerateError::Empty
-                | GenerateError::Contents
-                | GenerateError::Unexplained(_)
-                | GenerateError::StalePlan { .. }
-                | GenerateError::StaleScene { .. }
-                | GenerateError::Language(..)
-                | GenerateError::Scene(_) => None,
-                GenerateError::Parameter(
-                    ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _),
-                ) => Some(*function),
-                GenerateError::Parameter(_) => None,
-                GenerateError::Constant { function, .. }
-                | GenerateError::Contradicted { function, .. }
-                | GenerateError::Singular { function, .. }
-                | GenerateError::TooLarge { function, .. }
-                | GenerateError::Base(function, _)
-                | GenerateError::SinCos(function, _)
-                | GenerateError::Disproved(function, _)
-                | GenerateError::Tolerance(function, _)
-                | GenerateError::Variant(function, _)
-                | GenerateError::Edited(function, _)
-                | GenerateError::Text(function, ..)
-                | GenerateError::Namesakes(_, function)
-                | GenerateError::Vanishing(function, _) => Some(*function),
-            };
+            let function = error.function();
             let asked = invocation.outputs.iter().flatten();
             let at = asked
                 .filter(|(output, _)| Some(*output) == function)

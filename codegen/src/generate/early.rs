@@ -4,7 +4,7 @@
 //! cheaper program stays, and an early end is never worse than no patience.
 
 use super::{GeneratedFunction, Request, Task, functions};
-use crate::program::{Operation, Program, ScalarType};
+use crate::program::{Program, ScalarType};
 use crate::simplify::{CostModel, Effort};
 use crate::watch::Watch;
 
@@ -37,15 +37,6 @@ pub(super) fn no_dearer_than_quick(
 /// Returns what programs are compared by, in hundredths of an operation: operations,
 /// and what sines and cosines are worth to the search.
 pub fn price(program: &Program) -> u64 {
-    let model = CostModel::OPERATIONS;
-    let steps = program.steps.iter().map(|step| match step.operation {
-        Operation::Mul | Operation::Fused => model.mul,
-        Operation::Div => model.div,
-        Operation::Add | Operation::Sub => model.add,
-    });
-    let angles = program.trig.iter().map(|trig| {
-        let forming = trig.angle.additions() as u64 * model.add;
-        forming + model.angle(trig.angle)
-    });
-    steps.sum::<u64>() + angles.sum::<u64>()
+    let angles = program.trig.iter().map(|trig| trig.angle);
+    CostModel::OPERATIONS.price(&program.counts(), angles)
 }

@@ -54,7 +54,6 @@ pub use anew::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub(crate) use reason::NoSines;
-pub use reason::TextDefect;
 use search::{found, replay};
 
 use tolerate::tolerate;
@@ -337,8 +336,8 @@ fn read_back(
 ) -> Result<Emitted, GenerateError> {
     let request = task.request;
     let scalar = code.scalar;
-    let fail = |why| GenerateError::Text(generated.function, scalar, why);
-    let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
+    let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
+    let section = section.ok_or_else(|| fail("its module is not in the text".to_owned()))?;
     let printed = Printed::of(&generated.program, code);
     let around = Around {
         path: &request.math.path,
@@ -352,12 +351,12 @@ fn read_back(
             Lowered::parse_c(section, &printed, request.entries, &names)
         }
     };
-    let read = read.map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
+    let read = read.map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
-        return Err(fail(TextDefect::Differs(difference)));
+        return Err(fail(difference.to_string()));
     }
     if read.counts() != generated.counts_in(scalar) {
-        return Err(fail(TextDefect::Counts));
+        return Err(fail("the counts of the text differ".to_owned()));
     }
     Ok(Emitted {
         function: generated.function,

@@ -30,6 +30,18 @@ pub enum ParameterError {
     Unfelt,
 }
 
+impl ParameterError {
+    /// Returns the function that it is about, if it is about one.
+    pub(super) fn function(&self) -> Option<Function> {
+        match self {
+            ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _) => {
+                Some(*function)
+            }
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -238,7 +238,10 @@ fn chosen(
 fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
     let programs = found.certificates.first();
     match programs.map(|certificate| certificate.check_programs(budget.scene_robot)) {
-        Some(Err(why)) => Err(GenerateError::Edited(budget.exact.function, why)),
+        Some(Err(why)) => {
+            let why = format!("what was left out is not what was written down: {why}");
+            Err(GenerateError::Defect(budget.exact.function, None, why))
+        }
         _ => Ok(found),
     }
 }

@@ -10,8 +10,8 @@ use dalembert_model::scalar::Scalar;
 use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::generate::search::{self, Found};
-use dalembert_codegen::workspace::generate::{GenerateError, TextDefect};
 use dalembert_codegen::workspace::graph::{Folding, Graph};
 use dalembert_codegen::workspace::portfolio::tune::{self, Tuned};
 use dalembert_codegen::workspace::portfolio::{self, Start};
@@ -265,9 +265,8 @@ pub(super) fn searched(
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let text = Lowered::parse(&certificate.text, function, scalar).map_err(|error| {
-            GenerateError::Text(function, scalar, TextDefect::Unreadable(Box::new(error)))
-        })?;
+        let text = Lowered::parse(&certificate.text, function, scalar)
+            .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
             step: SearchStep::Tolerance,
             counts: text.counts(),
