@@ -237,5 +237,5 @@ pub mod watch {
 }
 
 pub mod words {
-    pub use crate::words::{UnknownWord, Word, bundle, parse};
+    pub use crate::words::{Word, bundle, parse};
 }

@@ -64,7 +64,7 @@ pub use dalembert_codegen::workspace::words;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::function::{Function as Output, Quantity, RuntimeParameter};
 #[doc(inline)]
-pub use dalembert_codegen::workspace::task::{Fma, Prefer};
+pub use dalembert_codegen::workspace::task::{Fma, Prefer, Request, WordOption};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 #[doc(inline)]
