@@ -33,7 +33,10 @@ pub(super) fn set(
     let mut set = |text: &str| (option.set)(request, text);
     let one = |item: &[TokenTree], before: &[((), TokenStream)], errors: &mut Errors| match before {
         [] => meant(item, errors, &mut set),
-        _ => errors.push(tokens(item), &m::ONE_WORD).into(),
+        _ => {
+            errors.push(tokens(item), &m::ONE_WORD);
+            None
+        }
     };
     read(option.what, option.known, value, errors, one);
 }
