@@ -68,7 +68,7 @@ fn check(name: &str, functions: &[Function]) {
     };
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{name}: {error}"));
     for function in &generated.functions {
-        println!("{name} {} {:?}", function.function, function.counts);
+        println!("{name} {} {:?}", function.function, function.counts());
     }
     let runtime = Runtime::new(&robot);
     let states = seeded(&robot, STATES, SEED);
