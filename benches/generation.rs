@@ -10,7 +10,8 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::plan;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;

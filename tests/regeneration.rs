@@ -11,7 +11,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::{GeneratedFunction, Request, generate};
+use dalembert_codegen::workspace::generate::{GeneratedFunction, generate};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::plan::{self, Entry};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;

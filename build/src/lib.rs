@@ -82,16 +82,15 @@ mod output;
 use std::env;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::generate::in_scene::find;
-use dalembert_codegen::workspace::generate::{Request, generate_anew};
+use dalembert_codegen::workspace::generate::generate_anew;
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::Library;
+use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::task::in_scene::find;
 use dalembert_model::robot::Severity;
 
 #[doc(inline)]
 pub use dalembert_codegen::workspace::clauses::RobotFileError;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::emit::{Interface, Layout};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::function::BundleError;
 #[doc(inline)]
@@ -99,9 +98,7 @@ pub use dalembert_codegen::workspace::function::Function as Output;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::function::RuntimeParameter as Parameter;
 #[doc(inline)]
-pub use dalembert_codegen::workspace::generate::in_scene::UnknownScene;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::generate::{Fma, GenerateError, Prefer};
+pub use dalembert_codegen::workspace::generate::GenerateError;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::language::{Entries, Language};
 #[doc(inline)]
@@ -112,6 +109,11 @@ pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 pub use dalembert_codegen::workspace::simplify::Effort;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::sincos::SinCos;
+#[doc(inline)]
+pub use dalembert_codegen::workspace::task::in_scene::UnknownScene;
+pub use dalembert_codegen::workspace::task::{Fma, Prefer};
+#[doc(inline)]
+pub use dalembert_codegen::workspace::task::{Interface, Layout};
 pub use error::BuildError;
 
 /// A request for generated code: a robot file, and the functions that are wanted.
@@ -129,6 +131,21 @@ pub struct Generator {
     /// Everything else.
     request: Request,
 }
+
+macro_rules! setters {
+    ($($(#[doc = $doc:literal])* $word:ident($field:ident): $type:ty, $purpose:ident;)*) => {
+        /// Options of one word.
+        impl Generator {
+            $($(#[doc = $doc])*
+            #[must_use]
+            pub fn $word(mut self, $word: $type) -> Self {
+                self.request.$field = $word;
+                self
+            })*
+        }
+    };
+}
+dalembert_codegen::each_option!(setters);
 
 impl Generator {
     /// A generator with nothing chosen but the defaults.
@@ -170,36 +187,6 @@ impl Generator {
         self
     }
 
-    /// One formulation only, to compare formulations; [`Formulation::Auto`], the
-    /// default, is never dearer.
-    #[must_use]
-    pub fn formulation(mut self, formulation: Formulation) -> Self {
-        self.request.start = formulation;
-        self
-    }
-
-    /// Sets how long to search. [`Effort::Thorough`] saves a few operations more,
-    /// but at every build: better search once with the command
-    /// `dalembert generate --effort thorough --save-plan`, whose plan every
-    /// build replays in a fraction of a second.
-    #[must_use]
-    pub fn effort(mut self, effort: Effort) -> Self {
-        self.request.effort = effort;
-        self
-    }
-
-    /// Sets what to do about a program that is cheaper and rounds worse:
-    /// [`Prefer::Operations`] takes the cheapest whatever its rounding error;
-    /// [`Prefer::Accuracy`], the default, the cheapest of those whose error is
-    /// at most four times the textbook form's. Programs of a plan stay.
-    /// [`Prefer::Latency`] then takes sums and products, a plan's too, in the order in
-    /// which the longest chain of operations is shortest.
-    #[must_use]
-    pub fn prefer(mut self, prefer: Prefer) -> Self {
-        self.request.prefer = prefer;
-        self
-    }
-
     /// Only what a scene of the robot file needs: locked joints, rates that
     /// are zero and joints that nobody asks for are gone from the code. Its
     /// outputs and scalar count where none were chosen here, and the module is
@@ -219,14 +206,6 @@ impl Generator {
         self
     }
 
-    /// Sets whether the file has modules, for `include!`, or is the contents of one,
-    /// for a file that is taken by `mod NAME;`. The latter has one scalar.
-    #[must_use]
-    pub fn layout(mut self, layout: Layout) -> Self {
-        self.request.layout = layout;
-        self
-    }
-
     /// Returns where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32), and `sqrt`
     /// of robots with Coulomb friction:
     /// a path, by default `libm`, or `dalembert_sines` with
@@ -234,56 +213,6 @@ impl Generator {
     #[must_use]
     pub fn math(mut self, path: impl Into<String>) -> Self {
         self.math = Some(path.into());
-        self
-    }
-
-    /// Returns where sines come from: by default from libm. [`SinCos::Together`] takes
-    /// less than a third of its time for six angles, within the same ulp, and
-    /// needs `dalembert-sines` in `Cargo.toml`, as `dynamics!` brings it along.
-    /// Polynomials over the joints' limits, or the scene's box, are faster
-    /// still and need neither; their largest error is
-    /// [`SinCos::ERROR`] unless one is given. A scene's tolerance decides on it
-    /// by itself: there, giving one is an error.
-    #[must_use]
-    pub fn sincos(mut self, sincos: SinCos) -> Self {
-        self.request.sincos = sincos;
-        self
-    }
-
-    /// Sets whether a product and the sum that alone reads it are one operation,
-    /// `mul_add`, which rounds once. The code needs `std`, and a build for a processor
-    /// that has it (`-C target-feature=+fma` on x86-64): any other calls a function
-    /// of C for each, slower by far than two operations.
-    #[must_use]
-    pub fn fma(mut self, fma: Fma) -> Self {
-        self.request.fma = fma;
-        self
-    }
-
-    /// Sets the language of the file: [`Language::C`] writes one header of C99, which C++ reads
-    /// too, with the functions of all scalars, and [`Language::Cuda`] one for host and device.
-    #[must_use]
-    pub fn language(mut self, language: Language) -> Self {
-        self.request.language = language;
-        self
-    }
-
-    /// Sets whether functions in C have contracts in ACSL, for Frama-C.
-    #[must_use]
-    pub fn acsl(mut self, acsl: bool) -> Self {
-        self.request.acsl = acsl;
-        self
-    }
-
-    /// Sets in how many ways each function can be called: [`Entries::WithSincos`] adds
-    /// `NAME_with_sincos` for who has the sines already, [`Entries::Lanes`]
-    /// `NAME_lanes`, which computes several states at once in vectors of the
-    /// processor's, and [`Entries::Batch`] `NAME_batch` and `NAME_columns` for
-    /// slices of states; that needs `dalembert-batch` in `Cargo.toml`. Lanes are
-    /// for [`SinCos::Together`] or polynomials: libm's sines are called one by one.
-    #[must_use]
-    pub fn entries(mut self, entries: Entries) -> Self {
-        self.request.entries = entries;
         self
     }
 
@@ -295,15 +224,6 @@ impl Generator {
     #[must_use]
     pub fn parameters(mut self, parameters: impl IntoIterator<Item = Parameter>) -> Self {
         self.request.parameters = parameters.into_iter().collect();
-        self
-    }
-
-    /// Sets how code meets the module: [`Interface::Traits`] adds a type `Robot` with the
-    /// traits of `dalembert::interface`, for code that is generic over robots; that
-    /// needs `dalembert` in `Cargo.toml`, without its default features.
-    #[must_use]
-    pub fn interface(mut self, interface: Interface) -> Self {
-        self.request.interface = interface;
         self
     }
 

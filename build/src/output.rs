@@ -7,7 +7,7 @@ use std::path::Path;
 
 use hmac_sha256::Hash;
 
-use dalembert_codegen::workspace::generate::Request;
+use dalembert_codegen::workspace::task::Request;
 
 /// The hash of everything that the text depends on.
 pub(crate) fn key(source: &str, request: &Request) -> String {

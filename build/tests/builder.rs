@@ -8,7 +8,8 @@ use dalembert_build::{
     BuildError, Entries, Generator, Interface, Layout, Output, Parameter, Scalar, SinCos,
 };
 use dalembert_codegen::workspace::clauses::RobotFile;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
+use dalembert_codegen::workspace::task::Request;
 
 /// An empty folder of one test, with the robot file of the planar arm.
 fn folder(test: &str) -> PathBuf {

@@ -29,7 +29,7 @@ pub fn run(args: &CountArgs) -> Outcome {
         // The first that was emitted.
         let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
         let of =
-            |f: &GeneratedFunction| output::counts(&scalar.map_or(f.counts, |s| f.counts_in(s)));
+            |f: &GeneratedFunction| output::counts(&scalar.map_or(f.counts(), |s| f.counts_in(s)));
         let functions = generated.functions.iter();
         let functions: Map<String, Value> =
             functions.map(|f| (f.function.to_string(), of(f))).collect();

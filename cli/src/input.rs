@@ -5,12 +5,11 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use dalembert_codegen::RobotFileError;
-use dalembert_codegen::workspace::generate::in_scene::find;
-use dalembert_codegen::workspace::generate::{
-    GenerateError, Generated, Request, generate, generate_anew,
-};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate, generate_anew};
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::task::in_scene::find;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;

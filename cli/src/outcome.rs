@@ -24,9 +24,7 @@ impl From<GenerateError> for Failure {
             GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large { .. }) => {
                 Failure::Input(text)
             }
-            GenerateError::Disproved(..)
-            | GenerateError::Text(..)
-            | GenerateError::Contradicted { .. } => Failure::Check(text),
+            GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
             _ => Failure::Input(text),
         }
     }

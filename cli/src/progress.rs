@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::Request;
 use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::watch::{Observer, Progress, Watch};
 use dalembert_report::sweep::ladder::Waiting;
 use dalembert_report::sweep::rungs::Rung;

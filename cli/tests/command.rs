@@ -1,5 +1,6 @@
 //! The command as a user runs it: every subcommand, exit codes, files.
 
+use dalembert_codegen::workspace::task::WordOption;
 use std::fs;
 
 use crate::support::{arm, golden, robot, run, temporary};
@@ -47,6 +48,23 @@ fn entries_are_asked_for() {
     let wrong = run(&[&plain[..], &["--entries", "lane"]].concat());
     assert_eq!(wrong.code, 2);
     assert!(wrong.err.contains("'lanes'"), "{}", wrong.err);
+}
+
+/// The command has every option of the table that macro and build script share.
+#[test]
+fn options_of_one_word_are_arguments() {
+    let help = run(&["generate", "--help"]).out;
+    for option in WordOption::ALL {
+        assert!(
+            help.contains(&format!("  --{}", option.word)),
+            "{}",
+            option.word
+        );
+        let known = format!("[possible values: {}]", (option.known)().join(", "));
+        assert!(help.contains(&known), "{known}");
+    }
+    let count = run(&["count", "--help"]).out;
+    assert!(count.contains("--prefer") && !count.contains("--layout"));
 }
 
 /// Fused products are counted apart, printed and read back; processors without them

@@ -10,6 +10,7 @@
 //! - `parallel`: work shared out among threads
 //! - `states`: joint states inside a robot's limits
 //! - `function`: the functions that can be generated
+//! - `words`: values that users name by a word
 //! - `program`: straight-line code, its inputs, scalars, counts and text
 //! - `graph`: the formulas as a graph with exact constants and fingerprints
 //! - `interval`: intervals, rounded outward
@@ -25,6 +26,7 @@
 //! - `language`: flat Rust, printed and read back
 //! - `verify`: proofs and checks
 //! - `plan`: programs kept from a long search
+//! - `task`: what is generated, for which robot in which scene, with which options
 //! - `bound`: rigorous bounds of what was left out and of what rounding costs
 //! - `certificate`: claims about emitted code, their check and their text
 //! - `falsify`: attempts to refute them
@@ -66,22 +68,22 @@ mod simplify;
 mod sincos;
 mod split;
 mod states;
+mod task;
 mod trace;
 mod verify;
 mod watch;
+mod words;
 #[doc(hidden)]
 pub mod workspace;
 
 #[doc(inline)]
 pub use clauses::{RobotFile, RobotFileError, expand};
 #[doc(inline)]
-pub use emit::{GeneratedFunction, Layout};
+pub use emit::GeneratedFunction;
 #[doc(inline)]
 pub use function::Function;
 #[doc(inline)]
-pub use generate::in_scene::UnknownScene;
-#[doc(inline)]
-pub use generate::{Fma, GenerateError, Generated, Prefer, Request, generate};
+pub use generate::{GenerateError, Generated, generate};
 #[doc(inline)]
 pub use language::{Entries, Language, MathPath};
 #[doc(inline)]
@@ -94,5 +96,9 @@ pub use program::{Counts, Program, ScalarType};
 pub use simplify::Effort;
 #[doc(inline)]
 pub use sincos::SinCos;
+#[doc(inline)]
+pub use task::in_scene::UnknownScene;
+#[doc(inline)]
+pub use task::{Fma, Interface, Layout, Prefer, Request};
 #[doc(inline)]
 pub use watch::Watch;

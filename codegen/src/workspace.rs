@@ -76,9 +76,6 @@ pub mod certificate {
 
 pub mod clauses {
     pub use crate::clauses::{RobotFile, RobotFileError, expand, expand_from};
-    pub mod words {
-        pub use crate::clauses::words::{UnknownWord, Word, bundle, parse};
-    }
 }
 
 pub mod edits {
@@ -89,7 +86,6 @@ pub mod edits {
 }
 
 pub mod emit {
-    pub use crate::emit::{Interface, Layout};
     pub mod figures {
         pub use crate::emit::figures::{bound_of, inside};
     }
@@ -110,14 +106,11 @@ pub mod function {
 
 pub mod generate {
     pub use crate::generate::{
-        Fma, GenerateError, Generated, GeneratedFunction, MAX_OUTPUTS, Prefer, Request, TextDefect,
-        ToleranceError, Unbounded, generate, generate_anew,
+        GenerateError, Generated, GeneratedFunction, MAX_OUTPUTS, ToleranceError, Unbounded,
+        generate, generate_anew,
     };
     pub mod early {
         pub use crate::generate::early::price;
-    }
-    pub mod in_scene {
-        pub use crate::generate::in_scene::{UnknownScene, find};
     }
     pub mod keep {
         pub use crate::generate::keep::keep;
@@ -206,6 +199,14 @@ pub mod states {
     pub use crate::states::{JointState, SEED, STATES, positions, seeded};
 }
 
+pub mod task {
+    pub use crate::task::options::{Purpose, WordOption};
+    pub use crate::task::{Fma, Interface, Layout, Prefer, Request, Task};
+    pub mod in_scene {
+        pub use crate::task::in_scene::{UnknownScene, find};
+    }
+}
+
 pub mod trace {
     pub use crate::trace::{Trace, trace};
 }
@@ -233,4 +234,8 @@ pub mod verify {
 
 pub mod watch {
     pub use crate::watch::{Observer, Part, Progress, Watch};
+}
+
+pub mod words {
+    pub use crate::words::{Word, bundle, parse};
 }

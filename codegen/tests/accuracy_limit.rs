@@ -3,10 +3,11 @@
 
 use crate::support::{arm_file, dose, read_robot};
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GeneratedFunction, Prefer, Request, generate};
+use dalembert_codegen::workspace::generate::{GeneratedFunction, generate};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::{Prefer, Request};
 use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_codegen::workspace::verify::rounding::Rounding;
 
@@ -40,7 +41,7 @@ fn heavier(source: &str, factor: f64) -> String {
 #[test]
 fn neighbours_cost_about_the_same() {
     let file = arm_file("gen3");
-    let own = torques(&file, Prefer::Accuracy).counts.operations();
+    let own = torques(&file, Prefer::Accuracy).counts().operations();
     let neighbours = [
         file.replace("9.81", "9.80665"),
         heavier(&file, 1.01),
@@ -51,7 +52,7 @@ fn neighbours_cost_about_the_same() {
     ];
     for neighbour in dose(&neighbours, 2) {
         assert_ne!(*neighbour, file);
-        let other = torques(neighbour, Prefer::Accuracy).counts.operations();
+        let other = torques(neighbour, Prefer::Accuracy).counts().operations();
         assert!(own.abs_diff(other) * 50 <= own, "{own} and {other}");
     }
 }
@@ -65,9 +66,9 @@ fn what_the_limit_costs_is_little_and_said() {
     let cheapest = torques(&file, Prefer::Operations);
     let refused = taken.refused.unwrap();
     assert_eq!(cheapest.refused, None);
-    assert_eq!(cheapest.counts.operations(), refused.counts.operations());
+    assert_eq!(cheapest.counts().operations(), refused.counts.operations());
     assert!(refused.error > 4.0 * refused.taken, "{refused:?}");
-    let (few, more) = (cheapest.counts.operations(), taken.counts.operations());
+    let (few, more) = (cheapest.counts().operations(), taken.counts().operations());
     assert!(few < more && (more - few) * 50 <= few, "{few} and {more}");
 }
 
@@ -83,7 +84,7 @@ fn what_is_cheaper_and_more_exact_is_taken() {
     let file = std::fs::read_to_string(file).unwrap();
     let [taken, cheapest] = [Prefer::Accuracy, Prefer::Operations]
         .map(|prefer| found(&file, Function::Inertia, prefer));
-    assert_eq!(taken.counts, cheapest.counts);
+    assert_eq!(taken.counts(), cheapest.counts());
     assert_eq!(taken.refused, None);
 }
 

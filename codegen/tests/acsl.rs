@@ -5,10 +5,11 @@ use std::fs;
 use std::process::Command;
 
 use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::read::Reading;
 

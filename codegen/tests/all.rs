@@ -23,6 +23,7 @@ mod fused;
 mod fuzz_tokens;
 mod fuzz_verified;
 mod libm_ulps;
+mod options;
 mod overflow;
 mod placements;
 mod planted;

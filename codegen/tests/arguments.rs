@@ -5,14 +5,15 @@ use std::path::Path;
 
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Argument, Function, RuntimeParameter};
+use dalembert_codegen::workspace::generate::Generated;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, Request};
 use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::prove;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
 use dalembert_model::equations::Formulation;
@@ -571,7 +572,7 @@ fn counts() {
             let mut request = request(&[Function::InverseDynamics], parameters);
             request.scalars = vec![ScalarType::F64];
             let functions = generate(&robot, &request).functions;
-            functions.iter().map(|f| f.counts.operations()).collect()
+            functions.iter().map(|f| f.counts().operations()).collect()
         };
         let counts = [count(PAYLOAD), count(GRAVITY)].concat();
         (name, <[usize; 3]>::try_from(counts).unwrap())

@@ -8,7 +8,7 @@ use crate::support;
 
 fn operations(name: &str, function: Function, start: Start) -> usize {
     let generated = support::from(&support::robot(name), function, start);
-    generated.functions[0].counts.operations()
+    generated.functions[0].counts().operations()
 }
 
 /// What a quick search gives, without any plan.
@@ -112,7 +112,7 @@ fn other_kinds_of_arms() {
     ] {
         let robot = support::read_robot(&support::arm_file(name));
         let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
-        let found = generated.functions[0].counts.operations();
+        let found = generated.functions[0].counts().operations();
         assert!(found <= most, "{name}: {found}");
     }
 }

@@ -8,11 +8,12 @@ use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
 
@@ -33,7 +34,7 @@ fn of(robot: &Robot, functions: &[Function], entries: Entries) -> Generated {
 
 fn operations(robot: &Robot, function: Function) -> usize {
     let generated = support::one(robot, function);
-    generated.functions[0].counts.operations()
+    generated.functions[0].counts().operations()
 }
 
 /// Every quantity against its own runtime, in both scalars and by every entry;

@@ -8,11 +8,12 @@ use std::process::Command;
 
 use dalembert_codegen::workspace::clauses::RobotFile;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::{Fma, Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::c99::Names;
 use dalembert_codegen::workspace::language::{Entries, Language, MathPath, Printed};
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::{Fma, Request};
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -292,11 +293,11 @@ fn what_a_language_lacks_is_refused() {
     refused(|r| r.entries = Entries::Lanes, "`lanes`");
     refused(|r| r.entries = Entries::WithSincos, "`with_sincos`");
     refused(
-        |r| r.interface = dalembert_codegen::workspace::emit::Interface::Traits,
+        |r| r.interface = dalembert_codegen::workspace::task::Interface::Traits,
         "traits",
     );
     refused(
-        |r| r.layout = dalembert_codegen::workspace::emit::Layout::Contents,
+        |r| r.layout = dalembert_codegen::workspace::task::Layout::Contents,
         "contents",
     );
     refused(|r| r.module = Some("a-b".into()), "`a-b`");

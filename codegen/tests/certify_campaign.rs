@@ -9,9 +9,10 @@ use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::falsify::falsify;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::scene::{Scale, Scene};
 
 use crate::support;

@@ -9,10 +9,11 @@ use dalembert_codegen::workspace::edits::text::{read_edit, write_edit};
 use dalembert_codegen::workspace::edits::{Stage, difference};
 use dalembert_codegen::workspace::falsify::falsify;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::graph::Folding;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Program, ScalarType};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::prove_same;
 use dalembert_model::robot::Robot;
 

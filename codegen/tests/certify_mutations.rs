@@ -9,7 +9,7 @@ use dalembert_checker::{Claim, Verdict, audit, read as claims};
 use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::plan::{Edited, Entry, Plan};
 use dalembert_codegen::workspace::program::{Library, ScalarType};
 use dalembert_codegen::workspace::random::Random;
@@ -17,7 +17,9 @@ use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::scene::input_hash;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::words::parse;
 use dalembert_model::read::{self, Reading};
 use serde_json::Value;
 
@@ -202,7 +204,7 @@ fn execute(text: &str, state: &JointState, scalar: ScalarType) -> Option<Vec<f64
 fn is_true(claim: &Claim, verdict: &Verdict, scene_robot: &SceneRobot) -> bool {
     let runtime = Runtime::in_scene(scene_robot.clone());
     let function = Function::parse(&claim.function).unwrap();
-    let scalar = ScalarType::from_name(&claim.scalar).unwrap();
+    let scalar = parse::<ScalarType>(&claim.scalar).unwrap();
     let mut random = Random::new(7);
     (0..400).all(|index| {
         let mut draw = |ranges: &[[f64; 2]]| {

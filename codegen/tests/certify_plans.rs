@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 use dalembert_codegen::workspace::certificate::Refuted;
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::read::Reading;
 

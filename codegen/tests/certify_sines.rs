@@ -8,13 +8,14 @@ use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity}
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::falsify::falsify;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::{Printed, function};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::kernel::Term;
 use dalembert_codegen::workspace::program::{Library, Literal, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::sincos::{Sines, counts, lowered, stated};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 

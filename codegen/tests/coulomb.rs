@@ -6,7 +6,7 @@ use crate::support::draw::Draw;
 use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
@@ -15,6 +15,7 @@ use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Runtime};
 use dalembert_model::equations::Formulation;
@@ -105,7 +106,7 @@ fn code_is_as_accurate_as_without() {
     }
     for function in &generated.functions {
         let rubbed = RUBBED.contains(&function.function);
-        assert_eq!(function.counts.sqrt > 0, rubbed, "{}", function.function);
+        assert_eq!(function.counts().sqrt > 0, rubbed, "{}", function.function);
     }
 }
 

@@ -5,10 +5,11 @@ use std::fs;
 use std::process::Command;
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Request;
 
 use crate::c99::changes;
 use crate::support;

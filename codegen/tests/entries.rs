@@ -3,10 +3,9 @@
 
 use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::clauses::expand_from;
-use dalembert_codegen::workspace::emit::Layout;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, generate};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::language::Printed;
 use dalembert_codegen::workspace::language::entries::Around;
@@ -16,6 +15,9 @@ use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Layout;
+use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::words::parse;
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -73,7 +75,7 @@ fn read(
 /// entries are, the same program is read, and nothing else of it is printed.
 #[test]
 fn the_same_program_by_every_entry() {
-    let sums = Start::from_name("angle_sums").unwrap();
+    let sums = parse::<Start>("angle_sums").unwrap();
     let torques = [Function::InverseDynamics];
     for (name, start, functions) in [
         ("planar2r", Start::Auto, None),
@@ -128,7 +130,7 @@ fn the_same_program_by_every_entry() {
 #[test]
 fn sums_of_angles_have_places() {
     let robot = support::robot("planar3r");
-    let start = Start::from_name("angle_sums").unwrap();
+    let start = parse::<Start>("angle_sums").unwrap();
     let request = request(Entries::Lanes, SinCos::Together, start);
     let generated = generate(&robot, &request).unwrap();
     let angles = angles(&robot, &generated);

@@ -3,8 +3,9 @@
 //! against, overflow and underflow as the code does.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::{self, Reading};
 
 use crate::support;
@@ -76,12 +77,9 @@ fn reading(seed: usize, scene: &str) -> Reading {
 fn never_contradicted(reading: &Reading, request: &Request, seed: usize) -> bool {
     match generate(&reading.robot, request) {
         Ok(_) => true,
-        Err(
-            error @ (GenerateError::Contradicted { .. }
-            | GenerateError::Edited(..)
-            | GenerateError::Text(..)
-            | GenerateError::Disproved(..)),
-        ) => panic!("seed {seed}: {error}\n{}", arm(seed)),
+        Err(error @ (GenerateError::Defect(..) | GenerateError::Disproved(..))) => {
+            panic!("seed {seed}: {error}\n{}", arm(seed))
+        }
         Err(_) => false,
     }
 }

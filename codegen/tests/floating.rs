@@ -2,10 +2,11 @@
 //! measure itself sees what it should.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::Operand;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{SEED, STATES, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 
 use crate::support;

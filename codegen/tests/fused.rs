@@ -4,12 +4,13 @@
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Fma, Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::program::columns::Columns;
 use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::program::{Lowered, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{JointState, SEED, STATES, seeded};
+use dalembert_codegen::workspace::task::{Fma, Request};
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_codegen::workspace::verify::rounding::Rounding;
 use dalembert_model::read::Reading;
@@ -107,7 +108,7 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
             .remove(0);
         let scene_robot = SceneRobot::whole(&robot);
         let program = plain.program.fused();
-        let (before, after) = (plain.counts, program.counts());
+        let (before, after) = (plain.counts(), program.counts());
         assert_eq!(before.fma, 0);
         assert_eq!(after.mul + after.fma, before.mul);
         assert_eq!(after.add + after.fma, before.add);

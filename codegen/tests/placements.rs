@@ -6,8 +6,9 @@ use std::path::Path;
 use crate::support::{read_robot, reading_with};
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::states::{SEED, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::robot::Robot;
 

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use dalembert_codegen::Entries;
-use dalembert_codegen::workspace::emit::Layout;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Layout;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::robot::Robot;
 
 use crate::support;

@@ -2,10 +2,11 @@
 //! what is refused by name.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::{Operand, Operation, Program};
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{SEED, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::prove;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::number::{Angle, Rational};

@@ -6,13 +6,14 @@
 
 use crate::support::draw::{Draw, robots};
 use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::graph::Points;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::scene::{self, SceneRobot};
 use dalembert_codegen::workspace::states::{SEED, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;

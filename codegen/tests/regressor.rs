@@ -5,13 +5,12 @@ use std::path::Path;
 
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::{
-    GenerateError, Generated, Request, ToleranceError, Unbounded,
-};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, ToleranceError, Unbounded};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::scene::base::{BaseParameters, Parameter};
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::Disproof;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_codegen::workspace::verify::parameters::prove_base;
@@ -185,7 +184,7 @@ fn torques_of_the_checked_in_robots() {
     for ((name, base), most) in ROBOTS.into_iter().zip(bases).zip(most) {
         let generated = check(TORQUES, &support::robot(name), None, 0);
         assert_eq!(generated.emitted[0].sizes.base, base);
-        let found = generated.functions[0].counts.operations();
+        let found = generated.functions[0].counts().operations();
         assert!(found <= most, "{name}: {found}");
     }
 }
@@ -206,7 +205,7 @@ fn passivity_of_the_checked_in_robots() {
     let most = [23, 51, 669];
     for (name, most) in ["planar2r", "planar3r", "puma560"].into_iter().zip(most) {
         let generated = check(PASSIVITY, &support::robot(name), None, 0);
-        let found = generated.functions[0].counts.operations();
+        let found = generated.functions[0].counts().operations();
         assert!(found <= most, "{name}: {found}");
     }
 }

@@ -1,10 +1,11 @@
 //! `prefer: latency`: the same function, as many operations, a shorter longest chain.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Fma, Prefer, Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::shallow::Cycles;
 use dalembert_codegen::workspace::states::{SEED, STATES, seeded};
+use dalembert_codegen::workspace::task::{Fma, Prefer, Request};
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 
 use crate::shown::shown;
@@ -40,11 +41,11 @@ fn six_robots_are_right_and_less_deep() {
             for (own, other) in found.functions.iter().zip(&plain.functions) {
                 let (depth, before) = (own.program.depth(), other.program.depth());
                 let what = format!("{name} {}: {depth} of {before}", own.function);
-                assert_eq!((own.depth, other.depth), (Some(depth), None), "{what}");
                 let said = format!("/// The longest chain is of {depth} operations.\n");
                 assert!(found.text.contains(&said), "{what}");
+                assert!(!plain.text.contains("The longest chain"), "{what}");
                 if fma == Fma::Off {
-                    assert_eq!(own.counts, other.counts, "{what}");
+                    assert_eq!(own.counts(), other.counts(), "{what}");
                     assert!(depth <= before, "{what}");
                     let again = own.program.shallow(Cycles::DESKTOP);
                     assert_eq!(again.depth(), depth, "{what}");

@@ -2,7 +2,7 @@
 //! back, and as near to libm's as was proved.
 
 use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
 use dalembert_codegen::workspace::interval::Interval;
 use dalembert_codegen::workspace::language::{Printed, function};
 use dalembert_codegen::workspace::program::{
@@ -13,6 +13,7 @@ use dalembert_codegen::workspace::sincos::choose::Candidates;
 use dalembert_codegen::workspace::sincos::{AngleKernel, SinCos, need};
 use dalembert_codegen::workspace::split::ErrorByCause;
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
@@ -47,7 +48,7 @@ fn polynomials_are_printed_counted_read_back_and_near() {
             assert!(counts.trig_mul > 0 && counts.trig_add > 0);
             assert_eq!(
                 (counts.mul, counts.add),
-                (function.counts.mul, function.counts.add)
+                (function.counts().mul, function.counts().add)
             );
             let line = format!("{counts}.");
             assert!(line.contains("trig_mul") && generated.text.contains(&line));

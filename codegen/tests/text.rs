@@ -2,9 +2,10 @@
 //! line and a reason.
 
 use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::program::{Difference, Library, Lowered, ScalarType};
+use dalembert_codegen::workspace::task::Request;
 
 use crate::support;
 

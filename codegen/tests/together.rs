@@ -3,12 +3,13 @@
 
 use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::Library;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::number::Angle;
 use dalembert_model::robot::{Position, Robot};
 

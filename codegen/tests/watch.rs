@@ -5,9 +5,10 @@ use std::sync::Mutex;
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::early::price;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::watch::{Observer, Part, Progress, Watch};
 
 use crate::support;
@@ -76,7 +77,7 @@ fn an_early_end_keeps_the_best_so_far() {
         for function in &generated.functions {
             let passes = &function.passes;
             let began = passes.iter().find(|s| s.name == "fingerprints").unwrap();
-            assert!(function.counts.operations() <= began.counts.operations());
+            assert!(function.counts().operations() <= began.counts.operations());
         }
         // The function whose turn had not come got the quick search, unwatched.
         assert!(seen.iter().all(|p| p.function == Function::InverseDynamics));
@@ -130,7 +131,9 @@ fn a_tolerance_is_watched() {
     let admitted = ended.functions[0].admitted.as_ref().unwrap();
     let bounds = admitted.certificates.iter().flat_map(|c| &c.bounds);
     assert!(bounds.clone().count() > 0 && bounds.clone().all(|bound| bound.total() <= 0.3));
-    assert!(ended.functions[0].counts.operations() >= generated.functions[0].counts.operations());
+    assert!(
+        ended.functions[0].counts().operations() >= generated.functions[0].counts().operations()
+    );
 }
 
 /// Whenever the end is asked for, it is no worse than not to have begun: no
@@ -159,7 +162,7 @@ fn an_early_end_is_no_worse_than_the_quick_search() {
         let admitted = ended.functions[0].admitted.as_ref().unwrap();
         assert!(!admitted.stages.is_empty(), "{until}");
         for (ended, quick) in ended.functions.iter().zip(&quick.functions) {
-            let (ours, theirs) = (ended.counts, quick.counts);
+            let (ours, theirs) = (ended.counts(), quick.counts());
             assert!(
                 price(&ended.program) <= price(&quick.program),
                 "{until}: {ours}, quick: {theirs}"

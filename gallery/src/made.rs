@@ -126,7 +126,7 @@ pub fn counts(robot: &Robot) -> Result<Vec<Counts>, String> {
         let mut functions = generated.functions.iter();
         let found = functions.find(|function| function.function == *wanted);
         found
-            .map(|function| function.counts)
+            .map(|function| function.counts())
             .ok_or_else(|| format!("{}: there is no {wanted}", robot.name))
     };
     FUNCTIONS.iter().map(of).collect()

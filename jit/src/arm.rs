@@ -10,6 +10,7 @@ use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::program::{Counts, Lowered, ScalarType};
+use dalembert_codegen::workspace::words::parse;
 use dalembert_import::MAX_BYTES;
 use dalembert_model::robot::Robot;
 
@@ -221,7 +222,7 @@ fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
         true => Output::Load,
         false => Output::parse(&proved.function).map_err(|_| damaged())?,
     };
-    let scalar = ScalarType::from_name(&proved.scalar).ok_or_else(damaged)?;
+    let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let mut sections = entry.rust.split("\npub mod ").skip(1);
     let section = sections.nth(proved.section).ok_or_else(damaged)?;
     let program = Lowered::parse(section, output, scalar).map_err(|_| damaged())?;

@@ -47,10 +47,7 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
 /// for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     let search = Load {
-        effort: load.effort,
-        prefer: load.prefer,
-        sincos: load.sincos,
-        fma: load.fma,
+        options: load.options.clone(),
         cache: Cache::Off,
         ..Load::default()
     };
@@ -159,6 +156,7 @@ mod tests {
     use std::path::Path;
 
     use dalembert_codegen::workspace::simplify::Effort;
+    use dalembert_codegen::workspace::task::Request;
 
     use super::{GENERATOR, hash_of, key, plan_key, sources};
     use crate::request::{Cache, Load};
@@ -207,7 +205,10 @@ mod tests {
             ..Load::default()
         };
         let thorough = Load {
-            effort: Effort::Thorough,
+            options: Request {
+                effort: Effort::Thorough,
+                ..Request::default()
+            },
             ..Load::default()
         };
         let exact = Load {

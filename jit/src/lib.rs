@@ -60,11 +60,11 @@ pub use request::{Cache, Load};
 pub use rows::{Place, Rows, RowsMut};
 
 #[doc(inline)]
-pub use dalembert_codegen::workspace::clauses::words;
+pub use dalembert_codegen::workspace::words;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::function::{Function as Output, Quantity, RuntimeParameter};
 #[doc(inline)]
-pub use dalembert_codegen::workspace::generate::{Fma, Prefer};
+pub use dalembert_codegen::workspace::task::{Fma, Prefer, Request, WordOption};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 #[doc(inline)]

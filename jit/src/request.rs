@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::{Fma, Prefer, Request, in_scene};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Library, ScalarType};
-use dalembert_codegen::workspace::simplify::Effort;
-use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::{Request, in_scene};
 use dalembert_codegen::workspace::watch::Watch;
 use dalembert_model::read::Reading;
 
@@ -38,15 +36,10 @@ pub struct Load {
     pub parameters: Vec<RuntimeParameter>,
     /// The scene of the robot file, by its name.
     pub scene: Option<String>,
-    /// How long to search.
-    pub effort: Effort,
-    /// What programs are chosen by.
-    pub prefer: Prefer,
-    /// Whether products are fused with sums: then results are not those of other machines.
-    pub fma: Fma,
-    /// Where sines come from; `dalembert-sines` unless a scene's tolerance admits
-    /// polynomials.
-    pub sincos: SinCos,
+    /// How to search and compute: the generator's options of one word. Sines are those of
+    /// `dalembert-sines` unless a scene's tolerance admits polynomials, or others are chosen;
+    /// with fused products results are not those of other machines.
+    pub options: Request,
     /// Where the work is kept.
     pub cache: Cache,
     /// Who waits for a long search.
@@ -61,10 +54,7 @@ impl Default for Load {
             scalars: None,
             parameters: Vec::new(),
             scene: None,
-            effort: Effort::Quick,
-            prefer: Prefer::default(),
-            fma: Fma::default(),
-            sincos: SinCos::default(),
+            options: Request::default(),
             cache: Cache::default(),
             watch: Watch::default(),
         }
@@ -80,14 +70,10 @@ impl Load {
         let request = Request {
             scalars: vec![ScalarType::F64],
             parameters: self.parameters.clone(),
-            effort: self.effort,
-            prefer: self.prefer,
-            fma: self.fma,
-            sincos: self.sincos,
-            math: MathPath::of(self.sincos.library(Library::Together)),
+            math: MathPath::of(self.options.sincos.library(Library::Together)),
             watch: self.watch.clone(),
-            work: Request::work_while_compiling(self.effort),
-            ..Request::default()
+            work: Request::work_while_compiling(self.options.effort),
+            ..self.options.clone()
         };
         let request = request.for_file(&reading.outputs);
         Ok(request.choose(self.outputs.clone(), self.scalars.clone(), scene))

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use dalembert_jit::watch::{Observer, Progress, Watch};
 use dalembert_jit::words::{Word, bundle, parse};
-use dalembert_jit::{Cache, Effort, Load};
+use dalembert_jit::{Cache, Effort, Load, WordOption};
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -75,7 +75,7 @@ pub fn load(
     let waiting = Arc::new(Waiting::default());
     let mut load = wanted(&Options(options))?;
     load.watch = Watch::by(waiting.clone());
-    let is_thorough = load.effort == Effort::Thorough;
+    let is_thorough = load.options.effort == Effort::Thorough;
     let (sender, receiver) = channel();
     // Shared with the closure that waits while other threads of Python run.
     let receiver = Mutex::new(receiver);
@@ -131,11 +131,6 @@ impl<'py> Options<'_, 'py> {
         })
     }
 
-    fn word<W: Word>(&self, name: &str) -> PyResult<Option<W>> {
-        let word: Option<String> = self.get(name)?;
-        word.map(|word| value(name, &word)).transpose()
-    }
-
     fn words<W: Word>(&self, name: &str) -> PyResult<Option<Vec<W>>> {
         let words: Option<Vec<String>> = self.get(name)?;
         words
@@ -169,9 +164,12 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     load.scalars = options.words("scalar")?;
     load.parameters = options.words("parameters")?.unwrap_or_default();
     load.scene = options.get("scene")?;
-    load.effort = options.word("effort")?.unwrap_or(load.effort);
-    load.prefer = options.word("prefer")?.unwrap_or_default();
-    load.sincos = options.word("sincos")?.unwrap_or_default();
+    for option in WordOption::ALL {
+        if let Some(word) = options.get::<String>(option.word)? {
+            let set = (option.set)(&mut load.options, &word);
+            set.map_err(|error| PyValueError::new_err(format!("{}: {error}", option.word)))?;
+        }
+    }
     load.cache = match options.get::<PathBuf>("cache_folder")? {
         Some(folder) => Cache::At(folder),
         None => match options.get("cache")?.unwrap_or(true) {

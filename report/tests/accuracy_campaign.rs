@@ -10,9 +10,10 @@ use std::collections::BTreeMap;
 
 use crate::support::draw::robots;
 use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{SEED, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::big::Big;

@@ -2,9 +2,10 @@
 //! answers are known.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::prove;
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;

@@ -1,10 +1,11 @@
 //! Longer chains: linear inverse dynamics, code in parts, refusals.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
-use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::words::parse;
 use dalembert_report::stress::deviation::Measure;
 use dalembert_report::stress::growth::{chain, measure};
 use dalembert_report::stress::subject::Code;
@@ -14,7 +15,7 @@ fn request(function: Function, start: &str) -> Request {
     Request {
         functions: vec![function],
         scalars: vec![ScalarType::F64],
-        start: Start::from_name(start).unwrap(),
+        start: parse(start).unwrap(),
         ..Request::default()
     }
 }

@@ -2,9 +2,10 @@
 //! keeps its energy.
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Emitted;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};

@@ -2,11 +2,12 @@
 //! rounding, and what an independent library says of them.
 
 use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::plan::{Entry, Plan};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::scene::input_hash;
 use dalembert_codegen::workspace::states::{JointState, SEED, STATES, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
 use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::scene::Scene;
@@ -67,7 +68,7 @@ fn check(name: &str, functions: &[Function]) {
     };
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{name}: {error}"));
     for function in &generated.functions {
-        println!("{name} {} {:?}", function.function, function.counts);
+        println!("{name} {} {:?}", function.function, function.counts());
     }
     let runtime = Runtime::new(&robot);
     let states = seeded(&robot, STATES, SEED);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{Request, generate};
+use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::{
@@ -11,6 +11,7 @@ use dalembert_codegen::workspace::program::{
     ScalarType, Speed, Step,
 };
 use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_report::processor::target::{TARGETS, Target};
 use dalembert_report::processor::{Footprint, Sines, footprint, footprints, warnings};
 

@@ -3,17 +3,13 @@
 use std::path::PathBuf;
 
 use clap::ArgGroup;
-use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::processor::target::Target;
 
-use super::values::{
-    effort_parser, entries_parser, function_parser, interface_parser, language_parser,
-    states_parser, target_parser,
-};
-use super::{CODE, Choice, MORE};
+use super::options::Options;
+use super::values::{function_parser, states_parser, target_parser, word_parser};
+use super::{Choice, MORE};
 
 /// Arguments of `generate`.
 #[derive(Debug, clap::Args)]
@@ -45,29 +41,6 @@ pub struct GenerateArgs {
     /// one
     #[arg(long, conflicts_with_all = ["check", "no_plan"])]
     pub save_plan: bool,
-    /// Write what is inside the module and not the module itself: for a FILE
-    /// that is a module of your crate (`mod puma560;`). It has one scalar
-    #[arg(long, help_heading = CODE)]
-    pub contents: bool,
-    /// The language of the code: `rust`, a module for each scalar; `c`, one header of C99 that
-    /// C++ reads too; `cuda`, one header of functions for host and device, and kernels with
-    /// `--entries batch`
-    #[arg(long, value_name = "NAME", default_value = "rust", value_parser = language_parser())]
-    pub language: Language,
-    /// Write contracts in ACSL above functions in C, for Frama-C: the box, what is written, and
-    /// the certified bounds
-    #[arg(long, help_heading = CODE)]
-    pub acsl: bool,
-    /// Which variants of each function to print, each choice with those before it:
-    /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`,
-    /// for several states at once; `batch`, for slices of states (needs the crate
-    /// dalembert-batch)
-    #[arg(long, value_name = "WHICH", default_value = "single", value_parser = entries_parser(), help_heading = CODE)]
-    pub entries: Entries,
-    /// What the module has besides functions: `traits` adds a type `Robot` that implements
-    /// the traits of `dalembert::interface`, for code that is generic over robots
-    #[arg(long, value_name = "HOW", default_value = "functions", value_parser = interface_parser(), help_heading = CODE)]
-    pub interface: Interface,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser(), help_heading = MORE)]
@@ -84,6 +57,8 @@ pub struct GenerateArgs {
     pub json: bool,
     #[command(flatten)]
     pub choice: Choice,
+    #[command(flatten)]
+    pub text: Options<true>,
 }
 
 /// Arguments of `count`.
@@ -117,7 +92,7 @@ pub struct ExplainArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 1000, value_parser = states_parser())]
     pub states: usize,
     /// How long to search for fewer operations
-    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = word_parser::<Effort>())]
     pub effort: Effort,
     /// List every coefficient: D_ik, h_ikm, c_i, and which vanish or repeat another
     #[arg(long, conflicts_with = "scene")]

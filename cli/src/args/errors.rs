@@ -7,7 +7,7 @@ use dalembert_codegen::workspace::simplify::Effort;
 
 use super::Choice;
 use super::values::{
-    count_parser, effort_parser, function_parser, positive_parser, states_parser, tolerance_parser,
+    count_parser, function_parser, positive_parser, states_parser, tolerance_parser, word_parser,
 };
 
 /// Arguments of `verify`.
@@ -121,6 +121,6 @@ pub struct TradeoffArgs {
     #[arg(long)]
     pub time: bool,
     /// How long to search for fewer operations
-    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = effort_parser())]
+    #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = word_parser::<Effort>())]
     pub effort: Effort,
 }

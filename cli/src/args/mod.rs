@@ -5,12 +5,14 @@
 //! - `files`: arguments of the commands that make and look at robot files
 //! - `code`: of those that generate functions, count and explain their operations
 //! - `errors`: of those that measure and bound errors
+//! - `options`: options of one word
 //! - `values`: how values are read
 
 mod choice;
 mod code;
 mod errors;
 mod files;
+mod options;
 mod values;
 
 use clap::{Parser, Subcommand};

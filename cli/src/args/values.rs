@@ -7,16 +7,8 @@
 use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
-use dalembert_codegen::workspace::clauses::words::bundle;
-use dalembert_codegen::workspace::emit::Interface;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::Prefer;
-use dalembert_codegen::workspace::language::{Entries, Language};
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::simplify::Effort;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_model::outputs::RuntimeParameter;
+use dalembert_codegen::workspace::words::{Word, bundle, parse};
 use dalembert_report::processor::target::{TARGETS, Target};
 
 pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
@@ -62,19 +54,9 @@ pub(super) fn function_parser() -> FunctionParser {
     FunctionParser
 }
 
-pub(super) fn start_parser() -> impl TypedValueParser<Value = Start> {
-    PossibleValuesParser::new(Start::all().map(Start::name))
-        .try_map(|name| Start::from_name(&name).ok_or("no such formulation"))
-}
-
-pub(super) fn scalar_parser() -> impl TypedValueParser<Value = ScalarType> {
-    let names = PossibleValuesParser::new(ScalarType::ALL.map(ScalarType::name));
-    names.try_map(|name| ScalarType::from_name(&name).ok_or("no such scalar"))
-}
-
-pub(super) fn sincos_parser() -> impl TypedValueParser<Value = SinCos> {
-    PossibleValuesParser::new(SinCos::NAMES)
-        .try_map(|name| SinCos::from_name(&name).ok_or("no such source of sines"))
+/// A value by its word, of which clap lists all and suggests one.
+pub(super) fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueParser<Value = W> {
+    PossibleValuesParser::new(W::known()).try_map(|word| parse::<W>(&word))
 }
 
 pub(super) fn error_parser() -> impl TypedValueParser<Value = f64> {
@@ -114,65 +96,11 @@ pub(super) fn states_parser() -> impl TypedValueParser<Value = usize> {
         .map(|states| states as usize)
 }
 
-pub(super) fn prefer_parser() -> impl TypedValueParser<Value = Prefer> {
-    let names = PossibleValuesParser::new(Prefer::ALL.map(Prefer::name));
-    names.try_map(|name| {
-        let mut all = Prefer::ALL.into_iter();
-        all.find(|prefer| prefer.name() == name)
-            .ok_or("no such preference")
-    })
-}
-
-pub(super) fn parameter_parser() -> impl TypedValueParser<Value = RuntimeParameter> {
-    let names = PossibleValuesParser::new(RuntimeParameter::ALL.map(RuntimeParameter::name));
-    names.try_map(|name| {
-        let mut all = RuntimeParameter::ALL.into_iter();
-        all.find(|parameter| parameter.name() == name)
-            .ok_or("no such parameter")
-    })
-}
-
-pub(super) fn entries_parser() -> impl TypedValueParser<Value = Entries> {
-    let names = PossibleValuesParser::new(Entries::ALL.map(Entries::name));
-    names.try_map(|name| {
-        let mut all = Entries::ALL.into_iter();
-        all.find(|entries| entries.name() == name)
-            .ok_or("no such entries")
-    })
-}
-
-pub(super) fn language_parser() -> impl TypedValueParser<Value = Language> {
-    let names = PossibleValuesParser::new(Language::ALL.map(Language::name));
-    names.try_map(|name| {
-        let mut all = Language::ALL.into_iter();
-        all.find(|language| language.name() == name)
-            .ok_or("no such language")
-    })
-}
-
-pub(super) fn interface_parser() -> impl TypedValueParser<Value = Interface> {
-    let names = PossibleValuesParser::new(Interface::ALL.map(Interface::name));
-    names.try_map(|name| {
-        let mut all = Interface::ALL.into_iter();
-        all.find(|interface| interface.name() == name)
-            .ok_or("no such interface")
-    })
-}
-
 pub(super) fn target_parser() -> impl TypedValueParser<Value = &'static Target> {
     let names = PossibleValuesParser::new(TARGETS.iter().map(|target| target.name));
     names.try_map(|name| {
         let mut all = TARGETS.iter();
         all.find(|target| target.name == name)
             .ok_or("no such processor")
-    })
-}
-
-pub(super) fn effort_parser() -> impl TypedValueParser<Value = Effort> {
-    let names = PossibleValuesParser::new(Effort::ALL.map(Effort::name));
-    names.try_map(|name| {
-        let mut all = Effort::ALL.into_iter();
-        all.find(|effort| effort.name() == name)
-            .ok_or("no such effort")
     })
 }

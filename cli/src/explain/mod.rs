@@ -8,8 +8,9 @@ mod json;
 mod text;
 
 use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_report::explain::errors::{self, Errors};
 use dalembert_report::explain::{Explanation, explain_all};
 

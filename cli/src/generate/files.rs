@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::generate::Request;
 use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::task::Request;
 
 use crate::args::GenerateArgs;
 use crate::files::distinct::distinct;

@@ -3,7 +3,8 @@
 use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::approximate::prune::omissions;
 use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, Request};
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::Proof;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::Errors;
@@ -38,7 +39,7 @@ fn one(function: &GeneratedFunction, errors: Option<Value>) -> Value {
         json!({ "stage": stage.name, "counts": counts })
     });
     json!({
-        "counts": output::counts(&function.counts),
+        "counts": output::counts(&function.counts()),
         "from": function.source.name(),
         "planned": function.planned,
         "proof": proof(&function.proof),

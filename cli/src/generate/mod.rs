@@ -12,7 +12,6 @@ mod processor;
 pub mod report;
 
 use dalembert_codegen::workspace::certificate::format;
-use dalembert_codegen::workspace::emit::Layout;
 use dalembert_codegen::workspace::generate::Generated;
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::simplify::Effort;
@@ -26,13 +25,7 @@ use files::Files;
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
-    request.language = args.language;
-    request.acsl = args.acsl;
-    request.entries = args.entries;
-    request.interface = args.interface;
-    if args.contents {
-        request.layout = Layout::Contents;
-    }
+    args.text.set(&mut request);
     // Before the work: what cannot be written is no news after it.
     let files = Files::of(args, &request)?;
     let kept = request.plan.take_if(|_| args.save_plan);
@@ -42,7 +35,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     let certificates = certificates(&generated);
     drop(session);
     let measured = args.verbose || args.json;
-    let states = args.states.unwrap_or(match args.choice.effort {
+    let states = args.states.unwrap_or(match request.effort {
         // Who ended the search waits no longer for its errors.
         Effort::Thorough if !generated.ended => MAX_STATES,
         _ => affordable_states(robot.joints.len()),

@@ -1,8 +1,9 @@
 //! What functions take of processors, as text and for programs.
 
-use dalembert_codegen::workspace::generate::{Generated, Request};
+use dalembert_codegen::workspace::generate::Generated;
 use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::robot::Robot;
 use dalembert_report::processor::target::{TARGETS, Target};
 use dalembert_report::processor::{Footprint, Sines, footprints, warnings};

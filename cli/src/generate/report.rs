@@ -5,8 +5,9 @@ use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::approximate::prune::omissions;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::emit::figures::bound_of;
-use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, Request};
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
 use dalembert_codegen::workspace::program::Counts;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{Errors, of_program};
@@ -90,7 +91,7 @@ pub fn limits(generated: &Generated) -> String {
             continue;
         };
         let fewer = function
-            .counts
+            .counts()
             .operations()
             .saturating_sub(refused.counts.operations());
         let [error, taken] = [refused.error, refused.taken].map(|u| format!("{u:.0}"));
@@ -211,7 +212,7 @@ pub fn scene(request: &Request) -> String {
 /// The table of operation counts; `whole` adds what each was found from, and how sure its
 /// proof is.
 pub fn counts(generated: &Generated, whole: bool) -> String {
-    let any = |of: fn(&Counts) -> usize| generated.functions.iter().any(|f| of(&f.counts) > 0);
+    let any = |of: fn(&Counts) -> usize| generated.functions.iter().any(|f| of(&f.counts()) > 0);
     let (fuses, roots) = (any(|counts| counts.fma), any(|counts| counts.sqrt));
     let fma = |cell: String| fuses.then_some(cell);
     let root = |cell: String| roots.then_some(cell);
@@ -226,7 +227,7 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
     let sqrt = root("sqrt".to_owned());
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().chain(sqrt).chain(tail).collect()];
     for function in &generated.functions {
-        let counts = function.counts;
+        let counts = function.counts();
         let mut row = vec![
             function.function.to_string(),
             counts.mul.to_string(),
@@ -298,7 +299,7 @@ fn stages(generated: &Generated) -> String {
         let mut row = vec![function.function.to_string()];
         row.extend(function.passes.iter().map(|stage| cell(&stage.counts)));
         // What the tolerance left of it: what is emitted.
-        row.extend(admitted.then(|| cell(&function.counts)));
+        row.extend(admitted.then(|| cell(&function.counts())));
         rows.push(row);
     }
     output::table(&rows, 0)

@@ -4,9 +4,7 @@
 //! that print without colours is legible. The paper is part of the picture,
 //! white or dark as the reader's screen is.
 
-use std::fmt::Write;
-
-use dalembert_report::drawing::escaped;
+use dalembert_report::drawing::svg::{Svg, escaped};
 
 use super::axis::Axis;
 
@@ -48,7 +46,7 @@ pub enum Shape {
 
 /// A picture.
 pub struct Picture {
-    svg: String,
+    svg: Svg,
     legends: usize,
 }
 
@@ -65,27 +63,24 @@ impl Picture {
 
     /// The paper with its title, the axes and their names.
     pub fn new(title: &str, [x, y]: [&Axis; 2], [below, beside]: [&str; 2]) -> Picture {
-        let name = escaped(title);
         let mut picture = Picture {
-            svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-                 role=\"img\">\n<title>{name}</title>\n<style>{STYLE}</style>\n\
-                 <rect class=\"p\" width=\"{WIDTH}\" height=\"{HEIGHT}\"/>\n"
-            ),
+            svg: Svg::new(title, [WIDTH, HEIGHT], "", STYLE),
             legends: 0,
         };
         let (right, foot) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         picture.text([(LEFT + right) / 2.0, 22.0], "middle", title);
         for tick in x.ticks() {
             let at = tick.place;
-            picture.line(&format!("<path class=\"g\" d=\"M{at:.1} {TOP}V{foot}\"/>"));
+            picture
+                .svg
+                .element(&format!("<path class=\"g\" d=\"M{at:.1} {TOP}V{foot}\"/>"));
             if let Some(name) = tick.name {
                 picture.text([at, foot + 16.0], "middle", &name);
             }
         }
         for tick in y.ticks() {
             let at = tick.place;
-            picture.line(&format!(
+            picture.svg.element(&format!(
                 "<path class=\"g\" d=\"M{LEFT} {at:.1}H{right}\"/>"
             ));
             if let Some(name) = tick.name {
@@ -94,7 +89,7 @@ impl Picture {
         }
         picture.text([(LEFT + right) / 2.0, HEIGHT - 12.0], "middle", below);
         let (middle, beside) = ((TOP + foot) / 2.0, escaped(beside));
-        picture.line(&format!(
+        picture.svg.element(&format!(
             "<text class=\"i\" x=\"16\" y=\"{middle}\" text-anchor=\"middle\" \
              transform=\"rotate(-90 16 {middle})\">{beside}</text>"
         ));
@@ -108,20 +103,15 @@ impl Picture {
             "" => String::new(),
             dashes => format!(" stroke-dasharray=\"{dashes}\""),
         };
-        let points: Vec<String> = points
-            .iter()
-            .map(|[x, y]| format!("{x:.1},{y:.1}"))
-            .collect();
-        let points = points.join(" ");
-        self.line(&format!(
-            "<polyline class=\"k{colour} l\"{dashes} points=\"{points}\"/>"
-        ));
+        let attributes = format!("class=\"k{colour} l\"{dashes}");
+        self.svg.polyline(&attributes, points);
     }
 
     /// A level, from side to side.
     pub fn level(&mut self, y: f64) {
         let right = WIDTH - RIGHT;
-        self.line(&format!("<path class=\"b\" d=\"M{LEFT} {y:.1}H{right}\"/>"));
+        self.svg
+            .element(&format!("<path class=\"b\" d=\"M{LEFT} {y:.1}H{right}\"/>"));
     }
 
     /// From a mark to where its end is marked. Not shorter than a mark: that
@@ -129,7 +119,7 @@ impl Picture {
     pub fn whisker(&mut self, class: &str, [x, y]: [f64; 2], end: f64) {
         if (x - end).abs() > 6.0 {
             let top = y - 3.0;
-            self.line(&format!(
+            self.svg.element(&format!(
                 "<path class=\"{class} w\" d=\"M{x:.1} {y:.1}H{end:.1}M{end:.1} {top:.1}v6\"/>"
             ));
         }
@@ -143,7 +133,7 @@ impl Picture {
             Shape::OpenDiamond => ("o", "m0 -6l6 6l-6 6l-6 -6z"),
             Shape::Diamond => ("f", "m0 -3.4l3.4 3.4l-3.4 3.4l-3.4 -3.4z"),
         };
-        self.line(&format!(
+        self.svg.element(&format!(
             "<path class=\"{class} {fill}\" d=\"M{x:.1} {y:.1}{path}\"/>"
         ));
     }
@@ -160,28 +150,18 @@ impl Picture {
     /// A level in the legend.
     pub fn legend_of_level(&mut self, name: &str) {
         let [[from, y], [to, _]] = self.legend(name);
-        self.line(&format!(
+        self.svg.element(&format!(
             "<path class=\"b\" d=\"M{from:.1} {y:.1}H{to:.1}\"/>"
         ));
     }
 
     /// The text.
-    pub fn end(mut self) -> String {
-        self.svg.push_str("</svg>\n");
-        self.svg
+    pub fn end(self) -> String {
+        self.svg.end()
     }
 
-    fn line(&mut self, element: &str) {
-        self.svg.push_str(element);
-        self.svg.push('\n');
-    }
-
-    fn text(&mut self, [x, y]: [f64; 2], anchor: &str, text: &str) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            self.svg,
-            "<text class=\"i\" x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{}</text>",
-            escaped(text)
-        );
+    fn text(&mut self, at: [f64; 2], anchor: &str, text: &str) {
+        let anchor = format!(" text-anchor=\"{anchor}\"");
+        self.svg.text("i", at, &anchor, text);
     }
 }

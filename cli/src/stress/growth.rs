@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use std::{env, fs, process};
 
-use dalembert_codegen::workspace::generate::Request;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_report::stress::growth::{Growth, JOINTS, measure};
 use serde_json::json;
 

@@ -13,10 +13,11 @@ use std::path::Path;
 
 use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::plan::{self, Plan};
 use dalembert_codegen::workspace::program::{Program, ScalarType};
 use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot, input_hash};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};

@@ -16,12 +16,12 @@ use super::messages as m;
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module, stub, table};
 use crate::function::Function;
-use crate::generate::in_scene::find;
-use crate::generate::parameters::ParameterError;
-use crate::generate::{GenerateError, Generated, Request, generate_anew};
+use crate::generate::{GenerateError, Generated, generate_anew};
 use crate::language::Entries;
 use crate::plan::{self, Plan};
 use crate::program::ScalarType;
+use crate::task::Request;
+use crate::task::in_scene::find;
 
 /// The modules that an invocation asks for, or everything that is wrong with
 /// it next to modules whose functions have no bodies.
@@ -38,7 +38,7 @@ pub fn expand_from(input: TokenStream, folders: &[&Path], has_batch: bool) -> To
     let Some(invocation) = invocation::read(input, &mut errors) else {
         return errors.into_tokens();
     };
-    if invocation.entries == Entries::Batch && !has_batch {
+    if invocation.request.entries == Entries::Batch && !has_batch {
         errors.push(&invocation.entries_at, &m::NO_BATCH);
     }
     let source = source(&invocation, folders, &mut errors);
@@ -201,23 +201,17 @@ fn functions(
     };
     let outputs = invocation.outputs.as_ref();
     let outputs = outputs.map(|chosen| chosen.iter().map(|(f, _)| *f).collect());
+    let asked = &invocation.request;
     let request = Request {
         scalars: vec![ScalarType::F64],
-        start: invocation.start,
-        effort: invocation.effort,
-        prefer: invocation.prefer,
-        fma: invocation.fma,
         plan: source.plan.clone(),
-        sincos: invocation.sincos,
-        math: module::math(invocation.sincos),
-        entries: invocation.entries,
-        interface: invocation.interface,
+        math: module::math(asked.sincos),
         traits: module::TRAITS.to_owned(),
         parameters: invocation.parameters.iter().map(|(p, _)| *p).collect(),
         batch: module::BATCH.to_owned(),
         module: Some(invocation.name.to_string()),
-        work: Request::work_while_compiling(invocation.effort),
-        ..Request::default()
+        work: Request::work_while_compiling(asked.effort),
+        ..asked.clone()
     };
     let request = request.for_file(&source.outputs);
     let request = request.choose(outputs, invocation.scalars.clone(), scene);
@@ -227,32 +221,7 @@ fn functions(
     };
     generate_anew(robot, &request, &shown)
         .map_err(|error| {
-            let function = match &error {
-                GenerateError::Empty
-                | GenerateError::Contents
-                | GenerateError::Unexplained(_)
-                | GenerateError::StalePlan { .. }
-                | GenerateError::StaleScene { .. }
-                | GenerateError::Language(..)
-                | GenerateError::Scene(_) => None,
-                GenerateError::Parameter(
-                    ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _),
-                ) => Some(*function),
-                GenerateError::Parameter(_) => None,
-                GenerateError::Constant { function, .. }
-                | GenerateError::Contradicted { function, .. }
-                | GenerateError::Singular { function, .. }
-                | GenerateError::TooLarge { function, .. }
-                | GenerateError::Base(function, _)
-                | GenerateError::SinCos(function, _)
-                | GenerateError::Disproved(function, _)
-                | GenerateError::Tolerance(function, _)
-                | GenerateError::Variant(function, _)
-                | GenerateError::Edited(function, _)
-                | GenerateError::Text(function, ..)
-                | GenerateError::Namesakes(_, function)
-                | GenerateError::Vanishing(function, _) => Some(*function),
-            };
+            let function = error.function();
             let asked = invocation.outputs.iter().flatten();
             let at = asked
                 .filter(|(output, _)| Some(*output) == function)

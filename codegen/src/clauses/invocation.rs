@@ -13,14 +13,12 @@ use super::errors::Errors;
 use super::list;
 use super::messages as m;
 use super::statement::{self, Pair, pairs_of, trees};
-use crate::emit::Interface;
 use crate::function::Function;
-use crate::generate::{Fma, Prefer};
-use crate::language::Entries;
-use crate::portfolio::Start;
 use crate::program::ScalarType;
-use crate::simplify::Effort;
 use crate::sincos::SinCos;
+use crate::task::Request;
+use crate::task::options::{Purpose, WordOption};
+use crate::words::Word;
 
 /// The content of an invocation.
 pub(super) struct Invocation {
@@ -33,16 +31,10 @@ pub(super) struct Invocation {
     /// probably meant. The scene's or the robot file's if none were chosen.
     pub(super) outputs: Option<Vec<(Function, TokenStream)>>,
     pub(super) scalars: Option<Vec<ScalarType>>,
-    pub(super) start: Start,
-    pub(super) effort: Effort,
-    pub(super) prefer: Prefer,
-    pub(super) fma: Fma,
-    /// The error of polynomials stands in it once all clauses are read.
-    pub(super) sincos: SinCos,
-    pub(super) entries: Entries,
-    /// The word that asked for them.
+    /// What options of one word say.
+    pub(super) request: Request,
+    /// The word that asked for entries.
     pub(super) entries_at: TokenStream,
-    pub(super) interface: Interface,
     /// With the tokens that asked for them.
     pub(super) parameters: Vec<(RuntimeParameter, TokenStream)>,
     /// The scene's name, and what it is if that stands here.
@@ -57,22 +49,19 @@ pub(super) enum RobotSource {
     Table(Group),
 }
 
-/// The clauses, in the order of the documentation.
-const CLAUSES: [&str; 13] = [
-    "outputs",
-    "scalar",
-    "formulation",
-    "effort",
-    "prefer",
-    "fma",
-    "sincos",
-    "sincos_error",
-    "entries",
-    "interface",
-    "parameters",
-    "scene",
-    "crate",
-];
+/// Returns the options of one word that have a clause.
+fn options() -> impl Iterator<Item = &'static WordOption> {
+    let all = WordOption::ALL.iter();
+    all.filter(|option| option.purpose != Purpose::File)
+}
+
+/// Returns the names of the clauses, in the order of the documentation.
+fn names() -> Vec<&'static str> {
+    let mut names = vec!["outputs", "scalar"];
+    names.extend(options().map(|option| option.word));
+    names.extend(["sincos_error", "parameters", "scene", "crate"]);
+    names
+}
 
 /// Reads an invocation; `None` if not even the module is there.
 pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation> {
@@ -96,14 +85,8 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         robot,
         outputs: None,
         scalars: None,
-        start: Start::Auto,
-        effort: Effort::Quick,
-        prefer: Prefer::Accuracy,
-        fma: Fma::Off,
-        sincos: SinCos::Auto,
-        entries: Entries::Single,
+        request: Request::default(),
         entries_at: TokenStream::new(),
-        interface: Interface::Functions,
         parameters: Vec::new(),
         scene: None,
         facade: quote!(::dalembert),
@@ -116,7 +99,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         }
         invocation.clause(key, &pair.value, errors);
     }
-    match (&mut invocation.sincos, error) {
+    match (&mut invocation.request.sincos, error) {
         (SinCos::Polynomial { error }, Some((_, value))) => *error = Some(value),
         (_, Some((key, _))) => errors.push(key, &m::NO_POLYNOMIALS),
         (_, None) => {}
@@ -179,19 +162,16 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
 /// Returns what may stand behind a clause's name, for who wrote nothing there.
 fn may_stand(clause: &str) -> String {
     match clause {
-        "outputs" => list::known::<Function>(),
-        "scalar" => list::known::<ScalarType>(),
-        "formulation" => list::known::<Start>(),
-        "effort" => list::known::<Effort>(),
-        "prefer" => list::known::<Prefer>(),
-        "sincos" => list::known::<SinCos>(),
-        "entries" => list::known::<Entries>(),
-        "interface" => list::known::<Interface>(),
-        "parameters" => list::known::<RuntimeParameter>(),
+        "outputs" => list::known(&Function::known()),
+        "scalar" => list::known(&ScalarType::known()),
+        "parameters" => list::known(&RuntimeParameter::known()),
         "sincos_error" => m::SINCOS_ERROR.help.to_owned(),
         "scene" => m::SCENE_CLAUSE.help.to_owned(),
         "crate" => m::CRATE_PATH.help.to_owned(),
-        _ => String::new(),
+        _ => match options().find(|option| option.word == clause) {
+            Some(option) => list::known(&(option.known)()),
+            None => String::new(),
+        },
     }
 }
 
@@ -229,18 +209,6 @@ impl Invocation {
                     }
                 }
             }
-            Some("formulation") => self.start = list::word(value, errors).unwrap_or(self.start),
-            Some("effort") => self.effort = list::word(value, errors).unwrap_or(self.effort),
-            Some("prefer") => self.prefer = list::word(value, errors).unwrap_or(self.prefer),
-            Some("fma") => self.fma = list::word(value, errors).unwrap_or(self.fma),
-            Some("sincos") => self.sincos = list::word(value, errors).unwrap_or(self.sincos),
-            Some("interface") => {
-                self.interface = list::word(value, errors).unwrap_or(self.interface);
-            }
-            Some("entries") => {
-                self.entries = list::word(value, errors).unwrap_or(self.entries);
-                self.entries_at = value.iter().cloned().collect();
-            }
             Some("parameters") => {
                 for (parameter, at) in list::words::<RuntimeParameter>(value, errors) {
                     if self.parameters.iter().any(|(known, _)| *known == parameter) {
@@ -263,7 +231,15 @@ impl Invocation {
                     self.facade = path;
                 }
             }
-            _ => {}
+            Some(word) => {
+                if let Some(option) = options().find(|option| option.word == word) {
+                    list::set(option, &mut self.request, value, errors);
+                }
+                if word == "entries" {
+                    self.entries_at = value.iter().cloned().collect();
+                }
+            }
+            None => {}
         }
     }
 }
@@ -275,14 +251,14 @@ fn braces(tree: &TokenTree) -> Option<&Group> {
 /// The name of a clause; an unknown one counts as the one that was probably
 /// meant, so that it is not missing as well.
 fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
-    let word = key.to_string();
-    if let Some(known) = CLAUSES.into_iter().find(|known| *known == word) {
+    let (word, names) = (key.to_string(), names());
+    if let Some(known) = names.iter().find(|known| **known == word) {
         return Some(known);
     }
-    let meant = closest(&word, &CLAUSES);
+    let meant = closest(&word, &names);
     let help = match meant {
         Some(meant) => format!("did you mean `{meant}`?"),
-        None => format!("known: {}", CLAUSES.join(", ")),
+        None => format!("known: {}", names.join(", ")),
     };
     errors.say(key, &format!("unknown clause `{word}`"), &help);
     meant

@@ -9,45 +9,61 @@ use dalembert_model::read::for_bundle;
 use super::errors::Errors;
 use super::messages as m;
 use super::statement::{self, is_punct, trees};
-use super::words::{self, Word};
 use crate::function::{BundleError, Function};
+use crate::task::Request;
+use crate::task::options::WordOption;
+use crate::words::{self, UnknownWord, Word};
 
 /// Words with commas between, in brackets as a scene has them or without; an
 /// unknown one counts as the one that was probably meant, so that its users are
 /// not told that it is missing.
 pub(super) fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
-    read::<W, W>(value, errors, |item, _, errors| meant(item, errors))
+    read(W::WHAT, W::known, value, errors, |item, _, errors| {
+        meant(item, errors, words::parse)
+    })
 }
 
-/// One word.
-pub(super) fn word<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Option<W> {
-    let mut words = words(value, errors).into_iter();
-    let first = words.next();
-    for (_, at) in words {
-        errors.push(at, &m::ONE_WORD);
-    }
-    Some(first?.0)
+/// Sets an option by one word.
+pub(super) fn set(
+    option: &WordOption,
+    request: &mut Request,
+    value: &[TokenTree],
+    errors: &mut Errors,
+) {
+    let mut set = |text: &str| (option.set)(request, text);
+    let one = |item: &[TokenTree], before: &[((), TokenStream)], errors: &mut Errors| match before {
+        [] => meant(item, errors, &mut set),
+        _ => {
+            errors.push(tokens(item), &m::ONE_WORD);
+            None
+        }
+    };
+    read(option.what, option.known, value, errors, one);
 }
 
 /// Outputs with commas between, as [`words`]; some may be bundles of others.
 pub(super) fn outputs(value: &[TokenTree], errors: &mut Errors) -> Vec<(Function, TokenStream)> {
     let sign = |tree: &TokenTree| is_punct(tree, '=') || is_punct(tree, '+');
-    read::<Function, Function>(value, errors, |item, before, errors| {
-        match item.iter().any(sign) {
+    let one =
+        |item: &[TokenTree], before: &[(Function, TokenStream)], errors: &mut Errors| match item
+            .iter()
+            .any(sign)
+        {
             true => bundle(item, before, errors),
-            false => meant(item, errors),
-        }
-    })
+            false => meant(item, errors, words::parse),
+        };
+    read(Function::WHAT, Function::known, value, errors, one)
 }
 
-/// Every word that there is of a kind.
-pub(super) fn known<W: Word>() -> String {
-    let words: Vec<&str> = W::all().into_iter().map(|(word, _)| word).collect();
+/// Returns every word that there is of a kind.
+pub(super) fn known(words: &[&str]) -> String {
     format!("known: {}", words.join(", "))
 }
 
-/// The items of a list of words of a kind, each read with those before it.
-fn read<W: Word, T>(
+/// Reads the items of a list of words of a kind, each with those before it.
+fn read<T>(
+    what: &str,
+    words: fn() -> Vec<&'static str>,
     value: &[TokenTree],
     errors: &mut Errors,
     mut one: impl FnMut(&[TokenTree], &[(T, TokenStream)], &mut Errors) -> Option<T>,
@@ -59,7 +75,7 @@ fn read<W: Word, T>(
     };
     let inner = list.map(|list| trees(list.stream()));
     if let (Some(list), Some([])) = (list, inner.as_deref()) {
-        errors.say(list, m::NO_VALUE.text, &known::<W>());
+        errors.say(list, m::NO_VALUE.text, &known(&words()));
     }
     let value = inner.as_deref().unwrap_or(value);
     // The comma that an item ends before.
@@ -68,7 +84,7 @@ fn read<W: Word, T>(
         let before = comma + item.len();
         comma = before + 1;
         if item.is_empty() {
-            let text = format!("expected the word for the {} before this comma", W::WHAT);
+            let text = format!("expected the word for the {what} before this comma");
             errors.say(value.get(before), &text, "one comma between two words");
             continue;
         }
@@ -79,13 +95,17 @@ fn read<W: Word, T>(
 }
 
 /// The value of a word, or of the word that was probably meant.
-fn meant<W: Word>(item: &[TokenTree], errors: &mut Errors) -> Option<W> {
+fn meant<T>(
+    item: &[TokenTree],
+    errors: &mut Errors,
+    mut parse: impl FnMut(&str) -> Result<T, UnknownWord>,
+) -> Option<T> {
     match item {
-        [TokenTree::Ident(ident)] => match words::parse(&ident.to_string()) {
+        [TokenTree::Ident(ident)] => match parse(&ident.to_string()) {
             Ok(value) => Some(value),
             Err(error) => {
                 errors.say(ident, &error.message(), &error.help());
-                error.meant.and_then(|meant| words::parse(meant).ok())
+                error.meant.and_then(|meant| parse(meant).ok())
             }
         },
         [TokenTree::Ident(_), next, ..] => {
@@ -127,7 +147,9 @@ fn bundle(
                     errors.say(word, &error.message(), &error.help());
                 }
             }
-            [TokenTree::Ident(_)] => read.extend(meant(part, errors).map(|output| (output, part))),
+            [TokenTree::Ident(_)] => {
+                read.extend(meant(part, errors, words::parse).map(|output| (output, part)))
+            }
             [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_PLUS),
             [] => errors.push(tokens(item), &m::NO_PART),
             _ => errors.push(tokens(part), &m::NO_PART),

@@ -1,6 +1,6 @@
 //! Everything that can be wrong with the form of an invocation, in one table.
 //! What can be wrong with a robot is the reader's to say, which words there
-//! are is [`words`](super::words)'.
+//! are is [`words`](crate::words)'.
 
 /// A message: the fault, and what would be right.
 pub(super) struct Message {

@@ -24,7 +24,6 @@ mod statement;
 mod stub;
 mod table;
 mod warnings;
-pub(crate) mod words;
 
 pub use expand::{expand, expand_from};
 pub use robot_file::{RobotFile, RobotFileError};

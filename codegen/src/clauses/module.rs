@@ -10,10 +10,10 @@ use syn::Attribute;
 
 use super::invocation::Invocation;
 use super::warnings::{self, Warning};
-use crate::emit::Interface;
 use crate::language::{Entries, MathPath};
 use crate::program::Library;
 use crate::sincos::SinCos;
+use crate::task::Interface;
 
 /// Where the bodies find sine and cosine: an import of the module, so that a
 /// wrong path to the facade is one error and not one a call.
@@ -54,7 +54,7 @@ pub(super) fn assemble(
         #[allow(unused_imports)]
         use #facade::__private::math as #math;
     };
-    let batches = (invocation.entries == Entries::Batch).then(|| {
+    let batches = (invocation.request.entries == Entries::Batch).then(|| {
         let batch = Ident::new(BATCH, Span::call_site());
         match has_batch {
             true => quote! {
@@ -69,7 +69,7 @@ pub(super) fn assemble(
             },
         }
     });
-    let traits = (invocation.interface == Interface::Traits).then(|| {
+    let traits = (invocation.request.interface == Interface::Traits).then(|| {
         let traits = Ident::new(TRAITS, Span::call_site());
         quote! {
             #[allow(unused_imports)]

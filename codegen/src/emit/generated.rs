@@ -26,10 +26,6 @@ pub struct GeneratedFunction {
     /// The program that was found, if its operations were then put into another order or its
     /// products fused: what a plan keeps.
     pub found: Option<Program>,
-    /// The operations of its longest chain, if somebody asked for a short one.
-    pub depth: Option<usize>,
-    /// Its counts, without the polynomials of sines.
-    pub counts: Counts,
     /// The polynomials of its sines in each scalar, if they are not libm's.
     pub sines: Vec<(ScalarType, Sines)>,
     /// Counts of the formula as executed, then after each step.
@@ -56,13 +52,18 @@ impl GeneratedFunction {
         sincos::lowered(&self.program, scalar, library, self.sines(scalar))
     }
 
-    /// Its counts with the polynomials of its sines in a scalar.
+    /// Returns its counts, without the polynomials of sines.
+    pub fn counts(&self) -> Counts {
+        self.program.counts()
+    }
+
+    /// Returns its counts with the polynomials of its sines in a scalar.
     pub fn counts_in(&self, scalar: ScalarType) -> Counts {
         let (trig_mul, trig_add) = sincos::counts(self.sines(scalar));
         Counts {
             trig_mul,
             trig_add,
-            ..self.counts
+            ..self.counts()
         }
     }
 }

@@ -11,29 +11,6 @@ use crate::program::ScalarType;
 /// The type that has the traits.
 pub(crate) const ROBOT: &str = "Robot";
 
-/// How code meets a module.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Interface {
-    /// By its functions.
-    #[default]
-    Functions,
-    /// Also by a type with the traits of `dalembert`, which every robot can have.
-    Traits,
-}
-
-impl Interface {
-    /// Both, the default first.
-    pub const ALL: [Interface; 2] = [Interface::Functions, Interface::Traits];
-
-    /// Its name on the command line and in the macro.
-    pub fn name(self) -> &'static str {
-        match self {
-            Interface::Functions => "functions",
-            Interface::Traits => "traits",
-        }
-    }
-}
-
 /// The trait that asks what a function answers. What bundles return, and what a load
 /// is, are each module's own.
 pub fn question(function: Function) -> Option<String> {

@@ -31,5 +31,3 @@ mod state_box;
 mod variant;
 
 pub use generated::GeneratedFunction;
-pub use interface::Interface;
-pub use module::Layout;

@@ -5,7 +5,6 @@
 //! against the robot's own recursion in 256 bits. How far it may be off follows
 //! from its own numbers ([`running`]); with a tolerance, from its certificate.
 
-use super::reason::Contradiction;
 use crate::bound::sample::draw;
 use crate::certificate::Certificate;
 use crate::falsify::held;
@@ -64,16 +63,17 @@ pub(super) fn check(
                 {
                     let error = truth.error(*result);
                     if error > bound {
-                        return Err(GenerateError::Contradicted {
-                            function: generated.function,
-                            scalar,
-                            why: Contradiction {
-                                entry: generated.program.entry(index),
-                                error,
-                                bound,
-                                is_claimed: claim.is_some(),
-                            },
-                        });
+                        let most = match claim {
+                            Some(_) => "its certificate allows",
+                            None => "rounding is no more than",
+                        };
+                        let why = format!(
+                            "it passed its proof, but gave a wrong result when it was run: {} is \
+                             {error:.3e} off the robot's own recursion, and {most} {bound:.3e}",
+                            generated.program.entry(index)
+                        );
+                        let function = generated.function;
+                        return Err(GenerateError::Defect(function, Some(scalar), why));
                     }
                 }
             }

@@ -3,33 +3,31 @@
 //! could have had at once. So that one is run as well, function by function the
 //! cheaper program stays, and an early end is never worse than no patience.
 
-use super::{GeneratedFunction, Request, all};
-use crate::program::{Operation, Program, ScalarType};
-use crate::scene::SceneRobot;
+use super::{GeneratedFunction, Request, Task, functions};
+use crate::program::{Program, ScalarType};
 use crate::simplify::{CostModel, Effort};
 use crate::watch::Watch;
 
 /// Puts the quick search's functions in the place of dearer ones.
 pub(super) fn no_dearer_than_quick(
-    scene_robot: &SceneRobot,
-    request: &Request,
-    functions: &mut [GeneratedFunction],
+    task: &Task<'_>,
+    generated: &mut [GeneratedFunction],
     scalars: &[ScalarType],
 ) {
     let quick = Request {
         effort: Effort::Quick,
         watch: Watch::default(),
-        ..request.clone()
+        ..task.request.clone()
     };
     // Where it finds nothing, what is there already stays.
-    let Ok((quick, theirs)) = all(scene_robot, &quick) else {
+    let Ok((quick, theirs)) = functions(&task.with(&quick)) else {
         return;
     };
     if theirs != scalars {
         // Its bounds are coarser: it may have needed a wider scalar.
         return;
     }
-    for (function, quick) in functions.iter_mut().zip(quick) {
+    for (function, quick) in generated.iter_mut().zip(quick) {
         if price(&quick.program) < price(&function.program) {
             *function = quick;
         }
@@ -39,15 +37,6 @@ pub(super) fn no_dearer_than_quick(
 /// Returns what programs are compared by, in hundredths of an operation: operations,
 /// and what sines and cosines are worth to the search.
 pub fn price(program: &Program) -> u64 {
-    let model = CostModel::OPERATIONS;
-    let steps = program.steps.iter().map(|step| match step.operation {
-        Operation::Mul | Operation::Fused => model.mul,
-        Operation::Div => model.div,
-        Operation::Add | Operation::Sub => model.add,
-    });
-    let angles = program.trig.iter().map(|trig| {
-        let forming = trig.angle.additions() as u64 * model.add;
-        forming + model.angle(trig.angle)
-    });
-    steps.sum::<u64>() + angles.sum::<u64>()
+    let angles = program.trig.iter().map(|trig| trig.angle);
+    CostModel::OPERATIONS.price(&program.counts(), angles)
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::parameters::ParameterError;
-use super::reason::{Contradiction, NoSines, TextDefect};
+use super::reason::NoSines;
 use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
 use crate::function::Function;
@@ -71,18 +71,10 @@ pub enum GenerateError {
     /// The program is not the formula, because the search took a constant for
     /// zero that is none.
     Vanishing(Function, String),
-    /// The printed text is not the program: a defect of this library.
-    Text(Function, ScalarType, TextDefect),
-    /// The code was proved, and is wrong all the same at a state where it was
-    /// run: a defect of this library, or a proof that was aimed at.
-    Contradicted {
-        /// Which function.
-        function: Function,
-        /// Its scalar.
-        scalar: ScalarType,
-        /// What was seen.
-        why: Contradiction,
-    },
+    /// A defect of this library, in the scalar where there is one: the printed text is not the
+    /// program, what was left out within a tolerance is not what the edits say, or code that was
+    /// proved is wrong at a state where it was run, by which somebody may have aimed at a proof.
+    Defect(Function, Option<ScalarType>, String),
     /// The base parameters cannot be written down.
     Base(Function, NoBase),
     /// A parameter cannot be an argument.
@@ -93,9 +85,33 @@ pub enum GenerateError {
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
     Variant(Function, Refuted),
-    /// What was left out within a tolerance is not what the edits say: a defect of
-    /// this library.
-    Edited(Function, Refuted),
+}
+
+impl GenerateError {
+    /// Returns the function that it is about, if it is about one.
+    pub fn function(&self) -> Option<Function> {
+        match self {
+            GenerateError::Empty
+            | GenerateError::Contents
+            | GenerateError::Unexplained(_)
+            | GenerateError::StalePlan { .. }
+            | GenerateError::StaleScene { .. }
+            | GenerateError::Language(..)
+            | GenerateError::Scene(_) => None,
+            GenerateError::Parameter(why) => why.function(),
+            GenerateError::Constant { function, .. }
+            | GenerateError::Singular { function, .. }
+            | GenerateError::TooLarge { function, .. }
+            | GenerateError::Base(function, _)
+            | GenerateError::Defect(function, ..)
+            | GenerateError::SinCos(function, _)
+            | GenerateError::Disproved(function, _)
+            | GenerateError::Tolerance(function, _)
+            | GenerateError::Variant(function, _)
+            | GenerateError::Namesakes(_, function)
+            | GenerateError::Vanishing(function, _) => Some(*function),
+        }
+    }
 }
 
 impl fmt::Display for GenerateError {
@@ -161,18 +177,13 @@ impl fmt::Display for GenerateError {
                 "`{function}`: the constant {value} is divisible by 2^61 - 1, modulo which the \
                  search tells values apart: change its last digit"
             ),
-            GenerateError::Text(function, scalar, why) => {
-                write!(f, "`{function}` in {scalar}: {why}")
+            GenerateError::Defect(function, scalar, why) => {
+                let scalar = scalar.map_or(String::new(), |scalar| format!(" in {scalar}"));
+                write!(
+                    f,
+                    "`{function}`{scalar}: {why}; please report this defect of dalembert"
+                )
             }
-            GenerateError::Contradicted {
-                function,
-                scalar,
-                why,
-            } => write!(
-                f,
-                "`{function}` in {scalar} passed its proof, but gave a wrong result when it was run: {why}; \
-                 please report this defect of dalembert"
-            ),
             GenerateError::Base(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Parameter(why) => why.fmt(f),
             GenerateError::Language(language, why) => write!(f, "`{}`: {why}", language.name()),
@@ -185,11 +196,6 @@ impl fmt::Display for GenerateError {
                      or delete it"
                 )
             }
-            GenerateError::Edited(function, why) => write!(
-                f,
-                "what was left out of `{function}` is not what was written down: {why}; please report \
-                 this defect of dalembert"
-            ),
         }
     }
 }

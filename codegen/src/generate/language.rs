@@ -4,10 +4,10 @@ use std::fmt;
 
 use dalembert_model::robot::Robot;
 
-use super::request::Request;
-use crate::emit::{Interface, Layout, header};
+use crate::emit::header;
 use crate::function::Function;
 use crate::language::{Entries, Language};
+use crate::task::{Interface, Layout, Request};
 
 /// A request that a language cannot express.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl fmt::Display for Lacks {
             ),
             Lacks::Traits => f.write_str("it has no traits: leave the interface out"),
             Lacks::Contents => f.write_str(
-                "it has no modules, and one header for all scalars: leave `contents` out",
+                "it has no modules, and one header for all scalars: leave the layout `contents` out",
             ),
             Lacks::Name(name) => write!(
                 f,

@@ -1,6 +1,5 @@
 //! The one function that macro, build script and command call.
 //!
-//! - [`request`]: what somebody wants; [`in_scene`]: in which of a file's scenes
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`mod@keep`]: what was generated, in a plan
@@ -16,13 +15,11 @@ mod anew;
 mod contradiction;
 pub(crate) mod early;
 pub(crate) mod error;
-pub(crate) mod in_scene;
 pub(crate) mod keep;
 pub(crate) mod language;
 pub(crate) mod parameters;
 mod range;
 pub(crate) mod reason;
-pub(crate) mod request;
 #[doc(hidden)]
 pub(crate) mod search;
 #[doc(hidden)]
@@ -35,9 +32,8 @@ pub use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 pub use crate::emit::GeneratedFunction;
-use crate::emit::Layout;
 use crate::emit::header;
-use crate::emit::module::{self, ModuleOptions};
+use crate::emit::module;
 use crate::function::{Columns, Function};
 use crate::language::c99::Names;
 use crate::language::entries::Around;
@@ -48,6 +44,7 @@ use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
+use crate::task::{Layout, Prefer, Request, Task};
 use crate::trace::depends_on_coulomb;
 use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
@@ -57,8 +54,6 @@ pub use anew::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 pub(crate) use reason::NoSines;
-pub use reason::TextDefect;
-pub use request::{Fma, Prefer, Request};
 use search::{found, replay};
 
 use tolerate::tolerate;
@@ -83,8 +78,80 @@ pub struct Generated {
 /// them alone takes a compiler minutes.
 pub const MAX_OUTPUTS: usize = 20_000;
 
-/// Generates, proves, prints and reads back.
+/// Generates the requested functions for `robot`: searches for programs, proves each equal to
+/// Lagrange–Euler, prints them and parses the text back.
+///
+/// # Errors
+/// Why nothing was generated.
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
+    check(robot, request)?;
+    let scene_robot = &request.scene_robot(robot).map_err(GenerateError::Scene)?;
+    let task = &Task {
+        robot,
+        scene_robot,
+        request,
+    };
+    if task.tolerance().is_some() {
+        let mut functions = request.functions.iter();
+        if let Some(&function) = functions.find(|&&f| depends_on_coulomb(scene_robot, f)) {
+            let why = ToleranceError::Function(Unbounded::Friction);
+            return Err(GenerateError::Tolerance(function, why));
+        }
+    }
+    parameters::check(task).map_err(GenerateError::Parameter)?;
+    let (mut functions, scalars) = functions(task)?;
+    let ended = request.effort == Effort::Thorough && request.watch.is_over();
+    if ended {
+        early::no_dearer_than_quick(task, &mut functions, &scalars);
+    }
+    let mut warnings = Vec::new();
+    for generated in &mut functions {
+        if generated.sines.is_empty() {
+            generated.sines = sines(task, generated, &scalars)?;
+        }
+        for &scalar in &scalars {
+            check_constants(&generated.program, scalar, &mut warnings)?;
+            let robot = scene_robot.robot();
+            warn_of_overflow(robot, &generated.program, scalar, &mut warnings);
+        }
+    }
+    // What is printed, and what the text is compared with once it is read back.
+    let in_scalar = |&scalar: &ScalarType| -> (ScalarType, Vec<Lowered>) {
+        let all = functions.iter();
+        let code = all.map(|generated| generated.code(scalar, request.math.library));
+        (scalar, code.collect())
+    };
+    let codes: Vec<(ScalarType, Vec<Lowered>)> = scalars.iter().map(in_scalar).collect();
+    let text = match request.language {
+        Language::Rust => module::write(task, &functions, &codes),
+        Language::C | Language::Cuda => header::write(task, &functions, &codes),
+    };
+    let angles = module::angles(robot.joints.len(), &functions);
+    let name = task.module_name();
+    let mut emitted = Vec::new();
+    for (scalar, codes) in &codes {
+        let section = match (request.language, request.layout) {
+            (Language::C | Language::Cuda, _) | (_, Layout::Contents) => Some(text.as_str()),
+            (Language::Rust, Layout::Modules) => {
+                module::section(&text, &module::name(&name, *scalar, &scalars))
+            }
+        };
+        for (generated, code) in functions.iter().zip(codes) {
+            emitted.push(read_back(task, section, generated, code, &angles)?);
+        }
+    }
+    contradiction::check(scene_robot, &functions, &emitted)?;
+    Ok(Generated {
+        functions,
+        text,
+        emitted,
+        warnings,
+        ended,
+    })
+}
+
+/// Refuses what cannot be, before anything is searched for, or a limit is asked for in vain.
+fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::Empty);
     }
@@ -106,145 +173,59 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         let robot = plan.robot.clone();
         return Err(GenerateError::StalePlan { robot });
     }
-    let tolerance = request.scene.as_ref().and_then(|s| s.tolerance.as_ref());
-    if tolerance.is_some() {
-        // Before anything is searched for, or a limit is asked for in vain.
-        let mut unbounded = request.functions.iter();
-        let refusal = unbounded.find_map(|&f| Some((f, Unbounded::of(f)?)));
-        if let Some((function, why)) = refusal {
-            return Err(GenerateError::Tolerance(
-                function,
-                ToleranceError::Function(why),
-            ));
+    let scene = request.scene.as_ref();
+    let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
+    let mut unbounded = request.functions.iter();
+    let refusal = unbounded.find_map(|&f| Some((f, Unbounded::of(f)?)));
+    match refusal.filter(|_| has_tolerance) {
+        Some((function, why)) => {
+            let why = ToleranceError::Function(why);
+            Err(GenerateError::Tolerance(function, why))
         }
+        None => Ok(()),
     }
-    let scene_robot = request.scene_robot(robot).map_err(GenerateError::Scene)?;
-    if tolerance.is_some() {
-        let mut functions = request.functions.iter();
-        if let Some(&function) = functions.find(|&&f| depends_on_coulomb(&scene_robot, f)) {
-            let why = ToleranceError::Function(Unbounded::Friction);
-            return Err(GenerateError::Tolerance(function, why));
-        }
-    }
-    parameters::check(request, &scene_robot).map_err(GenerateError::Parameter)?;
-    let (mut functions, scalars) = all(&scene_robot, request)?;
-    let ended = request.effort == Effort::Thorough && request.watch.is_over();
-    if ended {
-        early::no_dearer_than_quick(&scene_robot, request, &mut functions, &scalars);
-    }
-    for generated in &mut functions {
-        if generated.sines.is_empty() {
-            generated.sines = sines(&scene_robot, generated, &scalars, request)?;
-        }
-    }
-    let mut warnings = Vec::new();
-    for generated in &functions {
-        for &scalar in &scalars {
-            check_constants(&generated.program, scalar, &mut warnings)?;
-            warn_of_overflow(
-                scene_robot.robot(),
-                &generated.program,
-                scalar,
-                &mut warnings,
-            );
-        }
-    }
-    // What is printed, and what the text is compared with once it is read back.
-    let in_scalar = |&scalar: &ScalarType| -> Vec<Lowered> {
-        let all = functions.iter();
-        all.map(|generated| generated.code(scalar, request.math.library))
-            .collect()
-    };
-    let codes: Vec<Vec<Lowered>> = scalars.iter().map(in_scalar).collect();
-    let name = request.module_name(robot);
-    let options = ModuleOptions {
-        language: request.language,
-        acsl: request.acsl,
-        scalars: &scalars,
-        path: &request.math.path,
-        entries: request.entries,
-        batch: &request.batch,
-        interface: request.interface,
-        traits: &request.traits,
-        name: &name,
-        layout: request.layout,
-    };
-    let write = match request.language {
-        Language::Rust => module::write,
-        Language::C | Language::Cuda => header::write,
-    };
-    let text = write(robot, &scene_robot, &functions, &codes, &options);
-    let angles = module::angles(robot.joints.len(), &functions);
-    let mut emitted = Vec::new();
-    for (&scalar, codes) in scalars.iter().zip(&codes) {
-        for (generated, code) in functions.iter().zip(codes) {
-            let section = match (request.language, request.layout) {
-                (Language::C | Language::Cuda, _) | (_, Layout::Contents) => Some(text.as_str()),
-                (Language::Rust, Layout::Modules) => {
-                    module::section(&text, &module::name(&name, scalar, &scalars))
-                }
-            };
-            emitted.push(read_back(
-                section, generated, code, request, &angles, &name,
-            )?);
-        }
-    }
-    contradiction::check(&scene_robot, &functions, &emitted)?;
-    Ok(Generated {
-        functions,
-        text,
-        emitted,
-        warnings,
-        ended,
-    })
 }
 
 type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
-/// Every function's program, with what a tolerance leaves of it, and the
+/// Returns every function's program, with what a tolerance leaves of it, and the
 /// scalars to emit. With a tolerance the certificate says what rounding may
 /// cost, and the cheapest exact programs are what to start from; those that
 /// cost fewer digits have their turn if it refuses these.
-fn all(scene_robot: &SceneRobot, request: &Request) -> Result<Found, GenerateError> {
-    let tolerance = scene_robot
-        .scene()
-        .and_then(|scene| scene.tolerance.as_ref());
-    if tolerance.is_none() || request.prefer != Prefer::Accuracy {
-        return attempt(scene_robot, request);
+fn functions(task: &Task<'_>) -> Result<Found, GenerateError> {
+    let request = task.request;
+    if task.tolerance().is_none() || request.prefer != Prefer::Accuracy {
+        return attempt(task);
     }
-    let cheapest = Request {
+    let cheapest = &Request {
         prefer: Prefer::Operations,
         ..request.clone()
     };
-    match attempt(scene_robot, &cheapest) {
-        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => {
-            attempt(scene_robot, request)
-        }
+    match attempt(&task.with(cheapest)) {
+        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => attempt(task),
         found => found,
     }
 }
 
-fn attempt(scene_robot: &SceneRobot, request: &Request) -> Result<Found, GenerateError> {
-    let mut functions = Function::in_order(&request.functions);
-    if scene_robot.has(RuntimeParameter::Payload) {
+fn attempt(task: &Task<'_>) -> Result<Found, GenerateError> {
+    let mut functions = Function::in_order(&task.request.functions);
+    if task.scene_robot.has(RuntimeParameter::Payload) {
         functions.insert(0, Function::Load);
     }
-    let one = |function: &Function| one(scene_robot, *function, request);
-    let found: Result<_, _> = match request.effort {
-        Effort::Quick => parallel::each(&functions, one).into_iter().collect(),
+    let proved = |function: &Function| proved(task, *function);
+    let found: Result<_, _> = match task.request.effort {
+        Effort::Quick => parallel::each(&functions, proved).into_iter().collect(),
         // Who watches a long search sees one function after the other.
-        Effort::Thorough => functions.iter().map(one).collect(),
+        Effort::Thorough => functions.iter().map(proved).collect(),
     };
     let mut functions: Vec<GeneratedFunction> = found?;
-    let scalars = tolerate(scene_robot, &mut functions, request)?;
+    let scalars = tolerate(task, &mut functions)?;
     Ok((functions, scalars))
 }
 
-fn one(
-    scene_robot: &SceneRobot,
-    function: Function,
-    request: &Request,
-) -> Result<GeneratedFunction, GenerateError> {
+/// Returns a function with its program, from the plan or searched for, and the program's proof.
+fn proved(task: &Task<'_>, function: Function) -> Result<GeneratedFunction, GenerateError> {
+    let scene_robot = task.scene_robot;
     let base = match function.columns() {
         Columns::Base(quantity) => Some(scene_robot.base(quantity)),
         Columns::Links | Columns::None => None,
@@ -265,19 +246,19 @@ fn one(
         let joint = scene_robot.robot().joint_label(joint);
         return Err(GenerateError::Singular { function, joint });
     }
-    let entry = replay(scene_robot, function, request)?;
+    let entry = replay(task, function)?;
     let (source, passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.
             let program = entry.program.clone().with_speeds(scene_robot.speeds());
             (entry.source, entry.passes.clone(), program, None)
         }
-        None => found(scene_robot, function, request)?,
+        None => found(task, function)?,
     };
-    let finished = match tolerates(scene_robot) {
+    let finished = match task.tolerance() {
         // Errors are bounded, and parts left out of it, first.
-        true => program.clone(),
-        false => request.finished(&program),
+        Some(_) => program.clone(),
+        None => task.finished(&program),
     };
     let (program, found) = match finished == program {
         true => (program, None),
@@ -292,9 +273,7 @@ fn one(
         source,
         parameters: ParametersKey::of(scene_robot, function),
         planned: entry.is_some(),
-        counts: program.counts(),
         sines: Vec::new(),
-        depth: (request.prefer == Prefer::Latency).then(|| program.depth()),
         program,
         found,
         passes,
@@ -304,28 +283,20 @@ fn one(
     })
 }
 
-/// Returns whether the scene has a tolerance.
-fn tolerates(scene_robot: &SceneRobot) -> bool {
-    scene_robot
-        .scene()
-        .is_some_and(|scene| scene.tolerance.is_some())
-}
-
 /// The polynomials of a program's sines in each scalar.
 fn sines(
-    scene_robot: &SceneRobot,
+    task: &Task<'_>,
     generated: &GeneratedFunction,
     scalars: &[ScalarType],
-    request: &Request,
 ) -> Result<Vec<(ScalarType, Sines)>, GenerateError> {
-    let SinCos::Polynomial { error } = request.sincos else {
+    let SinCos::Polynomial { error } = task.request.sincos else {
         return Ok(Vec::new());
     };
     if generated.admitted.is_some() {
         // It has what its tolerance admits, or no sines.
         return Ok(Vec::new());
     }
-    let error = error.unwrap_or(SinCos::ERROR);
+    let (scene_robot, error) = (task.scene_robot, error.unwrap_or(SinCos::ERROR));
     let fail = |why| GenerateError::SinCos(generated.function, why);
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(scene_robot.robot(), scalar);
@@ -357,16 +328,16 @@ fn spoil_inertia(
 }
 
 fn read_back(
+    task: &Task<'_>,
     section: Option<&str>,
     generated: &GeneratedFunction,
     code: &Lowered,
-    request: &Request,
     angles: &Angles,
-    name: &str,
 ) -> Result<Emitted, GenerateError> {
+    let request = task.request;
     let scalar = code.scalar;
-    let fail = |why| GenerateError::Text(generated.function, scalar, why);
-    let section = section.ok_or_else(|| fail(TextDefect::NoModule))?;
+    let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
+    let section = section.ok_or_else(|| fail("its module is not in the text".to_owned()))?;
     let printed = Printed::of(&generated.program, code);
     let around = Around {
         path: &request.math.path,
@@ -376,16 +347,16 @@ fn read_back(
     let read = match request.language {
         Language::Rust => Lowered::parse_entries(section, &printed, request.entries, &around),
         Language::C | Language::Cuda => {
-            let names = Names::new(name, request.language, scalar);
+            let names = Names::new(&task.module_name(), request.language, scalar);
             Lowered::parse_c(section, &printed, request.entries, &names)
         }
     };
-    let read = read.map_err(|error| fail(TextDefect::Unreadable(Box::new(error))))?;
+    let read = read.map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
-        return Err(fail(TextDefect::Differs(difference)));
+        return Err(fail(difference.to_string()));
     }
     if read.counts() != generated.counts_in(scalar) {
-        return Err(fail(TextDefect::Counts));
+        return Err(fail("the counts of the text differ".to_owned()));
     }
     Ok(Emitted {
         function: generated.function,

@@ -4,12 +4,11 @@ use std::fmt;
 
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
-use super::request::Request;
 use crate::approximate::error::Unbounded;
 use crate::function::{Argument, Function};
 use crate::language::{Entries, Language};
 use crate::portfolio::Start;
-use crate::scene::SceneRobot;
+use crate::task::Task;
 
 /// Why a parameter cannot be an argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +28,18 @@ pub enum ParameterError {
     Tolerance(Function, Argument),
     /// No joint feels what the last link carries.
     Unfelt,
+}
+
+impl ParameterError {
+    /// Returns the function that it is about, if it is about one.
+    pub(super) fn function(&self) -> Option<Function> {
+        match self {
+            ParameterError::Unregrouped(function) | ParameterError::Tolerance(function, _) => {
+                Some(*function)
+            }
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for ParameterError {
@@ -68,12 +79,17 @@ impl fmt::Display for ParameterError {
 }
 
 /// Refuses, before anything is searched for, what cannot be.
-pub(super) fn check(request: &Request, scene_robot: &SceneRobot) -> Result<(), ParameterError> {
+pub(super) fn check(task: &Task<'_>) -> Result<(), ParameterError> {
+    let Task {
+        scene_robot,
+        request,
+        ..
+    } = *task;
     let Some(&first) = request.parameters.first() else {
         return Ok(());
     };
     let scene = request.scene.as_ref();
-    if scene.is_some_and(|scene| scene.tolerance.is_some()) {
+    if task.tolerance().is_some() {
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
             let mut taken = request.parameters.iter();

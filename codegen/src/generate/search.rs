@@ -3,7 +3,7 @@
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use super::{GenerateError, Prefer, Request};
+use super::{GenerateError, Task};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::plan::Entry;
@@ -11,17 +11,18 @@ use crate::portfolio::start::{Approach, Problem};
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{self, Limit, Source, Variant};
 use crate::program::{Counts, Program, ScalarType};
-use crate::scene::{ParametersKey, SceneKey, SceneRobot};
+use crate::scene::{ParametersKey, SceneKey};
 use crate::simplify::{self, Effort, Pass, Simplified};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
 
 /// The plan's program, the first requested scalar's that it has.
-pub fn replay<'r>(
-    scene_robot: &SceneRobot,
-    function: Function,
-    request: &'r Request,
-) -> Result<Option<&'r Entry>, GenerateError> {
+pub fn replay<'a>(task: &Task<'a>, function: Function) -> Result<Option<&'a Entry>, GenerateError> {
+    let Task {
+        scene_robot,
+        request,
+        ..
+    } = *task;
     let Some(plan) = &request.plan else {
         return Ok(None);
     };
@@ -58,18 +59,17 @@ pub fn replay<'r>(
 
 /// Searches for a program.
 pub(super) fn found(
-    scene_robot: &SceneRobot,
+    task: &Task<'_>,
     function: Function,
-    request: &Request,
 ) -> Result<(Source, Vec<Pass>, Program, Option<Refused>), GenerateError> {
-    let found = search(scene_robot, function, request)?;
+    let found = search(task, function)?;
     let (seed, simplified) = (&found.variants[found.simplified.seed], &found.simplified);
     let mut passes = vec![Pass {
         name: "traced",
         counts: seed.traced,
     }];
     passes.extend(simplified.passes.iter().cloned());
-    let program = Program::in_scene(scene_robot, function, &simplified.graph);
+    let program = Program::in_scene(task.scene_robot, function, &simplified.graph);
     passes.push(Pass {
         name: "final",
         counts: program.counts(),
@@ -92,21 +92,16 @@ pub struct Found {
 /// Searches for the cheapest program.
 ///
 /// A thorough search contains the quick one: it is never dearer.
-pub fn search(
-    scene_robot: &SceneRobot,
-    function: Function,
-    request: &Request,
-) -> Result<Found, GenerateError> {
+pub fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateError> {
     let search = Search {
-        scene_robot,
+        task: *task,
         function,
-        request,
-        judge: match request.prefer {
-            Prefer::Accuracy | Prefer::Latency => AccuracyFilter::new(scene_robot, function),
-            Prefer::Operations => AccuracyFilter::lenient(scene_robot, function),
+        judge: match task.is_lenient() {
+            true => AccuracyFilter::lenient(task.scene_robot, function),
+            false => AccuracyFilter::new(task.scene_robot, function),
         },
     };
-    let watch = request.watch.over(function);
+    let watch = task.request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it.
     if watch.is_over() {
         return search.quick(None);
@@ -114,7 +109,7 @@ pub fn search(
     let tell = |part, best| watch.step(part, [0, 1], best);
     tell(Part::Formulations, None);
     // Nobody ends the quick search inside a thorough one: that is at least as good.
-    let is_quick = request.effort == Effort::Quick;
+    let is_quick = task.request.effort == Effort::Quick;
     let quick = search.quick(is_quick.then_some(watch))?;
     if is_quick || watch.is_over() {
         tell(Part::Proof, Some(quick.simplified.graph.counts()));
@@ -134,9 +129,8 @@ pub fn search(
 }
 
 struct Search<'a> {
-    scene_robot: &'a SceneRobot,
+    task: Task<'a>,
     function: Function,
-    request: &'a Request,
     judge: AccuracyFilter<'a>,
 }
 
@@ -181,7 +175,8 @@ impl Search<'_> {
         from: &[Regrouping<Exact>],
         watch: Option<FunctionWatch<'_>>,
     ) -> Result<Found, GenerateError> {
-        let (scene_robot, function, start) = (self.scene_robot, self.function, self.request.start);
+        let (scene_robot, function) = (self.task.scene_robot, self.function);
+        let start = self.task.request.start;
         let excess = |graph: &Graph| self.judge.excess(graph);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let approaches = start.approaches(&Problem {
@@ -209,7 +204,8 @@ impl Search<'_> {
         limited: bool,
         watch: Option<FunctionWatch<'_>>,
     ) -> Option<Found> {
-        let (scene_robot, function, start) = (self.scene_robot, self.function, self.request.start);
+        let (scene_robot, function) = (self.task.scene_robot, self.function);
+        let start = self.task.request.start;
         let Approach {
             tuned,
             variants,

@@ -13,25 +13,22 @@ use crate::approximate::prune::PruneSettings;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
-use crate::function::Function;
-use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request};
+use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request, Task};
 use crate::plan::Edited;
 use crate::program::{Program, ScalarType};
 use crate::scene::SceneKey;
-use crate::scene::SceneRobot;
 use crate::simplify::Effort;
 use crate::sincos::SinCos;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
 pub(super) fn tolerate(
-    scene_robot: &SceneRobot,
+    task: &Task<'_>,
     functions: &mut [GeneratedFunction],
-    request: &Request,
 ) -> Result<Vec<ScalarType>, GenerateError> {
     let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
-    let Some(all) = admitted(scene_robot, &programs, request)? else {
-        return Ok(request.scalars.clone());
+    let Some(all) = admitted(task, &programs)? else {
+        return Ok(task.request.scalars.clone());
     };
     // One a certificate, the same of every function.
     let certificates = all
@@ -40,9 +37,7 @@ pub(super) fn tolerate(
         .flat_map(|admitted| &admitted.certificates);
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
-        function.program = request.finished(&admitted.program);
-        function.depth = function.depth.map(|_| function.program.depth());
-        function.counts = function.program.counts();
+        function.program = task.finished(&admitted.program);
         let sines = admitted.certificates.iter();
         let sines = sines.filter(|c| !c.sines.is_empty());
         function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
@@ -53,13 +48,12 @@ pub(super) fn tolerate(
 
 /// Returns what the scene's tolerance admits in place of each exact program; `None` if
 /// it has none.
-pub fn admitted<'p>(
-    scene_robot: &'p SceneRobot,
-    programs: &[&'p Program],
-    request: &Request,
+pub fn admitted(
+    task: &Task<'_>,
+    programs: &[&Program],
 ) -> Result<Option<Vec<Admitted>>, GenerateError> {
-    let scene = scene_robot.scene();
-    let Some(tolerance) = scene.and_then(|scene| scene.tolerance.as_ref()) else {
+    let request = task.request;
+    let Some(tolerance) = task.tolerance() else {
         return Ok(None);
     };
     let mut choices = vec![request.scalars.clone()];
@@ -73,17 +67,15 @@ pub fn admitted<'p>(
         let why = NoSines::Decided;
         return Err(GenerateError::SinCos(program.function, why));
     }
-    let budget = |program: &&'p Program| {
-        let budget = ErrorBudget::new(scene_robot, program, tolerance.relative_to);
-        budget.map_err(|refusal| GenerateError::Tolerance(program.function, refusal))
-    };
-    let budgets: Result<Vec<ErrorBudget<'_>>, GenerateError> =
-        programs.iter().map(budget).collect();
-    let budgets = budgets?;
+    let mut budgets = Vec::new();
+    for program in programs {
+        let budget = ErrorBudget::new(task.scene_robot, program, tolerance.relative_to);
+        budgets.push(budget.map_err(|why| GenerateError::Tolerance(program.function, why))?);
+    }
     let meter = Meter::new(request.work);
     let last = choices.len() - 1;
     for (index, scalars) in choices.into_iter().enumerate() {
-        match all(&budgets, tolerance, &scalars, request, meter) {
+        match in_scalars(task, &budgets, tolerance, &scalars, meter) {
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
@@ -103,19 +95,19 @@ pub fn admitted<'p>(
 
 /// Returns what a tolerance admits of every function in these scalars. Whether it admits
 /// the exact programs is seen first: a refusal comes before any search.
-fn all(
+fn in_scalars(
+    task: &Task<'_>,
     budgets: &[ErrorBudget<'_>],
     tolerance: &Tolerance,
     scalars: &[ScalarType],
-    request: &Request,
     meter: Meter,
 ) -> Result<Vec<Admitted>, GenerateError> {
     let mut planned = Vec::new();
     for budget in budgets {
         let tolerances = budget.tolerances(tolerance);
-        let usable = usable(budget, &tolerances, scalars, request)?;
+        let usable = usable(task, budget, &tolerances, scalars)?;
         if usable.is_none() {
-            let exact = budget.unedited(scalars, bound_effort(request));
+            let exact = budget.unedited(scalars, bound_effort(task));
             let refused = exact.within(&tolerances);
             let refused = refused.and_then(|()| budget.definite(scalars));
             refused.map_err(|why| GenerateError::Tolerance(budget.exact.function, why))?;
@@ -123,12 +115,12 @@ fn all(
         planned.push(usable);
     }
     let each = budgets.iter().zip(planned);
-    each.map(|(budget, planned)| one(budget, planned, tolerance, scalars, request, meter))
+    each.map(|(budget, planned)| chosen(task, budget, planned, tolerance, scalars, meter))
         .collect()
 }
 
-fn bound_effort(request: &Request) -> BoundEffort {
-    match request.effort {
+fn bound_effort(task: &Task<'_>) -> BoundEffort {
+    match task.request.effort {
         Effort::Quick => BoundEffort::QUICK,
         Effort::Thorough => BoundEffort::CERTIFY,
     }
@@ -138,13 +130,13 @@ fn bound_effort(request: &Request) -> BoundEffort {
 /// can edit, and its bounds are what documentation and certificate will say: they
 /// are found anew.
 fn usable(
+    task: &Task<'_>,
     budget: &ErrorBudget<'_>,
     tolerances: &[f64],
     scalars: &[ScalarType],
-    request: &Request,
 ) -> Result<Option<Admitted>, GenerateError> {
     let function = budget.exact.function;
-    let kept = kept(budget, function, scalars, request)?;
+    let kept = kept(task, budget, scalars)?;
     let usable = kept.filter(|kept| kept.within(tolerances).is_ok());
     if let Some(usable) = &usable {
         budget
@@ -154,14 +146,16 @@ fn usable(
     Ok(usable)
 }
 
-fn one(
+/// Returns what a tolerance admits of one function: the plan's variant, or the cheapest found.
+fn chosen(
+    task: &Task<'_>,
     budget: &ErrorBudget<'_>,
     planned: Option<Admitted>,
     tolerance: &Tolerance,
     scalars: &[ScalarType],
-    request: &Request,
     meter: Meter,
 ) -> Result<Admitted, GenerateError> {
+    let request = task.request;
     let function = budget.exact.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
     let watch = request.watch.over(function);
@@ -173,7 +167,7 @@ fn one(
         false => budget.clone().watched(watch),
     };
     let tolerances = budget.tolerances(tolerance);
-    let bound_effort = bound_effort(request);
+    let bound_effort = bound_effort(task);
     let settings = match request.effort {
         Effort::Thorough if !over => thorough(request),
         _ => PruneSettings::QUICK,
@@ -222,7 +216,7 @@ fn one(
             }
         }
     };
-    let finished = request.finished(&admitted.program);
+    let finished = task.finished(&admitted.program);
     if finished != admitted.program {
         let with = |certificate: &Certificate| {
             let found = budget.with_emitted(certificate, &finished, &tolerances, bound_effort);
@@ -244,7 +238,10 @@ fn one(
 fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
     let programs = found.certificates.first();
     match programs.map(|certificate| certificate.check_programs(budget.scene_robot)) {
-        Some(Err(why)) => Err(GenerateError::Edited(budget.exact.function, why)),
+        Some(Err(why)) => {
+            let why = format!("what was left out is not what was written down: {why}");
+            Err(GenerateError::Defect(budget.exact.function, None, why))
+        }
         _ => Ok(found),
     }
 }
@@ -263,12 +260,12 @@ fn thorough(request: &Request) -> PruneSettings {
 
 /// The plan's variant, if it has the same one for each of the scalars.
 fn kept(
+    task: &Task<'_>,
     budget: &ErrorBudget<'_>,
-    function: Function,
     scalars: &[ScalarType],
-    request: &Request,
 ) -> Result<Option<Admitted>, GenerateError> {
-    let (Some(plan), Some(scene)) = (&request.plan, budget.scene_robot.scene()) else {
+    let (request, function) = (task.request, budget.exact.function);
+    let (Some(plan), Some(scene)) = (&request.plan, task.scene_robot.scene()) else {
         return Ok(None);
     };
     let scene_key = Some(SceneKey::of(scene));

@@ -29,31 +29,20 @@ mod trig;
 
 use crate::function::{Argument, Function, Sizes};
 use crate::program::{Library, Lowered, Program};
+use crate::words::words;
 pub use entries::Entries;
 
-/// The language of generated code.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Language {
-    /// Rust: modules.
-    #[default]
-    Rust,
-    /// C99, which C++ reads too: one header.
-    C,
-    /// CUDA: one header of functions for host and device, and of kernels.
-    Cuda,
-}
-
-impl Language {
-    /// All, the default first.
-    pub const ALL: [Language; 3] = [Language::Rust, Language::C, Language::Cuda];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Language::Rust => "rust",
-            Language::C => "c",
-            Language::Cuda => "cuda",
-        }
+words! {
+    /// The language of generated code.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Language: "language" {
+        /// Rust: modules.
+        #[default]
+        Rust = "rust",
+        /// C99, which C++ reads too: one header.
+        C = "c",
+        /// CUDA: one header of functions for host and device, and of kernels.
+        Cuda = "cuda",
     }
 }
 

@@ -13,6 +13,7 @@ use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
 use crate::simplify::Pass;
+use crate::words::Word;
 
 /// The longest plan that is read.
 pub(crate) const MAX_BYTES: usize = 64 << 20;

@@ -4,32 +4,20 @@ use std::fmt;
 
 use dalembert_model::number::{Exact, Rounded};
 
-/// The scalar of an emitted function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ScalarType {
-    /// Double precision.
-    F64,
-    /// Single precision.
-    F32,
+use crate::words::words;
+
+words! {
+    /// The scalar of an emitted function.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    pub enum ScalarType: "scalar" {
+        /// Double precision.
+        F64 = "f64",
+        /// Single precision.
+        F32 = "f32",
+    }
 }
 
 impl ScalarType {
-    /// Both, in the order of generated files.
-    pub const ALL: [ScalarType; 2] = [ScalarType::F64, ScalarType::F32];
-
-    /// Its Rust name.
-    pub fn name(self) -> &'static str {
-        match self {
-            ScalarType::F64 => "f64",
-            ScalarType::F32 => "f32",
-        }
-    }
-
-    /// The type of a name.
-    pub fn from_name(name: &str) -> Option<ScalarType> {
-        ScalarType::ALL.into_iter().find(|s| s.name() == name)
-    }
-
     /// Returns the suffix of libm's functions for this scalar.
     pub fn math_suffix(self) -> &'static str {
         match self {

@@ -4,37 +4,24 @@
 use super::egraph::SaturationLimits;
 use super::extract::Schedule;
 use super::search::SearchLimits;
+use crate::words::words;
 
 /// A program of at most so many operations is a small one.
 const SMALL: usize = 100;
 
-/// The levels of the command line and the macro.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Effort {
-    /// Well below a second for a six-joint arm, in a release build.
-    #[default]
-    Quick,
-    /// Up to two minutes a function.
-    Thorough,
+words! {
+    /// The levels of the command line and the macro.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    pub enum Effort: "effort" {
+        /// Well below a second for a six-joint arm, in a release build.
+        #[default]
+        Quick = "quick",
+        /// Up to two minutes a function.
+        Thorough = "thorough",
+    }
 }
 
 impl Effort {
-    /// Both, least first.
-    pub const ALL: [Effort; 2] = [Effort::Quick, Effort::Thorough];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Effort::Quick => "quick",
-            Effort::Thorough => "thorough",
-        }
-    }
-
-    /// The level of a name.
-    pub fn from_name(name: &str) -> Option<Effort> {
-        Effort::ALL.into_iter().find(|e| e.name() == name)
-    }
-
     /// Rounds of the regrouping's descent.
     pub fn regrouping_rounds(self) -> usize {
         match self {

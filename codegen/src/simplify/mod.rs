@@ -161,9 +161,5 @@ pub fn watched(
 
 /// The price that the search minimises, in hundredths of an operation.
 pub fn cost(graph: &Graph) -> u64 {
-    let (counts, model) = (graph.counts(), CostModel::OPERATIONS);
-    let angles = graph.angles().into_iter();
-    let angles: u64 = angles.map(|angle| model.angle(angle)).sum();
-    let divisions = counts.div as u64 * model.div;
-    counts.mul as u64 * model.mul + counts.add as u64 * model.add + divisions + angles
+    CostModel::OPERATIONS.price(&graph.counts(), graph.angles().into_iter())
 }

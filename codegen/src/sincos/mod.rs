@@ -26,6 +26,7 @@ use std::fmt;
 use crate::interval::Interval;
 use crate::program::kernel::Kernel;
 use crate::program::{AngleSum, Library, Lowered, Program, ScalarType, Trig};
+use crate::words::Word;
 use choose::Candidates;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::{JointKind, Position, Robot};
@@ -59,9 +60,6 @@ impl SinCos {
     /// The error of polynomials for which none is given.
     pub const ERROR: f64 = 1e-6;
 
-    /// The words that users have for it.
-    pub const NAMES: [&str; 4] = ["auto", "together", "libm", "polynomial"];
-
     /// The library of what is called, where `auto` is this one.
     pub fn library(self, auto: Library) -> Library {
         match self {
@@ -71,16 +69,19 @@ impl SinCos {
             SinCos::Libm | SinCos::Polynomial { .. } => Library::Libm,
         }
     }
+}
 
-    /// By its word; the error is left open.
-    pub fn from_name(name: &str) -> Option<SinCos> {
-        match name {
-            "auto" => Some(SinCos::Auto),
-            "together" => Some(SinCos::Together),
-            "libm" => Some(SinCos::Libm),
-            "polynomial" => Some(SinCos::Polynomial { error: None }),
-            _ => None,
-        }
+/// The error of polynomials is left open.
+impl Word for SinCos {
+    const WHAT: &'static str = "source of sines";
+
+    fn all() -> Vec<(&'static str, SinCos)> {
+        vec![
+            ("auto", SinCos::Auto),
+            ("together", SinCos::Together),
+            ("libm", SinCos::Libm),
+            ("polynomial", SinCos::Polynomial { error: None }),
+        ]
     }
 }
 

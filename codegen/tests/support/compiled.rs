@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Emitted;
 use dalembert_model::robot::Robot;
 

@@ -7,9 +7,10 @@ pub mod draw;
 use std::path::Path;
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, Request, generate};
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 

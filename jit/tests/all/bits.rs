@@ -1,7 +1,7 @@
 //! To the last bit.
 
 use dalembert_codegen::workspace::program::Operation;
-use dalembert_jit::{Arm, Fma, Load, Output, RuntimeParameter, Scalar, SinCos};
+use dalembert_jit::{Arm, Fma, Load, Output, Request, RuntimeParameter, Scalar, SinCos};
 
 use crate::support::{ROBOTS, STATES, compare, compare_all, drawn, fresh, is_same, path, robot};
 
@@ -75,8 +75,11 @@ fn other_sines_and_fused_products() {
         let load = Load {
             outputs: outputs.clone(),
             scalars: scalars(),
-            sincos,
-            fma,
+            options: Request {
+                sincos,
+                fma,
+                ..Request::default()
+            },
             ..fresh()
         };
         let arm = robot("planar3r", &load);

@@ -6,7 +6,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use dalembert_jit::{Arm, Function, Load, Output, Real, Scalar, SinCos};
+use dalembert_jit::{Arm, Function, Load, Output, Real, Request, Scalar, SinCos};
 
 use crate::support::{Folder, ROBOTS, drawn, fresh, is_same, robot, state};
 
@@ -185,7 +185,10 @@ fn same_as_rustc(name: &str, outputs: Option<Vec<Output>>, sincos: SinCos) {
     let load = Load {
         outputs,
         scalars: Some(Scalar::ALL.to_vec()),
-        sincos,
+        options: Request {
+            sincos,
+            ..Request::default()
+        },
         ..fresh()
     };
     let arm = robot(name, &load);

@@ -225,8 +225,10 @@ def load(
     scalar: str | Sequence[str] | None = None,
     parameters: str | Sequence[str] = (),
     scene: str | None = None,
+    formulation: str = "auto",
     effort: str = "quick",
     prefer: str = "accuracy",
+    fma: str = "off",
     sincos: str = "auto",
     nan: str = "propagate",
     cache: bool | Path = True,
@@ -260,9 +262,11 @@ def load(
         mass, centre of mass and inertia (10,).
     scene
         A scene of the robot file, with its tolerance, if it has one.
-    effort, prefer, sincos
-        ``"quick"`` or ``"thorough"``; ``"accuracy"``, ``"operations"`` or ``"latency"``;
-        ``"auto"``, ``"together"``, ``"libm"`` or ``"polynomial"``: as the command has them.
+    formulation, effort, prefer, fma, sincos
+        Words that ``dalembert generate --help`` explains: ``"quick"`` or ``"thorough"``;
+        ``"accuracy"``, ``"operations"`` or ``"latency"``; ``"auto"``, ``"together"``,
+        ``"libm"`` or ``"polynomial"``; with ``fma="on"`` results are not those of other
+        machines.
     nan
         ``"propagate"``: a NaN reaches the results that depend on it; ``"raise"``: it is a
         ``ValueError`` that says where it is.
@@ -285,8 +289,10 @@ def load(
         "scalar": _words("scalar", scalar),
         "parameters": _words("parameters", parameters),
         "scene": scene,
+        "formulation": formulation,
         "effort": effort,
         "prefer": prefer,
+        "fma": fma,
         "sincos": sincos,
         "cache": bool(cache),
         "cache_folder": None if isinstance(cache, bool) else os.fspath(cache),

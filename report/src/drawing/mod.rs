@@ -5,7 +5,7 @@
 //! - `view`: a projection onto the paper
 //! - `labels`: the numbers of joints at their axes
 //! - `outline`: the ellipse that a link's inertia is seen as
-//! - `page`: lines, texts and shapes as SVG
+//! - [`svg`]: an SVG file as it grows; `page`: lines, texts and shapes in it
 //! - `table`: the DH rows, masses and centres as text
 //!
 //! A link's inertia is drawn as the solid ellipsoid of uniform density that has it.
@@ -15,6 +15,7 @@
 mod labels;
 mod outline;
 mod page;
+pub mod svg;
 mod table;
 mod view;
 
@@ -26,7 +27,6 @@ use nalgebra::DVector;
 
 use labels::Labels;
 use page::Page;
-pub use page::escaped;
 use view::View;
 
 /// Draws the arm at a position, as SVG.

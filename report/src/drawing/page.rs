@@ -1,6 +1,6 @@
 //! Lines, shapes and texts as SVG.
 
-use std::fmt::Write;
+use super::svg::Svg;
 
 /// The side of a view, and the room above both, in pixels.
 pub(super) const SIDE: f64 = 440.0;
@@ -41,21 +41,16 @@ pub(super) struct Ellipse {
 
 /// A drawing as it grows.
 pub(super) struct Page {
-    svg: String,
+    svg: Svg,
 }
 
 impl Page {
     /// The paper with its title, and room for a table of this height.
     pub(super) fn new(title: &str, table: f64) -> Page {
         let (width, height) = (2.0 * SIDE, HEAD + SIDE + table);
-        let name = escaped(title);
-        let mut page = Page {
-            svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-                 role=\"img\">\n<title>{name}</title>\n<!-- by dalembert show -->\n<style>{STYLE}</style>\n\
-                 <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
-            ),
-        };
+        let head = "<!-- by dalembert show -->\n";
+        let svg = Svg::new(title, [width, height], head, STYLE);
+        let mut page = Page { svg };
         page.text([16.0, 20.0], title);
         for (line, text) in LEGEND.iter().enumerate() {
             page.text([16.0, 36.0 + 15.0 * line as f64], text);
@@ -65,7 +60,7 @@ impl Page {
 
     /// A line.
     pub(super) fn line(&mut self, class: &str, [x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) {
-        self.element(&format!(
+        self.svg.element(&format!(
             "<path class=\"{class}\" d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\"/>"
         ));
     }
@@ -76,7 +71,7 @@ impl Page {
         let length = libm::sqrt(x * x + y * y);
         if length < 2.0 {
             let [x, y] = from;
-            self.element(&format!(
+            self.svg.element(&format!(
                 "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\"/>"
             ));
             return;
@@ -91,15 +86,13 @@ impl Page {
 
     /// The links, from origin to origin.
     pub(super) fn chain(&mut self, points: &[[f64; 2]]) {
-        let points = points.iter().map(|[x, y]| format!("{x:.1},{y:.1}"));
-        let points = points.collect::<Vec<_>>().join(" ");
-        self.element(&format!("<polyline class=\"l\" points=\"{points}\"/>"));
+        self.svg.polyline("class=\"l\"", points);
     }
 
     /// A centre of mass: the dot's volume grows with the mass.
     pub(super) fn dot(&mut self, [x, y]: [f64; 2], mass: f64) {
         let radius = (2.5 * libm::cbrt(mass)).clamp(1.5, 9.0);
-        self.element(&format!(
+        self.svg.element(&format!(
             "<circle class=\"m\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\"/>"
         ));
     }
@@ -112,7 +105,7 @@ impl Page {
         } = ellipse;
         // Angles of the paper go downward.
         let turned = 0.0 - turned;
-        self.element(&format!(
+        self.svg.element(&format!(
             "<ellipse class=\"e\" rx=\"{a:.1}\" ry=\"{b:.1}\" \
              transform=\"translate({x:.1} {y:.1}) rotate({turned:.1})\"/>"
         ));
@@ -125,7 +118,7 @@ impl Page {
 
     /// A text that begins at a point.
     pub(super) fn text(&mut self, at: [f64; 2], text: &str) {
-        self.written("i", at, text);
+        self.svg.text("i", at, "", text);
     }
 
     /// Writes a line of the table: cells, each so many characters from the left. Every cell
@@ -134,34 +127,12 @@ impl Page {
         let y = HEAD + SIDE + ROW * (index as f64 + 1.0);
         for (characters, text) in cells.iter().filter(|(_, text)| !text.is_empty()) {
             let x = 16.0 + CHARACTER * *characters as f64;
-            self.written("i c", [x, y], text);
+            self.svg.text("i c", [x, y], "", text);
         }
     }
 
     /// The text of the file.
-    pub(super) fn end(mut self) -> String {
-        self.svg.push_str("</svg>\n");
-        self.svg
+    pub(super) fn end(self) -> String {
+        self.svg.end()
     }
-
-    fn written(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
-        let text = escaped(text);
-        self.element(&format!(
-            "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{text}</text>"
-        ));
-    }
-
-    fn element(&mut self, element: &str) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(self.svg, "{element}");
-    }
-}
-
-/// Text as XML has it; what XML cannot have is replaced.
-pub fn escaped(text: &str) -> String {
-    let plain = text
-        .chars()
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c });
-    let plain: String = plain.collect();
-    plain.replace('&', "&amp;").replace('<', "&lt;")
 }

@@ -17,11 +17,12 @@ use dalembert_model::robot::Robot;
 
 use crate::couplings::Couplings;
 use dalembert_codegen::workspace::function::{Columns, Function};
-use dalembert_codegen::workspace::generate::{GenerateError, Request, tolerate};
+use dalembert_codegen::workspace::generate::{GenerateError, tolerate};
 use dalembert_codegen::workspace::graph::Graph;
 use dalembert_codegen::workspace::portfolio;
 use dalembert_codegen::workspace::program::Program;
 use dalembert_codegen::workspace::scene::{SceneRobot, input_hash};
+use dalembert_codegen::workspace::task::{Request, Task};
 use dalembert_codegen::workspace::trace::trace;
 use merged::Merged;
 use parameters::Parameters;
@@ -82,14 +83,19 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
     }
     let scene_robot =
         SceneRobot::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let task = Task {
+        robot,
+        scene_robot: &scene_robot,
+        request,
+    };
     let mut explained = Vec::new();
     for (index, &function) in request.functions.iter().enumerate() {
         if !request.functions[..index].contains(&function) {
-            explained.push(exact(robot, &scene_robot, function, request)?);
+            explained.push(exact(&task, function)?);
         }
     }
     let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
-    let admitted = tolerate::admitted(&scene_robot, &programs, request)?;
+    let admitted = tolerate::admitted(&task, &programs)?;
     let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
     for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
         explanation.rows.extend(steps::tolerated(admitted)?);
@@ -99,17 +105,17 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
 
 /// Everything but what a tolerance admits, and the program that it is applied
 /// to.
-fn exact(
-    robot: &Robot,
-    scene_robot: &SceneRobot,
-    function: Function,
-    request: &Request,
-) -> Result<(Explanation, Program), GenerateError> {
+fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), GenerateError> {
+    let Task {
+        robot,
+        scene_robot,
+        request,
+    } = *task;
     // Of a regressor no column comes from regrouped parameters.
     if function.columns() != Columns::None {
         return Err(GenerateError::Unexplained(function));
     }
-    let found = steps::search(scene_robot, function, request)?;
+    let found = steps::search(task, function)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
     let mut rows = Vec::new();
@@ -133,7 +139,7 @@ fn exact(
     fingerprints(formulation, &trace.graph);
     rows.extend(steps::newton_euler(scene_robot, function, &trace));
     rows.extend(steps::chain(scene_robot, function, tuned));
-    let (searched, program) = steps::searched(scene_robot, function, request, &found)?;
+    let (searched, program) = steps::searched(task, function, &found)?;
     rows.extend(searched);
     let chain = Chain::new(
         &portfolio::skeleton_for(scene_robot, function),

@@ -10,14 +10,15 @@ use dalembert_model::scalar::Scalar;
 use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::generate::search::{self, Found};
-use dalembert_codegen::workspace::generate::{GenerateError, Request, TextDefect};
 use dalembert_codegen::workspace::graph::{Folding, Graph};
 use dalembert_codegen::workspace::portfolio::tune::{self, Tuned};
 use dalembert_codegen::workspace::portfolio::{self, Start};
 use dalembert_codegen::workspace::program::{Counts, Lowered, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::simplify;
+use dalembert_codegen::workspace::task::{Request, Task};
 use dalembert_codegen::workspace::trace::Trace;
 
 /// A step of the pipeline.
@@ -231,28 +232,29 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 }
 
 /// The search over all forms, nothing replayed.
-pub(super) fn search(
-    scene_robot: &SceneRobot,
-    function: Function,
-    request: &Request,
-) -> Result<Found, GenerateError> {
-    search::search(scene_robot, function, &anew(request))
+pub(super) fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateError> {
+    let anew = Request {
+        start: Start::Auto,
+        plan: None,
+        ..task.request.clone()
+    };
+    search::search(&task.with(&anew), function)
 }
 
 /// Returns what the search made of all forms, and what the plan keeps; and the last of
 /// them: what is generated, or what a tolerance is applied to.
 pub(super) fn searched(
-    scene_robot: &SceneRobot,
+    task: &Task<'_>,
     function: Function,
-    request: &Request,
     found: &Found,
 ) -> Result<(Vec<Row>, Program), GenerateError> {
+    let scene_robot = task.scene_robot;
     let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
     let simplified = &found.simplified;
     let mut rows = vec![row(SearchStep::EGraph, &simplified.saturated)];
     let mut last = Program::in_scene(scene_robot, function, &simplified.graph);
     rows.push(Row::program(SearchStep::Search, last.clone()));
-    if let Some(entry) = search::replay(scene_robot, function, request)? {
+    if let Some(entry) = search::replay(task, function)? {
         last = entry.program.clone();
         rows.push(Row::program(SearchStep::Plan, last.clone()));
     }
@@ -263,9 +265,8 @@ pub(super) fn searched(
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let text = Lowered::parse(&certificate.text, function, scalar).map_err(|error| {
-            GenerateError::Text(function, scalar, TextDefect::Unreadable(Box::new(error)))
-        })?;
+        let text = Lowered::parse(&certificate.text, function, scalar)
+            .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
             step: SearchStep::Tolerance,
             counts: text.counts(),
@@ -273,13 +274,4 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
         })
     };
     admitted.certificates.iter().map(row).collect()
-}
-
-/// The request without a plan, from all formulations.
-fn anew(request: &Request) -> Request {
-    Request {
-        start: Start::Auto,
-        plan: None,
-        ..request.clone()
-    }
 }

@@ -9,11 +9,12 @@ use super::deviation::Measure;
 use super::subject::Code;
 use super::truth::Truth;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::task::Request;
 
 /// The lengths of chain that are measured.
 pub const JOINTS: [usize; 10] = [1, 2, 3, 4, 6, 8, 12, 20, 30, 60];
@@ -59,7 +60,7 @@ pub fn measure(n: usize, request: &Request) -> Result<Growth, GenerateError> {
             error = error.max(measure.of(&found, &truth).normwise);
         }
     }
-    let counts = generated.functions.first().map(|f| f.counts);
+    let counts = generated.functions.first().map(|f| f.counts());
     Ok(Growth {
         joints: n,
         counts: counts.unwrap_or_default(),

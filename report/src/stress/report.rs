@@ -10,9 +10,10 @@ use super::scale;
 use super::subject::{Code, Subject};
 use super::truth::Truth;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::condition::Condition;
 
 /// The options of a run.

@@ -11,9 +11,10 @@ use std::fmt;
 use std::ops::Range;
 
 use dalembert_codegen::workspace::function::{Argument, Function, Quantity, Sizes};
-use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, positions, seeded};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::condition::Condition;
 use dalembert_codegen::workspace::verify::floating::LEAST_PART;
 use dalembert_model::reference::Reference;

@@ -7,9 +7,10 @@ use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
 use dalembert_codegen::workspace::function::{Argument, Columns, Function};
-use dalembert_codegen::workspace::generate::{GenerateError, Request, generate};
+use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Emitted;
 
 /// Which code.

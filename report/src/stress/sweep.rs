@@ -8,9 +8,10 @@ use super::subject::{Code, Subject};
 use super::truth::Truth;
 use super::{robots, states};
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Request};
+use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
+use dalembert_codegen::workspace::task::Request;
 
 /// The quantity that is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,11 +13,12 @@ mod arguments;
 mod entries;
 
 use crate::clauses::invocation::Invocation;
-use crate::emit::{Interface, module};
+use crate::emit::module;
 use crate::function::{Argument, Function, Quantity};
 use crate::language::Entries;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
+use crate::task::Interface;
 
 /// The modules' text. Without a number of joints the functions take arrays
 /// of any length.
@@ -43,7 +44,7 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
             text,
             "#[allow(dead_code)]\npub mod {name} {{\npub const N: usize = {count};"
         );
-        if invocation.entries > Entries::Single {
+        if invocation.request.entries > Entries::Single {
             text += &entries::angles(joints, scalar);
         }
         let taken: Vec<RuntimeParameter> = invocation.parameters.iter().map(|(p, _)| *p).collect();
@@ -51,9 +52,9 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
         for &function in functions {
             let given = arguments::of(function, &taken);
             text += &self::function(function, &given, joints, scalar);
-            text += &entries::write(function, &given, joints, scalar, invocation.entries);
+            text += &entries::write(function, &given, joints, scalar, invocation.request.entries);
         }
-        if invocation.interface == Interface::Traits {
+        if invocation.request.interface == Interface::Traits {
             let given = functions.iter().map(|&f| (f, arguments::of(f, &taken)));
             let given: Vec<(Function, Vec<Argument>)> = given.collect();
             text += &entries::robot(&given, joints, scalar);
@@ -74,7 +75,7 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
 /// The arguments that `BOX` may bound: those of all functions in a scene, which
 /// may have a tolerance, and the positions of sines by polynomials alone.
 fn bounded(invocation: &Invocation, functions: &[Function]) -> Vec<Argument> {
-    let taken = |argument: &Argument| match (&invocation.scene, invocation.sincos) {
+    let taken = |argument: &Argument| match (&invocation.scene, invocation.request.sincos) {
         (Some(_), _) => functions.iter().any(|f| f.arguments().contains(argument)),
         (None, SinCos::Polynomial { .. }) => *argument == Argument::Position,
         (None, _) => false,

@@ -18,40 +18,23 @@ mod single;
 
 use crate::function::Function;
 use crate::language::Printed;
+use crate::words::words;
 use angles::Angles;
 
-/// How a function can be called; each has those before it, too.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Entries {
-    /// By its name: one state.
-    #[default]
-    Single,
-    /// `NAME_with_sincos`: one state, of which the caller has sines and cosines.
-    WithSincos,
-    /// `NAME_lanes`: so many states at once as the caller says.
-    Lanes,
-    /// `NAME_batch` and `NAME_columns`: slices of states, by the crate
-    /// `dalembert-batch`.
-    Batch,
-}
-
-impl Entries {
-    /// All of them, the default first.
-    pub const ALL: [Entries; 4] = [
-        Entries::Single,
-        Entries::WithSincos,
-        Entries::Lanes,
-        Entries::Batch,
-    ];
-
-    /// Its name on the command line and in the macro.
-    pub fn name(self) -> &'static str {
-        match self {
-            Entries::Single => "single",
-            Entries::WithSincos => "with_sincos",
-            Entries::Lanes => "lanes",
-            Entries::Batch => "batch",
-        }
+words! {
+    /// How a function can be called; each has those before it, too.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Entries: "kind of entries" {
+        /// By its name: one state.
+        #[default]
+        Single = "single",
+        /// `NAME_with_sincos`: one state, of which the caller has sines and cosines.
+        WithSincos = "with_sincos",
+        /// `NAME_lanes`: so many states at once as the caller says.
+        Lanes = "lanes",
+        /// `NAME_batch` and `NAME_columns`: slices of states, by the crate
+        /// `dalembert-batch`.
+        Batch = "batch",
     }
 }
 

@@ -21,6 +21,7 @@ use crate::graph::Graph;
 use crate::scene::SceneRobot;
 use crate::simplify::Effort;
 use crate::watch::FunctionWatch;
+use crate::words::Word;
 use only::Only;
 pub(super) use only::TEXTBOOK;
 
@@ -94,11 +95,6 @@ impl Start {
         self.beginning().name()
     }
 
-    /// The choice of a name.
-    pub fn from_name(name: &str) -> Option<Start> {
-        Start::all().find(|start| start.name() == name)
-    }
-
     /// Returns whether functions that it starts can take a load.
     pub fn has_chain(self) -> bool {
         self.beginning().has_chain()
@@ -118,6 +114,14 @@ impl Start {
     /// Returns what to search from, each by itself: the cheapest that is found is taken.
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
         self.beginning().approaches(problem)
+    }
+}
+
+impl Word for Start {
+    const WHAT: &'static str = "formulation";
+
+    fn all() -> Vec<(&'static str, Start)> {
+        Start::all().map(|start| (start.name(), start)).collect()
     }
 }
 

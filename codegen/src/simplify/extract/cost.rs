@@ -1,6 +1,6 @@
 //! What operations cost.
 
-use crate::program::AngleSum;
+use crate::program::{AngleSum, Counts};
 use crate::simplify::classes::ENode;
 
 /// What operations cost, in hundredths of an operation.
@@ -37,6 +37,15 @@ impl CostModel {
             0 => self.sincos,
             _ => self.sum_sincos,
         }
+    }
+
+    /// Returns the price of code with these operations and angles.
+    pub(crate) fn price(&self, counts: &Counts, angles: impl Iterator<Item = AngleSum>) -> u64 {
+        let angles: u64 = angles.map(|angle| self.angle(angle)).sum();
+        // A fused operation is the product and the sum that it stands for.
+        let [mul, add] = [counts.mul, counts.add].map(|n| (n + counts.fma) as u64);
+        let div = counts.div as u64;
+        mul * self.mul + add * self.add + div * self.div + angles
     }
 
     /// The cheapest operation.

@@ -5,8 +5,8 @@ use std::fmt;
 use dalembert_model::read::closest;
 use dalembert_model::scene::{Float, Scene};
 
+use super::request::Request;
 use crate::function::Function;
-use crate::generate::Request;
 use crate::program::ScalarType;
 
 /// There is no scene of this name.

@@ -1,0 +1,75 @@
+//! What is generated, for which robot in which scene: what macro, build script, command and
+//! library fill, and every stage of a generation reads.
+//!
+//! - this file: [`Task`]
+//! - [`request`]: what somebody wants of a robot; [`options`]: the table of its options
+//! - [`in_scene`]: a file's scenes by name, and what they ask for
+
+pub(crate) mod in_scene;
+pub(crate) mod options;
+pub(crate) mod request;
+
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::Tolerance;
+
+use crate::program::Program;
+use crate::program::shallow::Cycles;
+use crate::scene::SceneRobot;
+pub use options::{Fma, Interface, Layout, Prefer};
+pub use request::Request;
+
+/// A request for a robot in its scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The robot as its file has it.
+    pub robot: &'a Robot,
+    /// The robot in the request's scene, by [`Request::scene_robot`].
+    pub scene_robot: &'a SceneRobot,
+    /// What is wanted.
+    pub request: &'a Request,
+}
+
+impl<'a> Task<'a> {
+    /// Returns the task with another request for the same robot in the same scene.
+    #[must_use]
+    pub fn with<'b>(&self, request: &'b Request) -> Task<'b>
+    where
+        'a: 'b,
+    {
+        Task { request, ..*self }
+    }
+
+    /// Returns the tolerance of the scene, if it has one.
+    pub fn tolerance(&self) -> Option<&'a Tolerance> {
+        self.scene_robot.scene()?.tolerance.as_ref()
+    }
+
+    /// Returns what is emitted of a program that was found: in another order, or with its
+    /// products fused, where that was asked for.
+    pub(crate) fn finished(&self, program: &Program) -> Program {
+        let program = match self.request.prefer {
+            Prefer::Latency => program.shallow(Cycles::DESKTOP),
+            Prefer::Accuracy | Prefer::Operations => program.clone(),
+        };
+        match self.request.fma {
+            Fma::On => program.fused(),
+            Fma::Off => program,
+        }
+    }
+
+    /// Returns the length of a program's longest chain of operations, if a short one was
+    /// asked for.
+    pub(crate) fn depth(&self, program: &Program) -> Option<usize> {
+        (self.request.prefer == Prefer::Latency).then(|| program.depth())
+    }
+
+    /// Returns whether cheaper programs may round as they like.
+    pub(crate) fn is_lenient(&self) -> bool {
+        self.request.prefer == Prefer::Operations
+    }
+
+    /// Returns the module's name.
+    pub fn module_name(&self) -> String {
+        self.request.module_name(self.robot)
+    }
+}

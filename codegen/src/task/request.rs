@@ -1,0 +1,108 @@
+//! What somebody wants generated.
+
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scene;
+
+use crate::each_option;
+use crate::function::Function;
+use crate::language::MathPath;
+use crate::plan::Plan;
+use crate::portfolio::load;
+use crate::program::ScalarType;
+use crate::scene::{SceneError, SceneRobot};
+use crate::simplify::Effort;
+use crate::watch::Watch;
+
+/// Some minutes where nothing is optimised.
+const WORK_WHILE_COMPILING: u64 = 400_000_000;
+
+macro_rules! request {
+    ($($(#[doc = $doc:literal])* $word:ident($field:ident): $type:ty, $purpose:ident;)*) => {
+        /// What to generate.
+        #[derive(Clone, Debug)]
+        pub struct Request {
+            $($(#[doc = $doc])* pub $field: $type,)*
+            /// The functions, in any order; duplicates count once.
+            pub functions: Vec<Function>,
+            /// The scalars; one module each.
+            pub scalars: Vec<ScalarType>,
+            /// Programs to replay instead of searching.
+            pub plan: Option<Plan>,
+            /// Who waits, if anybody does.
+            pub watch: Watch,
+            /// Where emitted code finds sine and cosine, if it calls them.
+            pub math: MathPath,
+            /// Where emitted code finds `dalembert-batch`, if batches are asked for.
+            pub batch: String,
+            /// Where emitted code finds the traits, if they are asked for.
+            pub traits: String,
+            /// The module's name; the robot's and the scene's if `None`. The f32
+            /// module of a pair has `_f32` appended.
+            pub module: Option<String>,
+            /// What functions take as arguments that are the robot's parameters otherwise.
+            pub parameters: Vec<RuntimeParameter>,
+            /// What the robot is used for; everything if `None`. Its outputs and
+            /// scalar are defaults that the ways in apply ([`Request::choose`]).
+            pub scene: Option<Scene>,
+            /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
+            /// that it admits.
+            pub cheapest_scalar: bool,
+            /// Units of work that the search for what a tolerance allows may take; it
+            /// is refused where that is not enough. They are counted, never timed: the
+            /// same everywhere. No limit if `None`.
+            pub work: Option<u64>,
+        }
+
+        impl Default for Request {
+            fn default() -> Self {
+                Request {
+                    $($field: <$type>::default(),)*
+                    functions: Function::by_default(),
+                    scalars: ScalarType::ALL.to_vec(),
+                    plan: None,
+                    watch: Watch::default(),
+                    math: MathPath::default(),
+                    batch: "dalembert_batch".to_owned(),
+                    traits: "dalembert::interface".to_owned(),
+                    module: None,
+                    parameters: Vec::new(),
+                    scene: None,
+                    cheapest_scalar: false,
+                    work: None,
+                }
+            }
+        }
+    };
+}
+each_option!(request);
+
+impl Request {
+    /// The units of [`work`](Request::work) of the ways in that keep a compiler
+    /// waiting, `dynamics!` and build scripts; no limit for who asks for a
+    /// thorough search there.
+    pub fn work_while_compiling(effort: Effort) -> Option<u64> {
+        match effort {
+            Effort::Quick => Some(WORK_WHILE_COMPILING),
+            Effort::Thorough => None,
+        }
+    }
+
+    /// The robot in the scene, where functions take the parameters.
+    ///
+    /// # Errors
+    /// The scene is none of this robot.
+    pub fn scene_robot(&self, robot: &Robot) -> Result<SceneRobot, SceneError> {
+        let scene_robot = SceneRobot::of(robot, self.scene.as_ref())?;
+        Ok(load::chosen(scene_robot.taking(&self.parameters)))
+    }
+
+    /// The module's name.
+    pub fn module_name(&self, robot: &Robot) -> String {
+        match (&self.module, &self.scene) {
+            (Some(name), _) => name.clone(),
+            (None, Some(scene)) => format!("{}_{}", robot.name, scene.name),
+            (None, None) => robot.name.clone(),
+        }
+    }
+}
