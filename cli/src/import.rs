@@ -1,6 +1,8 @@
-//! `dalembert import`: a robot file of a chain of a URDF.
+//! `dalembert import`: a robot file of a chain of a URDF or an MJCF.
 
-use dalembert_import::{Change, Imported, MAX_BYTES, import};
+use std::slice;
+
+use dalembert_import::{Change, Imported, Text, import_text};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 
@@ -8,7 +10,7 @@ use crate::args::ImportArgs;
 use crate::files::target::Target;
 use crate::files::{distinct, write};
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::{model, output};
 
 /// Runs the subcommand.
 pub fn run(args: &ImportArgs) -> Outcome {
@@ -22,27 +24,25 @@ pub fn run(args: &ImportArgs) -> Outcome {
         target.ours()?;
     }
     let name = args.urdf.display().to_string();
-    let bytes = input::bytes(&args.urdf, MAX_BYTES as u64)?;
-    let source = String::from_utf8(bytes)
-        .map_err(|_| Failure::Input(format!("error: `{name}` is not UTF-8 text")))?;
-    let imported = import(&source, &args.chain.options(&args.urdf))
-        .map_err(|errors| Failure::Input(errors.render(&name, &source)))?;
+    let source = model::text(&args.urdf)?;
+    let imported = import_text(&source, &args.chain.options(&args.urdf))
+        .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
     write::write(&[(&target, &imported.text)])?;
     match args.json {
         true => output::print_json(&json(&imported, &name, &source)),
         false => {
-            report(&imported, &name, &source);
+            report(&imported, &source);
             Ok(())
         }
     }
 }
 
 /// Returns the same for programs.
-fn json(imported: &Imported, name: &str, source: &str) -> Value {
+fn json(imported: &Imported, name: &str, source: &Text) -> Value {
     let robot = &imported.robot;
     let snaps = imported.snaps.iter().map(|snap| {
         json!({
-            "line": snap.line(source),
+            "line": source.line(snap.span.start).1,
             "of": snap.of,
             "from": snap.from,
             "to": snap.to,
@@ -81,12 +81,13 @@ fn json(imported: &Imported, name: &str, source: &str) -> Value {
 
 /// Prints what a person wants to know: what was left out, which numbers were
 /// replaced by others, and what that changes.
-fn report(imported: &Imported, name: &str, source: &str) {
+fn report(imported: &Imported, source: &Text) {
     for note in &imported.notes {
-        output::note(&note.render(name, source));
+        output::note(&source.render(slice::from_ref(note)));
     }
     for snap in &imported.snaps {
-        output::note(&format!("{name}:{}: {snap}", snap.line(source)));
+        let (name, line) = source.line(snap.span.start);
+        output::note(&format!("{name}:{line}: {snap}"));
     }
     let Robot { name, joints, .. } = &imported.robot;
     output::note(&format!("{name}: {} joints", joints.len()));

@@ -50,13 +50,17 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
+mod beside;
 mod change;
+mod guard;
 mod lock;
 mod meant;
 mod merge;
+mod mjcf;
 mod names;
 mod problems;
 mod snap;
+mod text;
 mod tip;
 mod tree;
 mod urdf;
@@ -67,6 +71,7 @@ use dalembert_model::robot::Robot;
 
 pub use change::{Change, Displacement, Motion};
 pub use snap::Snap;
+pub use text::Text;
 
 /// The largest URDF that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
@@ -112,7 +117,22 @@ pub struct Imported {
 /// Everything that is wrong with the URDF or the options, at once, each at its
 /// place in the URDF.
 pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> {
-    let mut problems = problems::Problems::new(source);
+    finished(source, options, problems::Problems::new(source))
+}
+
+/// Makes a robot file of a chain of a model that may be in several files.
+///
+/// # Errors
+/// Those of [`import`]; [`Text::render`] says in which file they are.
+pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnostics> {
+    finished(text.as_str(), options, problems::Problems::of(text))
+}
+
+fn finished(
+    source: &str,
+    options: &Options,
+    mut problems: problems::Problems,
+) -> Result<Imported, Diagnostics> {
     let imported = imported(source, options, &mut problems);
     let notes = problems.finish()?;
     match imported {
@@ -127,7 +147,11 @@ fn imported(
     options: &Options,
     problems: &mut problems::Problems,
 ) -> Option<Imported> {
-    let urdf = urdf::read(source, problems)?;
+    let document = guard::parse(source, problems)?;
+    let urdf = match mjcf::is_mjcf(&document) {
+        true => mjcf::read(&document, problems)?,
+        false => urdf::read(&document, problems)?,
+    };
     names::check(&urdf, options, problems);
     // What the rest lacks would be what could not be read.
     if problems.has_errors() {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::problems::MAX_NAMES;
 use crate::tree::Tree;
+use crate::urdf::Role;
 
 /// Arms have more joints that move than this before their hand.
 const ARM: usize = 3;
@@ -162,9 +163,10 @@ impl Tree<'_, '_, '_> {
     /// Returns the joints that hang on a link, without those of links that are left away.
     fn hanging(&self, link: usize) -> Vec<usize> {
         let joints = self.below.get(&link).into_iter().flatten().copied();
-        joints
-            .filter(|joint| !self.without.contains(&self.ends[*joint][1]))
-            .collect()
+        let stays = |child: usize| {
+            !self.without.contains(&child) && self.urdf.links[child].role != Role::Mark
+        };
+        joints.filter(|joint| stays(self.ends[*joint][1])).collect()
     }
 
     /// Returns the link that a link hangs on.

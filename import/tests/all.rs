@@ -2,5 +2,6 @@
 
 mod fuzz;
 mod golden;
+mod mjcf;
 mod refusals;
 mod support;
