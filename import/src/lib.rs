@@ -1,12 +1,17 @@
-//! Robot files from URDF.
+//! Robot files from URDF and MJCF.
 //!
 //! [`import`] takes one chain of a URDF, from a base to a tip, and writes the robot
-//! file that says the same: every joint by its placement, as the URDF has it.
+//! file that says the same: every joint by its placement, as the URDF has it. An MJCF,
+//! MuJoCo's format, is read as the URDF that says the same; both are called URDF here.
 //!
+//! - `text`: a model's text, with what it includes
+//! - `guard`: XML within limits
 //! - `urdf`: what a URDF says, each number with its digits and its place
+//! - `mjcf`: what an MJCF says, in the terms of a URDF
 //! - `problems`: what is wrong or odd, at its place in the file
 //! - `names`: names that the file does not have
 //! - `tree`: the chain, and what hangs on its links
+//! - `beside`: what hangs beside the chain, or is tied to it
 //! - `tip`: where an arm ends, when nobody says
 //! - `meant`: the angle that digits were meant to be
 //! - `lock`: joints that stay where they are
@@ -29,6 +34,13 @@
 //!
 //! Gravity is 9.81 m/s² against the z axis of the base's link: a URDF does not say.
 //!
+//! Of an MJCF: bodies with their joints, hinges and slides, several to a body, frames and
+//! sites, defaults and their classes, every way to write an orientation, units and orders
+//! of angles, inertials, and the mass of simple geoms where MuJoCo takes that; gravity;
+//! armature and damping; forces of actuators as limits of torque. Springs, friction and
+//! gravity compensation are said and left out. Equalities, tendons and loops are refused
+//! where they would move, and so is a mass that only a mesh knows.
+//!
 //! # Digits
 //!
 //! A URDF has 1.57079632679 for π/2 and 7.7e-34 for 0; taken at their word every
@@ -41,7 +53,9 @@
 //!   of at least five digits;
 //! - a length, or a coordinate of a centre of mass, below 1e-9 m: 0;
 //! - a component of an axis within 1e-9 of 0, 1 or −1;
-//! - a product of inertia below 1e-9 of the largest moment: 0.
+//! - a product of inertia below 1e-9 of the largest moment: 0;
+//! - an orientation by a quaternion of five digits, or by axes: each of its angles within
+//!   1e-5 rad of a multiple of π/2, π/4 or π/6, as many quaternions come from 1.5708.
 //!
 //! What all of them together change in the torques and in where the hand is, is
 //! bounded ([`Change`]).
@@ -111,7 +125,7 @@ pub struct Imported {
     pub change: Option<Change>,
 }
 
-/// Makes a robot file of a chain of a URDF.
+/// Makes a robot file of a chain of a URDF, or of an MJCF that is one text.
 ///
 /// # Errors
 /// Everything that is wrong with the URDF or the options, at once, each at its

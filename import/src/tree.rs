@@ -245,11 +245,11 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
     /// Returns the link behind the joints that let the whole robot float or drive.
     fn standing(&mut self, root: usize) -> usize {
         let (mut base, mut link) = (root, root);
-        while let Some([joint]) = self.below.get(&link).map(Vec::as_slice) {
+        while let [joint] = self.arms_on(link)[..] {
             let Joint {
                 name, span, kind, ..
-            } = &self.urdf.joints[*joint];
-            link = self.ends[*joint][1];
+            } = &self.urdf.joints[joint];
+            link = self.ends[joint][1];
             match kind {
                 Kind::Fixed if link != root => {}
                 kind if !kind.has_one_axis() && link != root => {
@@ -264,6 +264,30 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             }
         }
         base
+    }
+
+    /// Returns the joints on a link behind which something moves: a table is no robot.
+    fn arms_on(&self, link: usize) -> Vec<usize> {
+        let joints = self.below.get(&link).into_iter().flatten().copied();
+        joints.filter(|joint| self.moves_below(*joint)).collect()
+    }
+
+    /// Returns whether a joint, or one behind it, moves about or along one axis.
+    fn moves_below(&self, joint: usize) -> bool {
+        let mut open = vec![joint];
+        // In a circle there is no end.
+        for _ in 0..self.ends.len() {
+            let Some(joint) = open.pop() else {
+                return false;
+            };
+            let kind = self.urdf.joints[joint].kind;
+            if kind.has_one_axis() && kind != Kind::Fixed {
+                return true;
+            }
+            let below = self.below.get(&self.ends[joint][1]);
+            open.extend(below.into_iter().flatten());
+        }
+        false
     }
 
     /// The joint as a step that stays, or none if it moves.

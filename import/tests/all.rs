@@ -3,5 +3,6 @@
 mod fuzz;
 mod golden;
 mod mjcf;
+mod mjcf_refusals;
 mod refusals;
 mod support;

@@ -11,8 +11,8 @@ use num_traits::ToPrimitive;
 use serde_json::Value;
 
 /// With every way to write a model, and real arms as MuJoCo saves them.
-const NAMES: [&str; 7] = [
-    "features", "degrees", "panda", "so101", "xarm7", "ur5", "z1",
+const NAMES: [&str; 8] = [
+    "features", "degrees", "geoms", "panda", "so101", "xarm7", "ur5", "z1",
 ];
 
 fn folder() -> PathBuf {

@@ -11,7 +11,7 @@ use super::values::lock_parser;
 pub struct NewArgs {
     /// The folder of the crate, which is called after it
     pub folder: PathBuf,
-    /// A robot file, or a URDF with what `import` takes for it [default: two links in a plane]
+    /// A robot file, or a URDF or MJCF with what `import` takes for it [default: two links in a plane]
     #[arg(long, value_name = "FILE")]
     pub from: Option<PathBuf>,
     #[command(flatten)]
@@ -83,7 +83,7 @@ impl ChainArgs {
 /// with its line, and the change of the torques is bounded. --exact keeps them.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
-    /// The URDF; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
+    /// The URDF, or the MJCF of MuJoCo; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
     pub urdf: PathBuf,
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]

@@ -8,7 +8,7 @@ use super::{Mjcf, Text};
 use crate::problems::instead;
 
 /// No model has more.
-const MAX_CLASSES: usize = 4096;
+const MAX_CLASSES: usize = 512;
 /// What is read of defaults; every actuator has the same ones.
 const READ: [(&str, &[&str]); 4] = [
     (
@@ -28,7 +28,24 @@ const READ: [(&str, &[&str]); 4] = [
             "actuatorfrclimited",
         ],
     ),
-    ("geom", &["type", "mass", "density", "group"]),
+    (
+        "geom",
+        &[
+            "type",
+            "size",
+            "fromto",
+            "mass",
+            "density",
+            "group",
+            "shellinertia",
+            "pos",
+            "quat",
+            "axisangle",
+            "xyaxes",
+            "zaxis",
+            "euler",
+        ],
+    ),
     (
         "site",
         &["pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"],

@@ -3,9 +3,9 @@
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Inertia;
 use num_traits::{Signed, Zero};
-use roxmltree::Node;
 
 use super::Mjcf;
+use super::geom::Weight;
 use super::settings::FromGeoms;
 use super::world::Item;
 use crate::urdf::{Inertial, Link, Number, Unread, start_tag};
@@ -14,28 +14,34 @@ const WRITE_IT: &str = "give the body an <inertial>; MuJoCo writes them all: \
     load the model with <compiler saveinertial=\"true\"/> and save it by mj_saveLastXML";
 
 impl<'a> Mjcf<'a, '_, '_, '_> {
-    /// Reads the mass of a body.
-    pub(super) fn mass(&mut self, items: &[Item<'a, '_>], link: &mut Link) {
+    /// Reads the mass of a body, and returns that of its geoms, where they have it.
+    pub(super) fn mass(&mut self, items: &[Item<'a, '_>], link: &mut Link) -> Vec<Inertial> {
         let own = items.iter().find(|item| item.node.has_tag_name("inertial"));
         link.inertial = own.and_then(|item| self.inertial(item, &link.name));
-        let takes_geoms = match self.settings.from_geoms {
-            FromGeoms::None => false,
-            FromGeoms::Some => own.is_none(),
-            FromGeoms::All => true,
-        };
-        let geoms = items.iter().filter(|item| item.node.has_tag_name("geom"));
-        let heavy: Vec<Node> = geoms
-            .filter(|item| takes_geoms && self.has_mass(item))
-            .map(|item| item.node)
-            .collect();
-        if let Some(first) = heavy.first() {
-            link.unread.push(Unread {
-                span: start_tag(self.reader.source, *first),
-                message: format!("the mass of body `{}` is that of its geoms", link.name),
-                help: WRITE_IT,
-            });
-        }
         self.bounds(link);
+        let geoms = items.iter().filter(|item| item.node.has_tag_name("geom"));
+        let geoms: Vec<&Item> = match self.settings.from_geoms {
+            FromGeoms::None => Vec::new(),
+            FromGeoms::Some if own.is_some() => Vec::new(),
+            _ => geoms.collect(),
+        };
+        let mut solids = Vec::new();
+        for geom in &geoms {
+            match self.weight(geom) {
+                Weight::Nothing => {}
+                Weight::Something(solid) => solids.push(*solid),
+                Weight::Unknown => link.unread.push(Unread {
+                    span: start_tag(self.reader.source, geom.node),
+                    message: format!("the mass of body `{}` is that of its geoms", link.name),
+                    help: WRITE_IT,
+                }),
+            }
+        }
+        if !geoms.is_empty() {
+            // They have it, and not what is written beside them.
+            link.inertial = None;
+        }
+        solids
     }
 
     /// Says where `compiler` makes a body heavier than it is written.
@@ -60,20 +66,6 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 help: "write the number that shall count, and leave the bound out",
             }));
         }
-    }
-
-    /// Returns whether a geom weighs anything.
-    fn has_mass(&mut self, item: &Item<'a, '_>) -> bool {
-        let class = self.class_of(item.node, "class", item.class);
-        let group = self.number(item.node, class, "group");
-        let group = group.map_or(0, |group| {
-            i64::try_from(group.value.to_integer()).unwrap_or(0)
-        });
-        let [low, high] = self.settings.groups;
-        let of_mass = self.text(item.node, class, "mass").is_some();
-        let key = if of_mass { "mass" } else { "density" };
-        let weight = self.number(item.node, class, key);
-        (low..=high).contains(&group) && weight.is_none_or(|weight| !weight.value.is_zero())
     }
 
     fn inertial(&mut self, item: &Item<'a, '_>, body: &str) -> Option<Inertial> {

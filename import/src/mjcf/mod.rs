@@ -7,13 +7,15 @@
 //! - `world`: the tree of bodies
 //! - `joint`: a joint and its limits
 //! - `mass`: a body's mass, and what of it cannot be read
+//! - `geom`: the mass of simple shapes
 //! - `force`: actuators, as limits of torque
 //! - `tie`: equalities and tendons
 //!
-//! Shapes, materials, sensors and contacts are not looked at.
+//! Meshes, materials, sensors and contacts are not looked at.
 
 mod classes;
 mod force;
+mod geom;
 mod joint;
 mod mass;
 mod pose;
@@ -21,7 +23,7 @@ mod settings;
 mod tie;
 mod world;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use roxmltree::{Document, Node};
@@ -30,6 +32,16 @@ use crate::problems::Problems;
 use crate::urdf::{Number, Reader, Urdf, start_tag};
 use classes::Classes;
 use settings::Settings;
+
+/// The elements that take time, and the most that a robot has of them.
+const MANY: &[(&[&str], usize)] = &[
+    (&["body", "site", "frame", "weld", "connect"], 1024),
+    (
+        &["joint", "fixed", "spatial", "general", "motor", "position"],
+        4096,
+    ),
+    (&["geom"], 8192),
+];
 
 /// Returns whether a text is read as MJCF.
 pub(crate) fn is_mjcf(document: &Document) -> bool {
@@ -47,6 +59,9 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
         settings: Settings::new(),
         classes: Classes::new(),
     };
+    if !mjcf.is_small(root) {
+        return None;
+    }
     mjcf.settings(root);
     mjcf.classes(root);
     let mut urdf = Urdf {
@@ -115,6 +130,28 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             }
             _ => self.settings.auto_limits && self.text(node, class, range).is_some(),
         }
+    }
+
+    /// Returns whether there are no more elements than a robot has, after saying of which
+    /// there are more.
+    fn is_small(&mut self, root: Node) -> bool {
+        let span = start_tag(self.reader.source, root);
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        for node in root.descendants() {
+            *counts.entry(node.tag_name().name()).or_default() += 1;
+        }
+        for (tags, few) in MANY {
+            for tag in *tags {
+                let count = counts.get(tag).copied().unwrap_or(0);
+                if count > *few {
+                    let message = format!("there are {count} <{tag}>, more than {few}");
+                    let help = "is this a robot? cut out the arm";
+                    self.reader.problems.error(&span, message, help);
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     fn error(&mut self, node: Node, message: String, help: &str) {

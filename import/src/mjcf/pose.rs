@@ -245,6 +245,28 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         Some((rotation?, Some(place)))
     }
 
+    /// Returns the pose at a point whose z lies along a direction.
+    pub(super) fn along(
+        &self,
+        node: Node,
+        direction: &[Rational; 3],
+        at: &[Rational; 3],
+    ) -> Option<Pose> {
+        let span = start_tag(self.reader.source, node);
+        let number = |value: &Rational| Number {
+            value: value.clone(),
+            text: String::new(),
+            span: span.clone(),
+        };
+        let [exact, meant] = of_third_axis(&direction.each_ref().map(number))?;
+        let turned = Pose {
+            exact,
+            meant,
+            ..Pose::identity(span.clone())
+        };
+        Some(Pose::identity(span).shift(at).then(&turned))
+    }
+
     /// Returns an angle in the units of the file.
     pub(super) fn angle(&self, number: &Number) -> Angle {
         let value = number.value.clone();

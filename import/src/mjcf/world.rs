@@ -74,14 +74,12 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let bodies: Vec<String> = given("body").collect();
         let mut links = Names(bodies.iter().cloned().chain(["world".to_owned()]).collect());
         let mut joints = Names(given("joint").chain(given("freejoint")).collect());
-        let mut bodies_left = bodies.len();
         while let Some(next) = open.pop() {
-            bodies_left = bodies_left.saturating_sub(1);
             let own = self.body(next, urdf, &mut links, &mut joints);
             open.extend(own.into_iter().rev());
             if !self
                 .reader
-                .are_few(&urdf.span, "bodies and sites", urdf.links.len())
+                .are_few(&urdf.span, "bodies, sites and weights", urdf.links.len())
             {
                 return None;
             }
@@ -168,7 +166,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let own = self.pose(node, class).unwrap_or(identity.clone());
         let items = self.items(node, class, &identity);
         let mut link = link(name.clone(), span.clone());
-        self.mass(&items, &mut link);
+        let solids = self.mass(&items, &mut link);
         for part in &items {
             let word = part.node.tag_name().name();
             if MADE_ELSEWHERE.contains(&word) {
@@ -181,6 +179,17 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         }
         urdf.links.push(link);
         self.joints_of(&name, on, &frame.then(&own), &items, urdf, [links, joints]);
+        for (index, solid) in solids.into_iter().enumerate() {
+            let part = links.fresh(format!("{name}, geom {}", index + 1));
+            let ends = [&name, &part].map(|name| (name.clone(), span.clone()));
+            let [on, child] = ends;
+            urdf.joints.push(self.fixed(on, child, &identity));
+            urdf.links.push(Link {
+                inertial: Some(solid),
+                role: Role::Mark,
+                ..self::link(part, span.clone())
+            });
+        }
         for site in items.iter().filter(|item| item.node.has_tag_name("site")) {
             self.site(site, &name, urdf, links);
         }

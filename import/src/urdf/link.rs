@@ -26,7 +26,7 @@ pub(crate) enum Role {
     Body,
     /// Nothing: it lies between two joints of one body.
     Between,
-    /// A frame on a body, at which no chain ends unless that is asked for.
+    /// A frame or a weight on a body, at which no chain ends unless that is asked for.
     Mark,
 }
 
