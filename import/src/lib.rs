@@ -13,6 +13,7 @@
 //! - `tree`: the chain, and what hangs on its links
 //! - `beside`: what hangs beside the chain, or is tied to it
 //! - `tip`: where an arm ends, when nobody says
+//! - `arms`: every arm of a robot
 //! - `meant`: the angle that digits were meant to be
 //! - `lock`: joints that stay where they are
 //! - `snap`: numbers that were meant to be others: 1.57079632679 is π/2
@@ -64,6 +65,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
+mod arms;
 mod beside;
 mod change;
 mod guard;
@@ -83,6 +85,7 @@ mod write;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
+pub use arms::{Arms, Shared, arms};
 pub use change::{Change, Displacement, Motion};
 pub use snap::Snap;
 pub use text::Text;
@@ -108,6 +111,8 @@ pub struct Options {
     pub exact: bool,
     /// The name of the file, for the robot file's first line.
     pub file: String,
+    /// The name of the arm; without one, the model's.
+    pub name: Option<String>,
 }
 
 /// A chain of a URDF.
@@ -156,11 +161,8 @@ fn finished(
     }
 }
 
-fn imported(
-    source: &str,
-    options: &Options,
-    problems: &mut problems::Problems,
-) -> Option<Imported> {
+/// Returns what a model says, if all of it can be read.
+fn model(source: &str, options: &Options, problems: &mut problems::Problems) -> Option<urdf::Urdf> {
     let document = guard::parse(source, problems)?;
     let urdf = match mjcf::is_mjcf(&document) {
         true => mjcf::read(&document, problems)?,
@@ -168,9 +170,15 @@ fn imported(
     };
     names::check(&urdf, options, problems);
     // What the rest lacks would be what could not be read.
-    if problems.has_errors() {
-        return None;
-    }
+    (!problems.has_errors()).then_some(urdf)
+}
+
+fn imported(
+    source: &str,
+    options: &Options,
+    problems: &mut problems::Problems,
+) -> Option<Imported> {
+    let urdf = model(source, options, problems)?;
     let chain = tree::chain(&urdf, options, problems)?;
     let as_written = merge::arm(&urdf, &chain, problems)?;
     let (snapped, snaps) = match options.exact {

@@ -81,6 +81,18 @@ pub(crate) struct Tree<'u, 'p, 's> {
     pub(crate) without: BTreeSet<usize>,
 }
 
+/// Returns the names of the links that arms end at; `None` after saying why there are none.
+pub(crate) fn tips(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Vec<String>> {
+    let mut tree = Tree::new(urdf, problems)?;
+    tree.options(options)?;
+    let base = match &options.base {
+        Some(name) => tree.link(name)?,
+        None => tree.root().map(|root| tree.standing(root))?,
+    };
+    let tips = tree.tips(base)?.into_iter();
+    Some(tips.map(|tip| urdf.links[tip].name.clone()).collect())
+}
+
 /// Finds the chain; `None` after saying why there is none.
 pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Chain> {
     let mut tree = Tree::new(urdf, problems)?;

@@ -69,7 +69,8 @@ pub(crate) fn file(
         }
     }
     text.push('\n');
-    let name = suggested_name(&urdf.name).unwrap_or_else(|| "arm".to_owned());
+    let name = options.name.as_ref().unwrap_or(&urdf.name);
+    let name = suggested_name(name).unwrap_or_else(|| "arm".to_owned());
     line(&mut text, "name", &quoted(&name));
     match &urdf.gravity {
         None => line(&mut text, "gravity", "[0, 0, -9.81]"),

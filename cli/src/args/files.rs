@@ -72,6 +72,7 @@ impl ChainArgs {
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into_owned(),
+            name: None,
         }
     }
 }
@@ -88,6 +89,10 @@ pub struct ImportArgs {
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write a robot file of every arm into the folder that -o names, with all other joints
+    /// held, and say which arms move each other
+    #[arg(long, requires = "output", conflicts_with = "tip")]
+    pub all: bool,
     /// Write over a file that this command did not write
     #[arg(long, requires = "output")]
     pub force: bool,

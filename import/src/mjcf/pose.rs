@@ -349,9 +349,9 @@ fn of_axes(numbers: &[Number; 6]) -> Option<Rotation> {
 fn of_third_axis(axis: &[Number; 3]) -> Option<Rotation> {
     let z = direction(&axis.each_ref().map(|x| x.value.clone()))?;
     let [x, y] = [&z[0], &z[1]];
-    let level = length(&[x.clone(), y.clone(), Wide::zero()]);
+    let level = length(&[*x, *y, Wide::zero()]);
     let angle = Angle::recovered(&level, &z[2]);
-    let about = unit(&[y.neg(), x.clone(), Wide::zero()]);
+    let about = unit(&[y.neg(), *x, Wide::zero()]);
     // Upside down there are many shortest ones: about x.
     let about = about.unwrap_or([Wide::one(), Wide::zero(), Wide::zero()]);
     Some(by_digits(turned(&about, &angle).axes, axis))
@@ -372,7 +372,7 @@ fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Rotation {
     };
     let one = Rational::one();
     let [x, y, _] = &exact.axes;
-    let level = length(&[x[0].clone(), x[1].clone(), Wide::zero()]);
+    let level = length(&[x[0], x[1], Wide::zero()]);
     let is_upright = level.to_rational() <= unit;
     let angles = match is_upright {
         // Roll and yaw are about one axis.
