@@ -30,7 +30,7 @@ pub fn run(args: &ImportArgs) -> Outcome {
         target.ours()?;
     }
     let name = args.urdf.display().to_string();
-    let source = model::text(&args.urdf)?;
+    let source = model::text(&args.urdf, &args.xacro)?;
     let imported = import_text(&source, &args.chain.options(&args.urdf))
         .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
     write::write(&[(&target, &imported.text)])?;
@@ -46,7 +46,7 @@ pub fn run(args: &ImportArgs) -> Outcome {
 /// Writes a robot file of every arm into a folder, all or none.
 fn all(args: &ImportArgs, folder: &Path) -> Outcome {
     let name = args.urdf.display().to_string();
-    let source = model::text(&args.urdf)?;
+    let source = model::text(&args.urdf, &args.xacro)?;
     let Arms { arms, shared } = arms(&source, &args.chain.options(&args.urdf))
         .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
     let named = arms

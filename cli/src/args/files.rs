@@ -84,7 +84,7 @@ impl ChainArgs {
 /// with its line, and the change of the torques is bounded. --exact keeps them.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
-    /// The URDF, or the MJCF of MuJoCo; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
+    /// The URDF, the MJCF of MuJoCo, or a xacro, for which the program `xacro` is run
     pub urdf: PathBuf,
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
@@ -101,6 +101,9 @@ pub struct ImportArgs {
     /// Print what there is to say of the URDF as JSON; the robot file goes to -o
     #[arg(long, requires = "output")]
     pub json: bool,
+    /// Arguments of a xacro, after `--`
+    #[arg(last = true, value_name = "NAME:=VALUE")]
+    pub xacro: Vec<String>,
 }
 
 /// Arguments of `show`.

@@ -112,7 +112,7 @@ fn robot_file(from: &Path, chain: &ChainArgs) -> Result<String, Failure> {
             Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
         };
     }
-    let text = model::text(from)?;
+    let text = model::text(from, &[])?;
     match import_text(&text, &chain.options(from)) {
         Ok(imported) => {
             output::note(&text.render(&imported.notes));
