@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use dalembert_model::read::{Diagnostic, Diagnostics};
 
@@ -60,7 +60,7 @@ impl Text {
             parts: Vec::new(),
         };
         let folder = path.parent().unwrap_or(Path::new(""));
-        let mut seen: BTreeSet<PathBuf> = path.file_name().map(PathBuf::from).into_iter().collect();
+        let mut seen = BTreeSet::from([path.to_owned()]);
         let mut open = vec![made.open(0)?];
         while let Some(file) = open.last_mut() {
             let (index, at) = (file.file, file.rest.start);
@@ -72,28 +72,36 @@ impl Text {
             };
             file.rest.start = span.end;
             made.take(index, at..span.start);
-            if made.text.len() > MAX_BYTES {
-                let message = format!(
-                    "with this, the model is longer than {} MiB",
-                    MAX_BYTES >> 20
-                );
-                return Err(made.error(index, span, message, "is this a model of a robot?"));
-            }
-            if !seen.insert(PathBuf::from(&name)) || made.files.len() == MAX_FILES {
-                let message = format!(
-                    "`{name}` is included a second time, or among more than {MAX_FILES} files"
-                );
-                return Err(made.error(index, span, message, "each file is included once"));
-            }
-            let whole = folder.join(&name);
-            let text = match read(&whole) {
-                Ok(text) => text,
+            // As MuJoCo looks for it: beside the first file, then beside this one.
+            let own = Path::new(&made.files[index].0).parent();
+            let beside = [folder, own.unwrap_or(folder)].map(|folder| folder.join(&name));
+            let found = read(&beside[0]).map(|text| (&beside[0], text));
+            let found = found.or_else(|why| {
+                let own = read(&beside[1]).map(|text| (&beside[1], text));
+                own.map_err(|_| why)
+            });
+            let (whole, text) = match found {
+                Ok(found) => found,
                 Err(why) => {
                     let message = format!("`{name}` cannot be read: {why}");
                     let help = "a name is relative to the folder of the file that is imported";
                     return Err(made.error(index, span, message, help));
                 }
             };
+            if !seen.insert(whole.clone()) || made.files.len() == MAX_FILES {
+                let message = format!(
+                    "`{name}` is included a second time, or among more than {MAX_FILES} files"
+                );
+                return Err(made.error(index, span, message, "each file is included once"));
+            }
+            let others: usize = made.files.iter().map(|(_, text)| text.len()).sum();
+            if others + text.len() > MAX_BYTES {
+                let message = format!(
+                    "with this, the model is longer than {} MiB",
+                    MAX_BYTES >> 20
+                );
+                return Err(made.error(index, span, message, "is this a model of a robot?"));
+            }
             made.files.push((whole.display().to_string(), text));
             open.push(made.open(made.files.len() - 1)?);
         }
