@@ -8,8 +8,10 @@ pub const PERIOD: f32 = 1e-3;
 const RAMP: f32 = 2.0;
 /// Speeds are means over this time, s: one tick in a millisecond is 1.5 rad/s.
 const MEAN: f32 = 0.02;
-/// Nobody moves an arm by hand as fast as this, rad/s; one that falls soon is.
-const FASTEST: f32 = 4.0;
+/// A hand that leads an arm is slower than this, rad/s; an arm that falls soon is not.
+const FASTEST: f32 = 2.0;
+/// What stops an arm that was pushed, N·m s/rad: without it only friction would.
+const DAMPING: f32 = 0.15;
 /// The share of friction that is given back: with all of it the arm would creep.
 const HELP: f32 = 0.5;
 /// The speed over which the sign of friction is smoothed, rad/s.
@@ -77,11 +79,9 @@ impl<const N: usize> Cycle<N> {
         let load = (self.gravity)(&q);
         core::array::from_fn(|i| {
             let servo = &self.servos[i];
-            let friction = HELP * servo.friction * smooth_sign(self.qd[i]);
-            servo.command(
-                self.support * (load[i] + friction),
-                self.support * self.qd[i],
-            )
+            let qd = self.qd[i];
+            let friction = HELP * servo.friction * smooth_sign(qd) - DAMPING * qd;
+            servo.command(self.support * (load[i] + friction), self.support * qd)
         })
     }
 }
