@@ -1,17 +1,25 @@
-//! `dalembert import`: a robot file of a chain of a URDF.
+//! `dalembert import`: a robot file of a chain of a URDF or an MJCF.
 
-use dalembert_import::{Change, Imported, MAX_BYTES, import};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::slice;
+
+use dalembert_import::{Arms, Change, Imported, Shared, Text, arms, import_text};
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 
 use crate::args::ImportArgs;
+use crate::files::folder::Folder;
 use crate::files::target::Target;
 use crate::files::{distinct, write};
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::{model, output};
 
 /// Runs the subcommand.
 pub fn run(args: &ImportArgs) -> Outcome {
+    if let Some(folder) = args.output.as_deref().filter(|_| args.all) {
+        return all(args, folder);
+    }
     let target = match &args.output {
         None => Target::standard(),
         Some(path) => Target::at(path)?,
@@ -22,27 +30,86 @@ pub fn run(args: &ImportArgs) -> Outcome {
         target.ours()?;
     }
     let name = args.urdf.display().to_string();
-    let bytes = input::bytes(&args.urdf, MAX_BYTES as u64)?;
-    let source = String::from_utf8(bytes)
-        .map_err(|_| Failure::Input(format!("error: `{name}` is not UTF-8 text")))?;
-    let imported = import(&source, &args.chain.options(&args.urdf))
-        .map_err(|errors| Failure::Input(errors.render(&name, &source)))?;
+    let source = model::text(&args.urdf, &args.xacro)?;
+    let imported = import_text(&source, &args.chain.options(&args.urdf))
+        .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
     write::write(&[(&target, &imported.text)])?;
     match args.json {
         true => output::print_json(&json(&imported, &name, &source)),
         false => {
-            report(&imported, &name, &source);
+            report(&imported, &source);
             Ok(())
         }
     }
 }
 
+/// Writes a robot file of every arm into a folder, all or none.
+fn all(args: &ImportArgs, folder: &Path) -> Outcome {
+    let name = args.urdf.display().to_string();
+    let source = model::text(&args.urdf, &args.xacro)?;
+    let Arms { arms, shared } = arms(&source, &args.chain.options(&args.urdf))
+        .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
+    let named = arms
+        .iter()
+        .map(|(arm, made)| (format!("{arm}.toml"), made.text.clone()));
+    let files: Vec<(String, String)> = named.collect();
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let into = Folder::at(folder, &names, Some(&args.urdf))?;
+    for name in names.iter().filter(|_| !args.force && folder.is_dir()) {
+        Target::at(&folder.join(name))?.ours()?;
+    }
+    into.write(&files)?;
+    if args.json {
+        let arms = arms.iter().map(|(_, made)| json(made, &name, &source));
+        let shared = shared
+            .iter()
+            .map(|pair| json!({ "arms": pair.arms, "joints": pair.joints }));
+        return output::print_json(&json!({
+            "arms": arms.collect::<Vec<_>>(),
+            "shared": shared.collect::<Vec<_>>(),
+        }));
+    }
+    let mut said = BTreeSet::new();
+    for (arm, made) in &arms {
+        for note in made
+            .notes
+            .iter()
+            .map(|note| source.render(slice::from_ref(note)))
+        {
+            if said.insert(note.clone()) {
+                output::note(&note);
+            }
+        }
+        let joints = made.robot.joints.len();
+        let snaps = made.snaps.len();
+        let change = made.change.as_ref().map(|change| {
+            format!(
+                ", {snaps} rounded numbers replaced by exact ones: the torques change by {change}"
+            )
+        });
+        let change = change.unwrap_or_default();
+        output::note(&format!("{arm}.toml: {joints} joints{change}"));
+    }
+    for Shared {
+        arms: [one, other],
+        joints,
+    } in &shared
+    {
+        output::note(&format!(
+            "{one} and {other} move each other through {}: each file holds the other arm, \
+             so its torques are right where that stands still",
+            joints.join(", ")
+        ));
+    }
+    Ok(())
+}
+
 /// Returns the same for programs.
-fn json(imported: &Imported, name: &str, source: &str) -> Value {
+fn json(imported: &Imported, name: &str, source: &Text) -> Value {
     let robot = &imported.robot;
     let snaps = imported.snaps.iter().map(|snap| {
         json!({
-            "line": snap.line(source),
+            "line": source.line(snap.span.start).1,
             "of": snap.of,
             "from": snap.from,
             "to": snap.to,
@@ -81,12 +148,13 @@ fn json(imported: &Imported, name: &str, source: &str) -> Value {
 
 /// Prints what a person wants to know: what was left out, which numbers were
 /// replaced by others, and what that changes.
-fn report(imported: &Imported, name: &str, source: &str) {
+fn report(imported: &Imported, source: &Text) {
     for note in &imported.notes {
-        output::note(&note.render(name, source));
+        output::note(&source.render(slice::from_ref(note)));
     }
     for snap in &imported.snaps {
-        output::note(&format!("{name}:{}: {snap}", snap.line(source)));
+        let (name, line) = source.line(snap.span.start);
+        output::note(&format!("{name}:{line}: {snap}"));
     }
     let Robot { name, joints, .. } = &imported.robot;
     output::note(&format!("{name}: {} joints", joints.len()));

@@ -13,6 +13,7 @@
 //! - `tradeoff`: certified error against operations
 //! - `plot`: charts as SVG
 //! - `input`: robot and state files
+//! - `model`: a URDF or an MJCF
 //! - `progress`: a long search watched, and ended early
 //! - `files`: files that are written: checked first, all or none
 //! - `output`: standard output, tables
@@ -27,6 +28,7 @@ mod files;
 mod generate;
 mod import;
 mod input;
+mod model;
 mod new;
 mod outcome;
 mod output;

@@ -108,6 +108,8 @@ fn commands_print_what_the_guide_shows() {
         ("import/tests/data/ur5.urdf", "ur5.urdf"),
         ("generated/robots/puma560.toml", "puma560.toml"),
         ("generated/robots/puma560.plan", "puma560.plan"),
+        ("import/tests/data/mjcf/xarm7.xml", "xarm7.xml"),
+        ("import/tests/data/so101.urdf", "so101.urdf"),
     ] {
         fs::copy(root.join(from), inside.join(to)).unwrap();
     }

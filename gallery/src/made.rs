@@ -99,6 +99,7 @@ fn options(arm: &Arm) -> Options {
         without: chain.without.iter().map(|link| (*link).into()).collect(),
         exact: false,
         file: file.to_owned(),
+        name: None,
     }
 }
 

@@ -1,13 +1,19 @@
-//! Robot files from URDF.
+//! Robot files from URDF and MJCF.
 //!
 //! [`import`] takes one chain of a URDF, from a base to a tip, and writes the robot
-//! file that says the same: every joint by its placement, as the URDF has it.
+//! file that says the same: every joint by its placement, as the URDF has it. An MJCF,
+//! MuJoCo's format, is read as the URDF that says the same; both are called URDF here.
 //!
+//! - `text`: a model's text, with what it includes
+//! - `guard`: XML within limits
 //! - `urdf`: what a URDF says, each number with its digits and its place
+//! - `mjcf`: what an MJCF says, in the terms of a URDF
 //! - `problems`: what is wrong or odd, at its place in the file
 //! - `names`: names that the file does not have
 //! - `tree`: the chain, and what hangs on its links
+//! - `beside`: what hangs beside the chain, or is tied to it
 //! - `tip`: where an arm ends, when nobody says
+//! - `arms`: every arm of a robot
 //! - `meant`: the angle that digits were meant to be
 //! - `lock`: joints that stay where they are
 //! - `snap`: numbers that were meant to be others: 1.57079632679 is π/2
@@ -29,6 +35,13 @@
 //!
 //! Gravity is 9.81 m/s² against the z axis of the base's link: a URDF does not say.
 //!
+//! Of an MJCF: bodies with their joints, hinges and slides, several to a body, frames and
+//! sites, defaults and their classes, every way to write an orientation, units and orders
+//! of angles, inertials, and the mass of simple geoms where MuJoCo takes that; gravity;
+//! armature and damping; forces of actuators as limits of torque. Springs, friction and
+//! gravity compensation are said and left out. Equalities, tendons and loops are refused
+//! where they would move, and so is a mass that only a mesh knows.
+//!
 //! # Digits
 //!
 //! A URDF has 1.57079632679 for π/2 and 7.7e-34 for 0; taken at their word every
@@ -41,7 +54,9 @@
 //!   of at least five digits;
 //! - a length, or a coordinate of a centre of mass, below 1e-9 m: 0;
 //! - a component of an axis within 1e-9 of 0, 1 or −1;
-//! - a product of inertia below 1e-9 of the largest moment: 0.
+//! - a product of inertia below 1e-9 of the largest moment: 0;
+//! - an orientation by a quaternion of five digits, or by axes: each of its angles within
+//!   1e-5 rad of a multiple of π/2, π/4 or π/6, as many quaternions come from 1.5708.
 //!
 //! What all of them together change in the torques and in where the hand is, is
 //! bounded ([`Change`]).
@@ -50,13 +65,18 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
+mod arms;
+mod beside;
 mod change;
+mod guard;
 mod lock;
 mod meant;
 mod merge;
+mod mjcf;
 mod names;
 mod problems;
 mod snap;
+mod text;
 mod tip;
 mod tree;
 mod urdf;
@@ -65,8 +85,10 @@ mod write;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
+pub use arms::{Arms, Shared, arms};
 pub use change::{Change, Displacement, Motion};
 pub use snap::Snap;
+pub use text::Text;
 
 /// The largest URDF that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
@@ -89,6 +111,8 @@ pub struct Options {
     pub exact: bool,
     /// The name of the file, for the robot file's first line.
     pub file: String,
+    /// The name of the arm; without one, the model's.
+    pub name: Option<String>,
 }
 
 /// A chain of a URDF.
@@ -106,13 +130,28 @@ pub struct Imported {
     pub change: Option<Change>,
 }
 
-/// Makes a robot file of a chain of a URDF.
+/// Makes a robot file of a chain of a URDF, or of an MJCF that is one text.
 ///
 /// # Errors
 /// Everything that is wrong with the URDF or the options, at once, each at its
 /// place in the URDF.
 pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> {
-    let mut problems = problems::Problems::new(source);
+    finished(source, options, problems::Problems::new(source))
+}
+
+/// Makes a robot file of a chain of a model that may be in several files.
+///
+/// # Errors
+/// Those of [`import`]; [`Text::render`] says in which file they are.
+pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnostics> {
+    finished(text.as_str(), options, problems::Problems::of(text))
+}
+
+fn finished(
+    source: &str,
+    options: &Options,
+    mut problems: problems::Problems,
+) -> Result<Imported, Diagnostics> {
     let imported = imported(source, options, &mut problems);
     let notes = problems.finish()?;
     match imported {
@@ -122,17 +161,24 @@ pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> 
     }
 }
 
+/// Returns what a model says, if all of it can be read.
+fn model(source: &str, options: &Options, problems: &mut problems::Problems) -> Option<urdf::Urdf> {
+    let document = guard::parse(source, problems)?;
+    let urdf = match mjcf::is_mjcf(&document) {
+        true => mjcf::read(&document, problems)?,
+        false => urdf::read(&document, problems)?,
+    };
+    names::check(&urdf, options, problems);
+    // What the rest lacks would be what could not be read.
+    (!problems.has_errors()).then_some(urdf)
+}
+
 fn imported(
     source: &str,
     options: &Options,
     problems: &mut problems::Problems,
 ) -> Option<Imported> {
-    let urdf = urdf::read(source, problems)?;
-    names::check(&urdf, options, problems);
-    // What the rest lacks would be what could not be read.
-    if problems.has_errors() {
-        return None;
-    }
+    let urdf = model(source, options, problems)?;
     let chain = tree::chain(&urdf, options, problems)?;
     let as_written = merge::arm(&urdf, &chain, problems)?;
     let (snapped, snaps) = match options.exact {

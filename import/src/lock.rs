@@ -29,7 +29,7 @@ fn read(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> 
     let Joint { name, kind, .. } = joint;
     let number = parse_decimal(text.trim());
     let read = match kind {
-        Kind::Fixed | Kind::Planar | Kind::Floating => {
+        Kind::Fixed | Kind::Planar | Kind::Floating | Kind::Ball => {
             let message = format!("--lock {name}: a {} joint has no position", kind.word());
             problems.error(&joint.span, message, "leave it out");
             return None;

@@ -9,19 +9,24 @@ pub(crate) const NOTHING: i32 = -9;
 /// Angles next to multiples of π/4 and π/6, in radians.
 const NEXT_TO: i32 = -12;
 /// However few digits a number has: so far, in radians, it may be off.
-const MAX: i32 = -5;
+pub(crate) const MAX: i32 = -5;
 /// The digits that tell π/6 from a number that happens to be near it.
-const TELLING: usize = 5;
+pub(crate) const TELLING: usize = 5;
 
 /// The multiple of π/2, π/4 or π/6 that an angle was meant to be.
 pub(crate) fn meant(angle: &Angle, text: &str) -> Option<Angle> {
     let Angle::Radians(value) = angle else {
         return None;
     };
+    let (unit, digits) = digits(text);
+    within(value, unit, digits)
+}
+
+/// The same of an angle that is known up to this unit, of so many digits.
+pub(crate) fn within(value: &Rational, unit: Rational, digits: usize) -> Option<Angle> {
     if value.is_zero() {
         return None;
     }
-    let (unit, digits) = digits(text);
     let loose = unit.min(power(MAX));
     let pi = Angle::PiTimes(Rational::one()).radians();
     [
@@ -42,7 +47,7 @@ pub(crate) fn meant(angle: &Angle, text: &str) -> Option<Angle> {
 }
 
 /// One unit of the last digit of a decimal, and how many digits it has.
-fn digits(text: &str) -> (Rational, usize) {
+pub(crate) fn digits(text: &str) -> (Rational, usize) {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse().unwrap_or(0)),
         None => (text, 0),

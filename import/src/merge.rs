@@ -12,7 +12,7 @@ use num_traits::{One, Zero};
 
 use crate::problems::Problems;
 use crate::tree::{Chain, Moving, Step};
-use crate::urdf::{Inertial, Joint, Urdf};
+use crate::urdf::{Inertial, Joint, Role, Urdf};
 
 /// The chain's joints with what they move, and the tool.
 #[derive(Clone, Debug)]
@@ -65,6 +65,11 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
         link.mass.is_zero() && body.iter().flatten().all(Zero::is_zero)
     });
     let empty = empty.map(|(moving, _)| urdf.joints[moving.joint].child.0.as_str());
+    let is_body = |name: &&str| {
+        let mut bodies = urdf.links.iter().filter(|link| link.role == Role::Body);
+        bodies.any(|link| link.name == *name)
+    };
+    let empty = empty.filter(is_body);
     without_mass(urdf, &empty.collect::<Vec<_>>(), problems);
     Some(Arm {
         links,
@@ -78,6 +83,10 @@ fn are_possible(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> bool {
     let mut good = true;
     for link in chain.links() {
         let link = &urdf.links[link];
+        for unread in &link.unread {
+            problems.error(&unread.span, unread.message.clone(), unread.help);
+            good = false;
+        }
         let Some(Inertial { mass, inertia, .. }) = &link.inertial else {
             continue;
         };

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::text::Text;
 use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 
 /// More than these are counted, not listed.
@@ -12,6 +13,8 @@ pub(crate) const MAX_NAMES: usize = 30;
 /// Collects them, in any order.
 pub(crate) struct Problems<'s> {
     source: &'s str,
+    /// The files that the source is made of, if it is made of several.
+    text: Option<&'s Text>,
     found: Vec<Diagnostic>,
     /// The number of problems beyond those that are listed.
     more: usize,
@@ -21,14 +24,30 @@ impl<'s> Problems<'s> {
     pub(crate) fn new(source: &'s str) -> Self {
         Problems {
             source,
+            text: None,
             found: Vec::new(),
             more: 0,
         }
     }
 
-    /// The text of the URDF.
-    pub(crate) fn source(&self) -> &'s str {
-        self.source
+    /// Collects them of a text of several files.
+    pub(crate) fn of(text: &'s Text) -> Self {
+        Problems {
+            text: Some(text),
+            ..Problems::new(text.as_str())
+        }
+    }
+
+    /// Returns the line of a byte in its file, in words.
+    pub(crate) fn line(&self, byte: usize) -> String {
+        match self.text.filter(|text| text.is_made_of_several()) {
+            None => format!("line {}", place(self.source, byte).0),
+            Some(text) => {
+                let (name, line) = text.line(byte);
+                let file = std::path::Path::new(name).file_name().unwrap_or_default();
+                format!("{}, line {line}", file.to_string_lossy())
+            }
+        }
     }
 
     pub(crate) fn error(&mut self, span: &Range<usize>, message: String, help: &str) {

@@ -93,6 +93,27 @@ impl Snaps {
         for length in &mut origin.xyz {
             self.length(length, &power(NOTHING), xyz);
         }
+        if let Some(meant) = origin.meant.take() {
+            let to = meant.rpy.each_ref().map(ToString::to_string).join(" ");
+            let from = origin.rpy.each_ref().map(|angle| angle.text.as_str());
+            self.0.push(Snap {
+                span: origin.rpy[0].span.clone(),
+                of: rpy.to_owned(),
+                from: from.join(" "),
+                to,
+            });
+            for (angle, meant) in origin.rpy.iter_mut().zip(meant.rpy) {
+                angle.value = meant;
+            }
+            // Where it is turned is where its parts are.
+            for (length, meant) in origin.xyz.iter_mut().zip(meant.xyz) {
+                length.value = meant;
+            }
+            for length in &mut origin.xyz {
+                self.length(length, &power(NOTHING), xyz);
+            }
+            return;
+        }
         for angle in &mut origin.rpy {
             if let Some(meant) = meant(&angle.value, &angle.text) {
                 let to = meant.to_string();

@@ -1,10 +1,11 @@
 //! Where an arm ends, when nobody says: at the palm that its fingers hang on, or at the
 //! end of its longest chain.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::problems::MAX_NAMES;
 use crate::tree::Tree;
+use crate::urdf::Role;
 
 /// Arms have more joints that move than this before their hand.
 const ARM: usize = 3;
@@ -16,59 +17,20 @@ const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
 /// Parts of the names of frames that an arm is used by.
 const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
 
+/// Where arms end: palms first.
+struct Ends {
+    tips: Vec<usize>,
+    /// Whether there are palms.
+    holds: bool,
+}
+
 impl Tree<'_, '_, '_> {
     /// Returns the link that the arm ends at; `None` after saying that there are several.
     pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
-        let Some(heights) = self.heights(base) else {
-            let message = "links hang on each other in a circle".to_owned();
-            let help = "every chain ends somewhere: closed loops are not read";
-            let span = &self.urdf.links[base].span;
-            self.problems.error(span, message, help);
-            return None;
-        };
+        let heights = self.heights_or_circle(base)?;
+        let Ends { tips, holds } = self.ends(base, &heights, false);
         let most = heights.get(&base).copied().unwrap_or_default();
-        let mut tips = Vec::new();
-        let mut palms = Vec::new();
-        let mut open = vec![(base, 0)];
-        while let Some((link, moved)) = open.pop() {
-            let fixed = self.fixed_to(link);
-            let joints: Vec<usize> = fixed
-                .iter()
-                .flat_map(|link| self.hanging(*link))
-                .filter(|joint| self.step(*joint).is_none())
-                .collect();
-            let left = |joint: usize| 1 + heights.get(&self.ends[joint][1]).copied().unwrap_or(0);
-            let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
-            let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
-                // Fingers may be fixed, too.
-                let is_finger = |link: &&usize| has_one_of(&self.urdf.links[**link].name, &FINGERS);
-                let (fingers, ends): (Vec<usize>, Vec<usize>) = leaves.partition(is_finger);
-                match ends.is_empty() {
-                    true => palms.extend(fingers.first().and_then(|link| self.on(*link))),
-                    false => tips.extend(ends),
-                }
-                continue;
-            };
-            let main: Vec<usize> = joints
-                .into_iter()
-                .filter(|joint| left(*joint) == longest)
-                .collect();
-            let are_fingers = main.len() > 1 || self.is_finger(main[0]);
-            let is_palm = main.len() > 2 || longest <= FINGER && are_fingers;
-            if moved >= ARM && is_palm {
-                palms.push(self.ends[main[0]][0]);
-                let is_hand = |link: &&usize| has_one_of(&self.urdf.links[**link].name, &HANDS);
-                tips.extend(leaves.filter(is_hand));
-            } else {
-                let next = main.into_iter();
-                open.extend(next.map(|joint| (self.ends[joint][1], moved + 1)));
-            }
-        }
-        let holds = !palms.is_empty();
         let name = |link: &usize| self.urdf.links[*link].name.as_str();
-        tips.sort_by_key(|link| (!has_one_of(name(link), &HANDS), *link));
-        palms.sort_unstable();
-        tips.splice(0..0, palms);
         if let [link] = tips[..] {
             let message = format!("the chain ends at link `{}`", name(&link));
             let span = &self.urdf.links[link].span;
@@ -92,6 +54,90 @@ impl Tree<'_, '_, '_> {
         }
         self.problems.error(&self.urdf.span, message, &help);
         None
+    }
+
+    /// Returns the links that arms end at, one for each joint that is the last to move;
+    /// `None` after saying that there are none.
+    pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
+        let heights = self.heights_or_circle(base)?;
+        let Ends { tips, .. } = self.ends(base, &heights, true);
+        let mut last = BTreeSet::new();
+        let tips = tips.into_iter().filter(|tip| {
+            let mut link = *tip;
+            while let Some(joint) = self.above.get(&link).filter(|_| link != base)
+                && self.step(*joint).is_some()
+            {
+                link = self.ends[*joint][0];
+            }
+            link != base && last.insert(link)
+        });
+        let mut tips: Vec<usize> = tips.collect();
+        tips.sort_unstable();
+        if tips.is_empty() {
+            let message = "no arm hangs on the base".to_owned();
+            let help = "choose the beginning by --base";
+            self.problems.error(&self.urdf.span, message, help);
+            return None;
+        }
+        Some(tips)
+    }
+
+    fn heights_or_circle(&mut self, base: usize) -> Option<BTreeMap<usize, usize>> {
+        let heights = self.heights(base);
+        if heights.is_none() {
+            let message = "links hang on each other in a circle".to_owned();
+            let help = "every chain ends somewhere: closed loops are not read";
+            let span = &self.urdf.links[base].span;
+            self.problems.error(span, message, help);
+        }
+        heights
+    }
+
+    /// Returns where the longest chains end, or all that are arms.
+    fn ends(&self, base: usize, heights: &BTreeMap<usize, usize>, all: bool) -> Ends {
+        let mut tips = Vec::new();
+        let mut palms = Vec::new();
+        let mut open = vec![(base, 0)];
+        while let Some((link, moved)) = open.pop() {
+            let fixed = self.fixed_to(link);
+            let joints: Vec<usize> = fixed
+                .iter()
+                .flat_map(|link| self.hanging(*link))
+                .filter(|joint| self.step(*joint).is_none())
+                .collect();
+            let left = |joint: usize| 1 + heights.get(&self.ends[joint][1]).copied().unwrap_or(0);
+            let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
+            let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
+                // Fingers may be fixed, too.
+                let is_finger = |link: &&usize| has_one_of(&self.urdf.links[**link].name, &FINGERS);
+                let (fingers, ends): (Vec<usize>, Vec<usize>) = leaves.partition(is_finger);
+                match ends.is_empty() {
+                    true => palms.extend(fingers.first().and_then(|link| self.on(*link))),
+                    false => tips.extend(ends),
+                }
+                continue;
+            };
+            let main = joints.iter().filter(|joint| left(**joint) == longest);
+            let main: Vec<usize> = main.copied().collect();
+            let are_fingers = main.len() > 1 || self.is_finger(main[0]);
+            let is_palm = main.len() > 2 || longest <= FINGER && are_fingers;
+            if moved >= ARM && is_palm {
+                palms.push(self.ends[main[0]][0]);
+                let is_hand = |link: &&usize| has_one_of(&self.urdf.links[**link].name, &HANDS);
+                tips.extend(leaves.filter(is_hand));
+            } else {
+                // A head is no arm; of what is short everywhere, the longest.
+                let least = if all { ARM.min(longest) } else { longest };
+                let next = joints.into_iter().filter(|joint| left(*joint) >= least);
+                open.extend(next.map(|joint| (self.ends[joint][1], moved + 1)));
+            }
+        }
+        let holds = !palms.is_empty();
+        let name = |link: &usize| self.urdf.links[*link].name.as_str();
+        tips.sort_by_key(|link| (!has_one_of(name(link), &HANDS), *link));
+        palms.sort_unstable();
+        tips.splice(0..0, palms);
+        Ends { tips, holds }
     }
 
     /// Returns whether joints that move hang on the chain to a link, beside it or behind its
@@ -162,9 +208,10 @@ impl Tree<'_, '_, '_> {
     /// Returns the joints that hang on a link, without those of links that are left away.
     fn hanging(&self, link: usize) -> Vec<usize> {
         let joints = self.below.get(&link).into_iter().flatten().copied();
-        joints
-            .filter(|joint| !self.without.contains(&self.ends[*joint][1]))
-            .collect()
+        let stays = |child: usize| {
+            !self.without.contains(&child) && self.urdf.links[child].role != Role::Mark
+        };
+        joints.filter(|joint| stays(self.ends[*joint][1])).collect()
     }
 
     /// Returns the link that a link hangs on.

@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_model::robot::Position;
-use dalembert_model::robot::values::position;
 
 use crate::Options;
 use crate::lock::{self, OTHERS};
 use crate::problems::Problems;
-use crate::urdf::{Joint, Kind, Urdf};
+use crate::urdf::{Joint, Kind, Mimic, Urdf};
 
 /// A chain of joints that move. Links and joints are by their place in the URDF.
 #[derive(Clone, Debug)]
@@ -75,11 +74,23 @@ pub(crate) struct Tree<'u, 'p, 's> {
     pub(crate) below: BTreeMap<usize, Vec<usize>>,
     /// Both ends of every joint.
     pub(crate) ends: Vec<[usize; 2]>,
-    locks: BTreeMap<usize, Position>,
+    pub(crate) locks: BTreeMap<usize, Position>,
     /// Where joints beside the chain are held.
     pub(crate) others: Option<String>,
-    held: Vec<(usize, Position)>,
+    pub(crate) held: Vec<(usize, Position)>,
     pub(crate) without: BTreeSet<usize>,
+}
+
+/// Returns the names of the links that arms end at; `None` after saying why there are none.
+pub(crate) fn tips(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Vec<String>> {
+    let mut tree = Tree::new(urdf, problems)?;
+    tree.options(options)?;
+    let base = match &options.base {
+        Some(name) => tree.link(name)?,
+        None => tree.root().map(|root| tree.standing(root))?,
+    };
+    let tips = tree.tips(base)?.into_iter();
+    Some(tips.map(|tip| urdf.links[tip].name.clone()).collect())
 }
 
 /// Finds the chain; `None` after saying why there is none.
@@ -125,13 +136,24 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         let [_, child] = tree.ends[moving.joint];
         good &= tree.gather(child, &on_path, &mut moving.links);
     }
+    good &= tree.is_free_of_ties(&moving);
+    good &= moving
+        .iter()
+        .all(|moving| tree.leads_nothing_beside(moving.joint));
     tree.beside_the_base(base, &on_path);
     tree.say_held();
     let held = std::mem::take(&mut tree.held);
     if tree.above.contains_key(&base) {
         let link = &urdf.links[base];
         let message = format!("link `{}` is the base, and not the root", link.name);
-        let help = "gravity is taken to pull against its z: change `gravity` in the robot file if it is tilted";
+        let help = match urdf.gravity {
+            None => {
+                "gravity is taken to pull against its z: change `gravity` in the robot file if it is tilted"
+            }
+            Some(_) => {
+                "gravity is taken in its axes as it is in the world's: change `gravity` in the robot file if it is tilted"
+            }
+        };
         tree.problems.note(&link.span, message, help);
     }
     good.then_some(Chain {
@@ -235,14 +257,14 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
     /// Returns the link behind the joints that let the whole robot float or drive.
     fn standing(&mut self, root: usize) -> usize {
         let (mut base, mut link) = (root, root);
-        while let Some([joint]) = self.below.get(&link).map(Vec::as_slice) {
+        while let [joint] = self.arms_on(link)[..] {
             let Joint {
                 name, span, kind, ..
-            } = &self.urdf.joints[*joint];
-            link = self.ends[*joint][1];
+            } = &self.urdf.joints[joint];
+            link = self.ends[joint][1];
             match kind {
                 Kind::Fixed if link != root => {}
-                Kind::Planar | Kind::Floating if link != root => {
+                kind if !kind.has_one_axis() && link != root => {
                     let word = kind.word();
                     let message =
                         format!("the chain begins behind joint `{name}`, which is {word}");
@@ -254,6 +276,30 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             }
         }
         base
+    }
+
+    /// Returns the joints on a link behind which something moves: a table is no robot.
+    fn arms_on(&self, link: usize) -> Vec<usize> {
+        let joints = self.below.get(&link).into_iter().flatten().copied();
+        joints.filter(|joint| self.moves_below(*joint)).collect()
+    }
+
+    /// Returns whether a joint, or one behind it, moves about or along one axis.
+    fn moves_below(&self, joint: usize) -> bool {
+        let mut open = vec![joint];
+        // In a circle there is no end.
+        for _ in 0..self.ends.len() {
+            let Some(joint) = open.pop() else {
+                return false;
+            };
+            let kind = self.urdf.joints[joint].kind;
+            if kind.has_one_axis() && kind != Kind::Fixed {
+                return true;
+            }
+            let below = self.below.get(&self.ends[joint][1]);
+            open.extend(below.into_iter().flatten());
+        }
+        false
     }
 
     /// The joint as a step that stays, or none if it moves.
@@ -273,7 +319,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             mimic,
             ..
         } = &self.urdf.joints[joint];
-        if matches!(kind, Kind::Planar | Kind::Floating) {
+        if !kind.has_one_axis() {
             let message = format!("joint `{name}` of the chain is {}", kind.word());
             let help = format!(
                 "joints turn about or slide along one axis: begin behind it, --base {}",
@@ -283,7 +329,9 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             return false;
         }
         match mimic {
-            Some((other, span)) if !self.locks.contains_key(&joint) => {
+            Some(Mimic {
+                joint: other, span, ..
+            }) if !self.locks.contains_key(&joint) => {
                 let message = format!("joint `{name}` of the chain mimics `{other}`");
                 let at = lock::advised(&self.urdf.joints[joint]);
                 let help =
@@ -354,11 +402,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
                     }
                     None if path.contains(&joint) => {}
                     None => match self.hold(joint) {
-                        Some(at) => {
-                            let step = Step {
-                                joint,
-                                at: Some(at),
-                            };
+                        Some(step) => {
                             open.push((child, way.iter().cloned().chain([step]).collect()));
                         }
                         None => good = false,
@@ -369,94 +413,5 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         }
         links.sort_by_key(|(link, _)| *link);
         good
-    }
-
-    /// Returns where a joint beside the chain is held; `None` after saying that it moves.
-    fn hold(&mut self, joint: usize) -> Option<Position> {
-        let own = &self.urdf.joints[joint];
-        let text = self.others.as_deref();
-        let Some(text) = text.filter(|_| !matches!(own.kind, Kind::Planar | Kind::Floating)) else {
-            self.moves_beside(joint);
-            return None;
-        };
-        let at = lock::nearest(own, text, self.problems)?;
-        self.held.push((joint, at.clone()));
-        Some(at)
-    }
-
-    /// Lists the joints beside the chain that are held, once.
-    fn say_held(&mut self) {
-        self.held.sort_by_key(|(joint, _)| *joint);
-        let Some((first, _)) = self.held.first() else {
-            return;
-        };
-        let held = self.held.iter().map(|(joint, at)| {
-            format!(
-                "`{}` at {}",
-                self.urdf.joints[*joint].name,
-                position(at).replace('"', "")
-            )
-        });
-        let held = held.collect::<Vec<_>>().join(", ");
-        let message = format!("what hangs on the chain is held: {held}");
-        let help = "--lock JOINT=VALUE holds one elsewhere, --without LINK leaves it away";
-        self.problems
-            .note(&self.urdf.joints[*first].span, message, help);
-    }
-
-    fn moves_beside(&mut self, joint: usize) {
-        let Joint {
-            name,
-            span,
-            kind,
-            child: (child, _),
-            mimic,
-            ..
-        } = &self.urdf.joints[joint];
-        let follows = match mimic {
-            Some((other, _)) => format!(", mimics `{other}`"),
-            None => String::new(),
-        };
-        let message = format!(
-            "joint `{name}` is {}{follows} and hangs on the chain without being part of it",
-            kind.word()
-        );
-        let help = match kind {
-            Kind::Planar | Kind::Floating => format!("leave its link away: --without {child}"),
-            _ => {
-                let at = lock::advised(&self.urdf.joints[joint]);
-                format!(
-                    "add --lock {name}={at}, or leave its link away: --without {child}; \
-                     --lock-others 0 holds all that hangs on the chain"
-                )
-            }
-        };
-        self.problems.error(span, message, &help);
-    }
-
-    /// Says what hangs on the base: it moves no joint of the chain, and is left out.
-    fn beside_the_base(&mut self, base: usize, path: &BTreeSet<usize>) {
-        let mut open = vec![base];
-        let mut others = Vec::new();
-        while let Some(link) = open.pop() {
-            for joint in self.below.get(&link).into_iter().flatten() {
-                let [_, child] = self.ends[*joint];
-                match self.step(*joint) {
-                    Some(_) if !self.without.contains(&child) => open.push(child),
-                    None if !path.contains(joint) => others.push(*joint),
-                    _ => {}
-                }
-            }
-        }
-        others.sort_unstable();
-        let [first, ..] = others[..] else { return };
-        let names = others
-            .iter()
-            .map(|joint| self.urdf.joints[*joint].name.as_str());
-        let names = names.collect::<Vec<_>>().join(", ");
-        let message = format!("what hangs on the base is left out: {names}");
-        let help = "a base that stands still feels nothing of it";
-        self.problems
-            .note(&self.urdf.joints[first].span, message, help);
     }
 }

@@ -9,7 +9,7 @@ use num_traits::{Signed, Zero};
 use crate::Options;
 use crate::lock::{OTHERS, right};
 use crate::merge::{Arm, Link};
-use crate::problems::{Problems, place};
+use crate::problems::Problems;
 use crate::snap::Snap;
 use crate::tree::Chain;
 use crate::urdf::{Joint, Kind, Number, Urdf};
@@ -25,6 +25,7 @@ pub(crate) fn file(
 ) -> String {
     let [base, tip] = [chain.base, chain.tip].map(|link| urdf.links[link].name.as_str());
     let file = match options.file.as_str() {
+        "" if urdf.gravity.is_some() => "an MJCF",
         "" => "a URDF",
         file => file,
     };
@@ -35,7 +36,12 @@ pub(crate) fn file(
     );
     comment(
         &mut text,
-        &format!("Base axes are those of {base}; gravity is taken to pull against its z."),
+        &match urdf.gravity {
+            None => {
+                format!("Base axes are those of {base}; gravity is taken to pull against its z.")
+            }
+            Some(_) => format!("Base axes are those of {base}; gravity is the model's in them."),
+        },
     );
     let locked = options.lock.iter().filter(|(joint, _)| joint != OTHERS);
     let locked = locked.map(|(joint, value)| format!("--lock {joint}={value}"));
@@ -58,14 +64,21 @@ pub(crate) fn file(
             "Numbers that were taken for others, with their lines there:",
         );
         for snap in snaps {
-            let line = place(problems.source(), snap.span.start).0;
-            comment(&mut text, &format!("  line {line}: {snap}"));
+            let line = problems.line(snap.span.start);
+            comment(&mut text, &format!("  {line}: {snap}"));
         }
     }
     text.push('\n');
-    let name = suggested_name(&urdf.name).unwrap_or_else(|| "arm".to_owned());
+    let name = options.name.as_ref().unwrap_or(&urdf.name);
+    let name = suggested_name(name).unwrap_or_else(|| "arm".to_owned());
     line(&mut text, "name", &quoted(&name));
-    line(&mut text, "gravity", "[0, 0, -9.81]");
+    match &urdf.gravity {
+        None => line(&mut text, "gravity", "[0, 0, -9.81]"),
+        Some(gravity) => {
+            let gravity = gravity.iter().map(|x| number(&x.value));
+            line(&mut text, "gravity", &list(gravity));
+        }
+    }
     if !arm.tool.is_identity() {
         line(&mut text, "tool", &placement(&as_read(&arm.tool)));
     }
@@ -128,6 +141,9 @@ fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut Le
     if let Some(friction) = joint.friction.as_ref().filter(|f| !f.value.is_zero()) {
         left_out.friction.push((joint, friction));
     }
+    if let Some(spring) = &joint.spring {
+        left_out.springs.push((joint, spring));
+    }
     let mut limits = Vec::new();
     if let Some(range) = &joint.position {
         let [low, high] = range.each_ref().map(|end| match &end.value {
@@ -171,6 +187,7 @@ fn limit_of<'u>(
 /// Parts of the URDF that are not in the robot file: one note says it of all joints.
 #[derive(Default)]
 struct LeftOut<'u> {
+    springs: Vec<(&'u Joint, &'u Number)>,
     friction: Vec<(&'u Joint, &'u Number)>,
     limits: Vec<(&'static str, &'u Joint, &'u Number)>,
 }
@@ -178,6 +195,11 @@ struct LeftOut<'u> {
 impl LeftOut<'_> {
     fn say(&self, problems: &mut Problems) {
         self.say_friction(problems);
+        if let Some((_, first)) = self.springs.first() {
+            let message = format!("the springs at {} are left out", names(&self.springs));
+            let help = "the torques are those without them: add stiffness times displacement to what is commanded";
+            problems.note(&first.span, message, help);
+        }
         for key in ["velocity", "torque"] {
             let own = self.limits.iter().filter(|(own, ..)| *own == key);
             let own: Vec<(&Joint, &Number)> =

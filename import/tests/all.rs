@@ -2,5 +2,7 @@
 
 mod fuzz;
 mod golden;
+mod mjcf;
+mod mjcf_refusals;
 mod refusals;
 mod support;

@@ -111,6 +111,42 @@ fn an_answer_for_every_text() {
     assert!(made > 30 && refused > 30, "{made} made, {refused} refused");
 }
 
+/// The same of models of MuJoCo.
+#[test]
+fn an_answer_for_every_mjcf() {
+    let mut draw = Draw(0x2545_f491_4f6c_dd1d);
+    let (mut made, mut refused) = (0, 0);
+    for round in 0..60 {
+        for (name, tip) in [
+            ("degrees", "end"),
+            ("geoms", "three"),
+            ("so101", "gripper_link"),
+        ] {
+            let path = format!("{}/tests/data/mjcf/{name}.xml", env!("CARGO_MANIFEST_DIR"));
+            let source = mutated(&std::fs::read_to_string(path).unwrap(), &mut draw);
+            let options = Options {
+                tip: Some(tip.to_owned()),
+                lock: vec![("*".to_owned(), "0".to_owned())],
+                exact: round % 3 == 0,
+                ..Options::default()
+            };
+            match import(&source, &options) {
+                Ok(imported) => {
+                    made += 1;
+                    let again = read::parse(&imported.text, &read::Options::default()).unwrap();
+                    assert_eq!(again.robot, imported.robot);
+                }
+                Err(errors) => {
+                    refused += 1;
+                    assert!(!errors.render(name, &source).is_empty());
+                }
+            }
+        }
+    }
+    // Small files: little of them may go.
+    assert!(made > 5 && refused > 30, "{made} made, {refused} refused");
+}
+
 /// What grows without end: entities, circles, depth, links without number.
 #[test]
 fn hostile_files_are_refused_at_once() {

@@ -318,7 +318,7 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.replace("<child link=\"lower\"/>", "<child link=\"lowr\"/>"), hand.clone(), &["there is no link `lowr`", "did you mean `lower`?"]),
         (ARM.replace("<child link=\"lower\"/>", "<child link=\"foot\"/>"), hand.clone(), &["link `foot` hangs on joint `stand` already", "closed loops"]),
         (ARM.replace("<robot", "<robots").replace("</robot>", "</robots>"), hand.clone(), &["<robots> is no URDF"]),
-        ("<mujoco/>".into(), hand.clone(), &["this is MJCF"]),
+        ("<mujoco/>".into(), hand.clone(), &["arm.urdf:1:1", "there are no bodies"]),
         ("joints: 3".into(), hand.clone(), &["no XML", "a URDF is XML"]),
         (ARM.replace("</robot>", ""), hand.clone(), &["no XML"]),
         (

@@ -11,7 +11,7 @@ use super::values::lock_parser;
 pub struct NewArgs {
     /// The folder of the crate, which is called after it
     pub folder: PathBuf,
-    /// A robot file, or a URDF with what `import` takes for it [default: two links in a plane]
+    /// A robot file, or a URDF or MJCF with what `import` takes for it [default: two links in a plane]
     #[arg(long, value_name = "FILE")]
     pub from: Option<PathBuf>,
     #[command(flatten)]
@@ -72,6 +72,7 @@ impl ChainArgs {
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into_owned(),
+            name: None,
         }
     }
 }
@@ -83,11 +84,15 @@ impl ChainArgs {
 /// with its line, and the change of the torques is bounded. --exact keeps them.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
-    /// The URDF; of a xacro run `xacro arm.urdf.xacro > arm.urdf` first
+    /// The URDF, the MJCF of MuJoCo, or a xacro, for which the program `xacro` is run
     pub urdf: PathBuf,
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Write a robot file of every arm into the folder that -o names, with all other joints
+    /// held, and say which arms move each other
+    #[arg(long, requires = "output", conflicts_with = "tip")]
+    pub all: bool,
     /// Write over a file that this command did not write
     #[arg(long, requires = "output")]
     pub force: bool,
@@ -96,6 +101,9 @@ pub struct ImportArgs {
     /// Print what there is to say of the URDF as JSON; the robot file goes to -o
     #[arg(long, requires = "output")]
     pub json: bool,
+    /// Arguments of a xacro, after `--`
+    #[arg(last = true, value_name = "NAME:=VALUE")]
+    pub xacro: Vec<String>,
 }
 
 /// Arguments of `show`.

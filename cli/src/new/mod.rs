@@ -9,14 +9,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use dalembert_import::{MAX_BYTES, import};
+use dalembert_import::{MAX_BYTES, import_text};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::suggested_name;
 use serde_json::json;
 
 use crate::args::{ChainArgs, NewArgs};
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::{input, model, output};
 
 /// Runs the subcommand.
 pub fn run(args: &NewArgs) -> Outcome {
@@ -112,14 +112,13 @@ fn robot_file(from: &Path, chain: &ChainArgs) -> Result<String, Failure> {
             Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
         };
     }
-    match import(&source, &chain.options(from)) {
+    let text = model::text(from, &[])?;
+    match import_text(&text, &chain.options(from)) {
         Ok(imported) => {
-            for note in &imported.notes {
-                output::note(&note.render(&name, &source));
-            }
+            output::note(&text.render(&imported.notes));
             Ok(imported.text)
         }
-        Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
+        Err(errors) => Err(Failure::Input(text.render(&errors.0))),
     }
 }
 

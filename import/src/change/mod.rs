@@ -32,6 +32,8 @@ pub struct Change {
     /// From the last joint's frame to the hand: how far, and how it is turned.
     tool: [Pair; 2],
     limits: Motion,
+    /// The size of gravity, m/s².
+    gravity: f64,
     /// The efforts of the joints, if each has one.
     efforts: Option<Vec<f64>>,
 }
@@ -82,7 +84,7 @@ impl Change {
             |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
         let (mut omega, mut turning) = (Pair::ZERO, Pair::ZERO);
         // v̇ of the base: gravity, the same of both.
-        let mut moving = Pair::of(9.81);
+        let mut moving = Pair::of(self.gravity);
         let mut loads = Vec::with_capacity(self.links.len());
         for (i, part) in self.links.iter().enumerate() {
             let [q, qd, qdd] = [&motion.position, &motion.velocity, &motion.acceleration]
@@ -230,8 +232,13 @@ pub(crate) fn bound(written: &Arm, snapped: &Arm, urdf: &Urdf, chain: &Chain) ->
         size: 1.0,
         off: root_of_squares(&turned),
     };
+    let gravity = urdf.gravity.as_ref().map(|gravity| {
+        let sizes = gravity.each_ref().map(|x| upper(&x.value));
+        root_of_squares(&sizes)
+    });
     Change {
         limits,
+        gravity: gravity.unwrap_or(9.81),
         tool: [vectors(&tools[0].origin, &tools[1].origin), turned],
         efforts: efforts.collect(),
         links: links

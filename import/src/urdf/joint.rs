@@ -19,6 +19,8 @@ pub(crate) enum Kind {
     Fixed,
     Planar,
     Floating,
+    /// About any axis: MJCF alone has it.
+    Ball,
 }
 
 impl Kind {
@@ -34,7 +36,13 @@ impl Kind {
     /// Its word.
     pub(crate) fn word(self) -> &'static str {
         let found = Kind::WORDS.iter().find(|(_, kind)| *kind == self);
-        found.map_or("", |(word, _)| word)
+        // The one that a URDF has no word for.
+        found.map_or("a ball", |(word, _)| word)
+    }
+
+    /// Returns whether it moves about or along one axis, if at all.
+    pub(crate) fn has_one_axis(self) -> bool {
+        !matches!(self, Kind::Planar | Kind::Floating | Kind::Ball)
     }
 }
 
@@ -52,15 +60,29 @@ pub(crate) struct Joint {
     pub(crate) axis: [Number; 3],
     /// Lowest and highest position.
     pub(crate) position: Option<[Value<Position>; 2]>,
+    /// Where it is where the model is drawn.
+    pub(crate) start: Position,
     pub(crate) effort: Option<Number>,
     pub(crate) velocity: Option<Number>,
     pub(crate) damping: Option<Number>,
     /// Coulomb friction, which is not modelled.
     pub(crate) friction: Option<Number>,
+    /// A spring, which is not modelled.
+    pub(crate) spring: Option<Number>,
     /// Rotors felt at the joint.
     pub(crate) armature: Rational,
     /// The joint that it follows, with the place that says so.
-    pub(crate) mimic: Option<(String, Range<usize>)>,
+    pub(crate) mimic: Option<Mimic>,
+}
+
+/// What a joint follows.
+#[derive(Clone, Debug)]
+pub(crate) struct Mimic {
+    /// The joint that leads.
+    pub(crate) joint: String,
+    pub(crate) span: Range<usize>,
+    /// Multiplier and offset, if it follows along a line.
+    pub(crate) line: Option<[Rational; 2]>,
 }
 
 impl Reader<'_, '_, '_> {
@@ -114,8 +136,16 @@ impl Reader<'_, '_, '_> {
             })
         };
         let mimic = child(node, "mimic").map(|mimic| {
-            let other = mimic.attribute("joint").unwrap_or_default();
-            (other.to_owned(), start_tag(self.source, mimic))
+            let mut of = |key, or: i64| match mimic.has_attribute(key) {
+                true => self.number(mimic, key).map(|number| number.value),
+                false => Some(Rational::from_integer(or.into())),
+            };
+            let line = of("multiplier", 1).zip(of("offset", 0));
+            Mimic {
+                joint: mimic.attribute("joint").unwrap_or_default().to_owned(),
+                span: start_tag(self.source, mimic),
+                line: line.map(|(multiplier, offset)| [multiplier, offset]),
+            }
         });
         for load in [&effort, &velocity, &damping].into_iter().flatten() {
             if load.value.is_negative() {
@@ -138,10 +168,12 @@ impl Reader<'_, '_, '_> {
             position: self
                 .ordered(name, position)
                 .map(|range| range.map(in_units)),
+            start: Position::Length(Rational::zero()),
             effort,
             velocity,
             damping,
             friction,
+            spring: None,
             armature: Rational::zero(),
             mimic,
         })
@@ -160,7 +192,11 @@ impl Reader<'_, '_, '_> {
 
     /// Limits that are limits: equal ones, as where they were left at zero, are
     /// none; reversed ones are an error.
-    fn ordered(&mut self, name: &str, position: Option<[Number; 2]>) -> Option<[Number; 2]> {
+    pub(crate) fn ordered(
+        &mut self,
+        name: &str,
+        position: Option<[Number; 2]>,
+    ) -> Option<[Number; 2]> {
         let [lower, upper] = position?;
         if lower.value > upper.value {
             let message = format!("the limits of joint `{name}` are reversed");

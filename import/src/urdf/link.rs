@@ -15,6 +15,27 @@ pub(crate) struct Link {
     pub(crate) span: Range<usize>,
     /// None for a frame without mass.
     pub(crate) inertial: Option<Inertial>,
+    /// What of its mass cannot be read: an error where the link moves.
+    pub(crate) unread: Vec<Unread>,
+    pub(crate) role: Role,
+}
+
+/// What a link stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    Body,
+    /// Nothing: it lies between two joints of one body.
+    Between,
+    /// A frame or a weight on a body, at which no chain ends unless that is asked for.
+    Mark,
+}
+
+/// What cannot be read, and the likely fix.
+#[derive(Clone, Debug)]
+pub(crate) struct Unread {
+    pub(crate) span: Range<usize>,
+    pub(crate) message: String,
+    pub(crate) help: &'static str,
 }
 
 /// Mass, centre and inertia.
@@ -37,6 +58,8 @@ impl Reader<'_, '_, '_> {
             name: name.to_owned(),
             span: start_tag(self.source, node),
             inertial,
+            unread: Vec::new(),
+            role: Role::Body,
         })
     }
 

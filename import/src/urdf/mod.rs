@@ -1,13 +1,11 @@
 //! What a URDF says: links, joints, and the rotors of transmissions.
 //!
-//! - `guard`: limits of the text, and whether it is a xacro
 //! - `number`: numbers and words of attributes
 //! - `link`: a link and its inertial
 //! - `joint`: a joint and what drives it
 //!
 //! Shapes, materials and sensors are not looked at, nor is what simulators add.
 
-mod guard;
 mod joint;
 mod link;
 mod number;
@@ -19,12 +17,12 @@ use roxmltree::{Document, Node};
 
 use crate::problems::Problems;
 
-pub(crate) use joint::{Joint, Kind};
-pub(crate) use link::{Inertial, Link};
+pub(crate) use joint::{Joint, Kind, Mimic};
+pub(crate) use link::{Inertial, Link, Role, Unread};
 pub(crate) use number::{Number, Origin, Value};
 
 /// No robot has more links, or joints.
-const MAX_LINKS: usize = 1024;
+pub(crate) const MAX_LINKS: usize = 1024;
 
 /// A URDF, every joint with a parent and a child that there are.
 #[derive(Clone, Debug)]
@@ -37,34 +35,33 @@ pub(crate) struct Urdf {
     pub(crate) joints: Vec<Joint>,
     /// The names of all links and of all joints, those that cannot be read included.
     pub(crate) names: [BTreeSet<String>; 2],
+    /// Gravity in the axes of the root, where the file says it.
+    pub(crate) gravity: Option<[Number; 3]>,
+    /// What ties joints or links to each other beside the tree.
+    pub(crate) ties: Vec<Tie>,
+}
+
+/// What ties joints or links to each other beside the tree.
+#[derive(Clone, Debug)]
+pub(crate) struct Tie {
+    pub(crate) span: Range<usize>,
+    /// As messages call it: ``the fixed tendon `split` ``.
+    pub(crate) name: String,
+    pub(crate) ends: Tied,
+}
+
+/// The joints or the links that are tied.
+#[derive(Clone, Debug)]
+pub(crate) enum Tied {
+    /// Joints, none of which moves by itself.
+    Joints(Vec<String>),
+    /// Links that keep a distance or a pose to each other.
+    Links(Vec<String>),
 }
 
 /// Reads a URDF; `None` after saying why there is none.
-pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
-    if !guard::admits(source, problems) {
-        return None;
-    }
-    // Nodes: more than any robot has, fewer than fill a memory.
-    let options = roxmltree::ParsingOptions {
-        allow_dtd: false,
-        nodes_limit: 1 << 20,
-        ..Default::default()
-    };
-    let document = match Document::parse_with_options(source, options) {
-        Ok(document) => document,
-        Err(error) => {
-            let at = error.pos();
-            let before = source.lines().take(at.row.saturating_sub(1) as usize);
-            let start: usize = before.map(|line| line.len() + 1).sum();
-            let at = start + at.col.saturating_sub(1) as usize;
-            let help = match source.trim_start().starts_with('<') {
-                true => "",
-                false => "a URDF is XML: <robot name=\"arm\"> …",
-            };
-            problems.error(&(at..at + 1), format!("no XML: {error}"), help);
-            return None;
-        }
-    };
+pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
+    let source = document.input_text();
     let root = document.root_element();
     let span = start_tag(source, root);
     if let Some(help) = other_format(root) {
@@ -88,13 +85,9 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
         "joint",
         joints.iter().map(|joint| (&joint.name, &joint.span)),
     );
-    for (what, count) in [("links", links.len()), ("joints", joints.len())] {
-        if count <= MAX_LINKS {
-            continue;
-        }
-        let message = format!("there are {count} {what}, more than {MAX_LINKS}");
-        let help = "is this a robot? cut out the arm";
-        reader.problems.error(&span, message, help);
+    if !reader.are_few(&span, "links", links.len())
+        || !reader.are_few(&span, "joints", joints.len())
+    {
         return None;
     }
     if links.is_empty() {
@@ -114,6 +107,8 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
         links,
         joints,
         names,
+        gravity: None,
+        ties: Vec::new(),
     })
 }
 
@@ -121,11 +116,9 @@ pub(crate) fn read(source: &str, problems: &mut Problems) -> Option<Urdf> {
 fn other_format(root: Node) -> Option<&'static str> {
     match root.tag_name().name() {
         "robot" => None,
-        "mujoco" => Some(
-            "this is MJCF, which is not read: take the URDF that it was made from, or write the joints' placements into a robot file",
-        ),
+        "mujocoinclude" => Some("this is a part of an MJCF: give the file that includes it"),
         "sdf" => Some("this is SDF, which is not read: take the URDF that it was made from"),
-        _ => Some("a URDF begins with <robot name=\"arm\">"),
+        _ => Some("a URDF begins with <robot name=\"arm\">, MJCF with <mujoco>"),
     }
 }
 
@@ -136,7 +129,17 @@ pub(crate) struct Reader<'r, 's, 'p> {
 }
 
 impl Reader<'_, '_, '_> {
-    fn unique<'n>(
+    /// Returns whether a robot may have so many, after saying why not.
+    pub(crate) fn are_few(&mut self, span: &Range<usize>, what: &str, count: usize) -> bool {
+        if count > MAX_LINKS {
+            let message = format!("there are {count} {what}, more than {MAX_LINKS}");
+            let help = "is this a robot? cut out the arm";
+            self.problems.error(span, message, help);
+        }
+        count <= MAX_LINKS
+    }
+
+    pub(crate) fn unique<'n>(
         &mut self,
         what: &str,
         names: impl Iterator<Item = (&'n String, &'n Range<usize>)>,

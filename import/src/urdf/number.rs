@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::Placement;
 use num_traits::Zero;
 use roxmltree::Node;
 
@@ -37,12 +38,14 @@ impl<T> Value<T> {
 pub(crate) struct Origin {
     pub(crate) xyz: [Number; 3],
     pub(crate) rpy: [Value<Angle>; 3],
+    /// What digits that are no angles, as a quaternion's, were meant to place.
+    pub(crate) meant: Option<Placement>,
 }
 
 impl Origin {
     /// The placement that it is.
-    pub(crate) fn placement(&self) -> dalembert_model::robot::Placement {
-        dalembert_model::robot::Placement {
+    pub(crate) fn placement(&self) -> Placement {
+        Placement {
             xyz: self.xyz.each_ref().map(|x| x.value.clone()),
             rpy: self.rpy.each_ref().map(|x| x.value.clone()),
         }
@@ -62,6 +65,7 @@ impl Reader<'_, '_, '_> {
         Some(Origin {
             xyz: xyz?,
             rpy: rpy?.map(radians),
+            meant: None,
         })
     }
 
@@ -78,6 +82,16 @@ impl Reader<'_, '_, '_> {
     /// Three numbers in one attribute.
     pub(crate) fn triple(&mut self, node: Node, key: &str) -> Option<[Number; 3]> {
         let (text, span) = self.attribute(node, key)?;
+        self.list(key, text, span)
+    }
+
+    /// Returns so many numbers of an attribute's text.
+    pub(crate) fn list<const N: usize>(
+        &mut self,
+        key: &str,
+        text: &str,
+        span: Range<usize>,
+    ) -> Option<[Number; N]> {
         let mut words = Vec::new();
         let mut at = 0;
         for word in text.split_ascii_whitespace() {
@@ -88,9 +102,10 @@ impl Reader<'_, '_, '_> {
             let inside = self.source.get(word_span.clone()) == Some(word);
             words.push((word, if inside { word_span } else { span.clone() }));
         }
-        if words.len() != 3 {
-            let message = format!("`{key}` has {} numbers, not 3", words.len());
-            let help = format!("{key}=\"x y z\", with spaces between");
+        if words.len() != N {
+            let message = format!("`{key}` has {} numbers, not {N}", words.len());
+            let names = &["x", "y", "z", "u", "v", "w"][..N.min(6)];
+            let help = format!("{key}=\"{}\", with spaces between", names.join(" "));
             self.problems.error(&span, message, &help);
             return None;
         }

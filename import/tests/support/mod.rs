@@ -79,7 +79,11 @@ pub fn refused(source: &str, options: &Options) -> String {
 }
 
 pub fn golden(name: &str) -> Golden {
-    let json = json(name);
+    flat_states(&json(name))
+}
+
+/// The joints and the states of golden values.
+pub fn flat_states(json: &Value) -> Golden {
     let joints = json["joints"].as_array().unwrap();
     let states = json["states"].as_array().unwrap();
     let state = |state: &Value| State {

@@ -1,4 +1,4 @@
-//! Limits of the text, and whether it is a xacro, before the parser sees it.
+//! The XML: limits of the text, and whether it is a xacro, before the parser sees it.
 //!
 //! The parser compares every attribute of an element with those before it, and every
 //! namespace with those of the elements around: the limits keep both linear in the
@@ -6,27 +6,59 @@
 
 use std::ops::Range;
 
+use roxmltree::Document;
+
 use crate::MAX_BYTES;
 use crate::problems::Problems;
 
-/// The most attributes of one element: a URDF has six.
+/// The most attributes of one element: a URDF has six, an actuator of MJCF thirty.
 pub(crate) const MAX_ATTRIBUTES: usize = 64;
 /// The most namespaces of a file.
 const MAX_NAMESPACES: usize = 64;
 /// The beginnings of expressions of xacro.
 const EXPRESSIONS: [&str; 2] = ["${", "$("];
 
+/// Deeper elements are in no robot.
+const MAX_DEPTH: usize = 256;
+
+/// Returns the text as XML; `None` after saying why it is none.
+pub(crate) fn parse<'s>(source: &'s str, problems: &mut Problems) -> Option<Document<'s>> {
+    if !admits(source, problems) {
+        return None;
+    }
+    // Nodes: more than any robot has, fewer than fill a memory.
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: false,
+        nodes_limit: 1 << 20,
+        ..Default::default()
+    };
+    let error = match Document::parse_with_options(source, options) {
+        Ok(document) => return Some(document),
+        Err(error) => error,
+    };
+    let at = error.pos();
+    let before = source.lines().take(at.row.saturating_sub(1) as usize);
+    let start: usize = before.map(|line| line.len() + 1).sum();
+    let at = start + at.col.saturating_sub(1) as usize;
+    let help = match source.trim_start().starts_with('<') {
+        true => "",
+        false => "a URDF is XML: <robot name=\"arm\"> …; so is MJCF: <mujoco> …",
+    };
+    problems.error(&(at..at + 1), format!("no XML: {error}"), help);
+    None
+}
+
 /// Returns whether the text may be parsed, after saying why not.
-pub(super) fn admits(source: &str, problems: &mut Problems) -> bool {
+fn admits(source: &str, problems: &mut Problems) -> bool {
     if source.len() > MAX_BYTES {
         let message = format!(
-            "the file is too long: a URDF has at most {} MiB",
+            "the file is too long: a model of a robot has at most {} MiB",
             MAX_BYTES >> 20
         );
         problems.error(&(0..0), message, "is this the right file?");
         return false;
     }
-    let mut namespaces = 0;
+    let (mut namespaces, mut depth) = (0, 0usize);
     for (is_tag, span) in pieces(source) {
         let text = &source[span.clone()];
         let expression = EXPRESSIONS.iter().filter_map(|begin| text.find(begin));
@@ -46,6 +78,11 @@ pub(super) fn admits(source: &str, problems: &mut Problems) -> bool {
             continue;
         }
         namespaces += text.matches("xmlns").count();
+        depth = match (text.starts_with("</"), text.ends_with("/>")) {
+            (true, _) => depth.saturating_sub(1),
+            (false, true) => depth,
+            (false, false) => depth + 1,
+        };
         let problem = match attributes(text) {
             count if count > MAX_ATTRIBUTES => {
                 format!("an element with {count} attributes, more than {MAX_ATTRIBUTES}")
@@ -53,10 +90,13 @@ pub(super) fn admits(source: &str, problems: &mut Problems) -> bool {
             _ if namespaces > MAX_NAMESPACES => {
                 format!("the file has more than {MAX_NAMESPACES} namespaces")
             }
+            _ if depth > MAX_DEPTH => {
+                format!("more than {MAX_DEPTH} elements are inside each other")
+            }
             _ => continue,
         };
         let span = span.start..span.start + text.lines().next().map_or(1, str::len);
-        problems.error(&span, problem, "is this a URDF?");
+        problems.error(&span, problem, "is this a model of a robot?");
         return false;
     }
     true

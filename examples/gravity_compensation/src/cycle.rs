@@ -1,0 +1,92 @@
+//! What a microcontroller does every millisecond: ticks in, commands out.
+
+use crate::servo::Servo;
+
+/// The period, s.
+pub const PERIOD: f32 = 1e-3;
+/// Full support comes after this time, s: who holds the arm feels it grow lighter.
+const RAMP: f32 = 2.0;
+/// Speeds are means over this time, s: one tick in a millisecond is 1.5 rad/s.
+const MEAN: f32 = 0.02;
+/// A hand that leads an arm is slower than this, rad/s; an arm that falls soon is not.
+const FASTEST: f32 = 2.0;
+/// What stops an arm that was pushed, N·m s/rad: without it only friction would.
+const DAMPING: f32 = 0.15;
+/// The share of friction that is given back: with all of it the arm would creep.
+const HELP: f32 = 0.5;
+/// The speed over which the sign of friction is smoothed, rad/s.
+const SMOOTH: f32 = 0.2;
+
+/// Why the arm was let go, and the joint that said so, from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// It moves faster than a hand moves it: a wrong sign, or a wrong zero.
+    Fast(usize),
+    /// Its angle jumped: a cable, or a servo that was reset.
+    Jump(usize),
+}
+
+/// Gravity compensation of an arm.
+#[derive(Clone, Debug)]
+pub struct Cycle<const N: usize> {
+    servos: [Servo; N],
+    gravity: fn(&[f32; N]) -> [f32; N],
+    q: Option<[f32; N]>,
+    qd: [f32; N],
+    support: f32,
+    stop: Option<Stop>,
+}
+
+impl<const N: usize> Cycle<N> {
+    /// Makes one that supports nothing yet, from the generated function of the arm.
+    pub fn new(servos: [Servo; N], gravity: fn(&[f32; N]) -> [f32; N]) -> Self {
+        Cycle {
+            servos,
+            gravity,
+            q: None,
+            qd: [0.0; N],
+            support: 0.0,
+            stop: None,
+        }
+    }
+
+    /// Returns why it let go of the arm, if it did.
+    pub fn stop(&self) -> Option<Stop> {
+        self.stop
+    }
+
+    /// Returns the commands for the ticks that the servos have now; call it every
+    /// [`PERIOD`]. After a [`Stop`] all commands are zero.
+    pub fn step(&mut self, ticks: &[u16; N]) -> [i16; N] {
+        let q: [f32; N] = core::array::from_fn(|i| self.servos[i].angle(ticks[i]));
+        let before = self.q.replace(q).unwrap_or(q);
+        for i in 0..N {
+            let speed = (q[i] - before[i]) / PERIOD;
+            self.qd[i] += (speed - self.qd[i]) * (PERIOD / MEAN);
+            // A joint that turns at its fastest moves by far less in a period.
+            let jumped = (q[i] - before[i]).abs() > 20.0 * FASTEST * PERIOD;
+            let found = match (jumped, self.qd[i].abs() > FASTEST) {
+                (true, _) => Some(Stop::Jump(i)),
+                (_, true) => Some(Stop::Fast(i)),
+                _ => None,
+            };
+            self.stop = self.stop.or(found);
+        }
+        if self.stop.is_some() {
+            return [0; N];
+        }
+        self.support = (self.support + PERIOD / RAMP).min(1.0);
+        let load = (self.gravity)(&q);
+        core::array::from_fn(|i| {
+            let servo = &self.servos[i];
+            let qd = self.qd[i];
+            let friction = HELP * servo.friction * smooth_sign(qd) - DAMPING * qd;
+            servo.command(self.support * (load[i] + friction), self.support * qd)
+        })
+    }
+}
+
+/// x / (|x| + w): a sign that is no step, and takes no root.
+fn smooth_sign(speed: f32) -> f32 {
+    speed / (speed.abs() + SMOOTH)
+}

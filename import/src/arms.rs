@@ -1,0 +1,106 @@
+//! Every arm of a robot, each as a chain of its own.
+
+use std::collections::BTreeSet;
+
+use dalembert_model::read::Diagnostics;
+use dalembert_model::robot::suggested_name;
+
+use crate::lock::OTHERS;
+use crate::problems::Problems;
+use crate::{Imported, Options, Text, import_text, model, tree};
+
+/// The arms of a robot.
+#[derive(Clone, Debug)]
+pub struct Arms {
+    /// Each with a name of its own, in the order of the file.
+    pub arms: Vec<(String, Imported)>,
+    /// The pairs of arms that move each other.
+    pub shared: Vec<Shared>,
+}
+
+/// Two arms that hang on joints which both have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shared {
+    /// The names of the two.
+    pub arms: [String; 2],
+    /// The joints of both, from the base on.
+    pub joints: Vec<String>,
+}
+
+/// Makes a robot file of every arm of a model: from the base to each palm, or end of a chain
+/// of three joints or more, with all other joints held.
+///
+/// # Errors
+/// Everything that is wrong with the model or with one of its arms.
+pub fn arms(text: &Text, options: &Options) -> Result<Arms, Diagnostics> {
+    let mut problems = Problems::of(text);
+    let urdf = model(text.as_str(), options, &mut problems);
+    let tips = urdf.and_then(|urdf| Some((tree::tips(&urdf, options, &mut problems)?, urdf.name)));
+    let notes = problems.finish()?;
+    let Some((tips, robot)) = tips else {
+        return Err(Diagnostics(notes));
+    };
+    let mut lock = options.lock.clone();
+    if !lock.iter().any(|(name, _)| name == OTHERS) {
+        lock.push((OTHERS.to_owned(), "0".to_owned()));
+    }
+    let mut names = BTreeSet::new();
+    let mut arms = Vec::new();
+    let mut errors: Vec<_> = Vec::new();
+    for tip in tips {
+        let robot = options.name.as_ref().unwrap_or(&robot);
+        let wish = suggested_name(&format!("{robot}_{tip}")).unwrap_or_else(|| "arm".to_owned());
+        let mut name = wish.clone();
+        while !names.insert(name.clone()) {
+            name = format!("{wish}_{}", names.len());
+        }
+        let own = Options {
+            tip: Some(tip),
+            lock: lock.clone(),
+            name: Some(name.clone()),
+            ..options.clone()
+        };
+        match import_text(text, &own) {
+            Ok(imported) => arms.push((name, imported)),
+            Err(Diagnostics(found)) => {
+                for error in found {
+                    if !errors.contains(&error) {
+                        errors.push(error);
+                    }
+                }
+            }
+        }
+    }
+    if !errors.is_empty() {
+        return Err(Diagnostics(errors));
+    }
+    let shared = shared(&arms);
+    Ok(Arms { arms, shared })
+}
+
+/// Returns the pairs of arms with joints that both have.
+fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {
+    let joints = |arm: &Imported| {
+        let names = arm
+            .robot
+            .joints
+            .iter()
+            .filter_map(|joint| joint.name.clone());
+        names.collect::<Vec<String>>()
+    };
+    let mut pairs = Vec::new();
+    for (index, (one, arm)) in arms.iter().enumerate() {
+        for (other, beside) in &arms[index + 1..] {
+            let theirs = joints(beside);
+            let both = joints(arm).into_iter().filter(|name| theirs.contains(name));
+            let both: Vec<String> = both.collect();
+            if !both.is_empty() {
+                pairs.push(Shared {
+                    arms: [one.clone(), other.clone()],
+                    joints: both,
+                });
+            }
+        }
+    }
+    pairs
+}

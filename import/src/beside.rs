@@ -1,0 +1,230 @@
+//! What hangs beside the chain: held, tied to it, or left out.
+
+use std::collections::BTreeSet;
+
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::Position;
+use dalembert_model::robot::values::position;
+use num_traits::Zero;
+
+use crate::lock;
+use crate::tree::{Moving, Step, Tree};
+use crate::urdf::{Joint, Kind, Mimic, Tied};
+
+impl Tree<'_, '_, '_> {
+    /// Returns the joint beside the chain as one that is held; `None` after saying that it
+    /// moves.
+    pub(crate) fn hold(&mut self, joint: usize) -> Option<Step> {
+        let own = &self.urdf.joints[joint];
+        let text = self.others.clone();
+        let is_held = |kind: Kind| kind.has_one_axis() || kind == Kind::Ball;
+        let Some(text) = text.filter(|_| is_held(own.kind)) else {
+            self.moves_beside(joint);
+            return None;
+        };
+        if own.kind == Kind::Ball {
+            let message = format!("joint `{}` is held where the model has it", own.name);
+            let help = "a ball turns about any axis: --without LINK leaves its link away";
+            self.problems.note(&own.span, message, help);
+            return Some(Step { joint, at: None });
+        }
+        let at = match self.follows(joint) {
+            Some(at) => at,
+            None => lock::nearest(own, &text, self.problems)?,
+        };
+        self.held.push((joint, at.clone()));
+        let at = Some(at);
+        Some(Step { joint, at })
+    }
+
+    /// Returns where a joint is that follows one that is held, directly or by others.
+    fn follows(&mut self, joint: usize) -> Option<Position> {
+        let mut lines: Vec<[Rational; 2]> = Vec::new();
+        let mut leader = joint;
+        let at = loop {
+            let Joint { mimic, .. } = &self.urdf.joints[leader];
+            let own = self.locks.get(&leader).filter(|_| leader != joint);
+            match (own, mimic) {
+                (Some(at), _) => break at.clone(),
+                // Longer than all joints is a circle, in which nothing leads.
+                (None, Some(mimic)) if lines.len() <= self.urdf.joints.len() => {
+                    let mut joints = self.urdf.joints.iter();
+                    lines.push(mimic.line.clone()?);
+                    leader = joints.position(|other| other.name == mimic.joint)?;
+                }
+                (None, _) if leader == joint || mimic.is_some() => return None,
+                (None, _) => {
+                    let text = self.others.clone()?;
+                    break lock::nearest(&self.urdf.joints[leader], &text, self.problems)?;
+                }
+            }
+        };
+        let along = |at: Rational| {
+            let lines = lines.iter().rev();
+            lines.fold(at, |at, [multiplier, offset]| multiplier * at + offset)
+        };
+        let slides = self.urdf.joints[joint].kind == Kind::Prismatic;
+        let value = match at {
+            // A multiple of a multiple of π, but for an offset, is one.
+            Position::Angle(Angle::PiTimes(value)) if !slides => {
+                let bare = along(Rational::zero());
+                if bare.is_zero() {
+                    let unit = along(value);
+                    return Some(Position::Angle(Angle::PiTimes(unit)));
+                }
+                along(Angle::PiTimes(value).radians())
+            }
+            Position::Angle(angle) => along(angle.radians()),
+            Position::Length(length) => along(length),
+        };
+        Some(match slides {
+            true => Position::Length(value),
+            false => Position::Angle(Angle::Radians(value).canonical()),
+        })
+    }
+
+    /// Returns whether nothing beside the chain follows a joint of it, after saying what does.
+    pub(crate) fn leads_nothing_beside(&mut self, leader: usize) -> bool {
+        let name = &self.urdf.joints[leader].name;
+        let follower = self.held.iter().find(|(held, _)| {
+            let mimic = &self.urdf.joints[*held].mimic;
+            mimic.as_ref().is_some_and(|mimic| mimic.joint == *name)
+        });
+        let Some((held, _)) = follower else {
+            return true;
+        };
+        let Joint { name: own, .. } = &self.urdf.joints[*held];
+        let span = self.urdf.joints[*held]
+            .mimic
+            .as_ref()
+            .map(|mimic| &mimic.span);
+        let message = format!("joint `{own}` hangs on the chain and follows `{name}`, which moves");
+        let at = lock::advised(&self.urdf.joints[*held]);
+        let help = format!(
+            "it cannot be held as the others are: add --lock {own}={at} to have it stand still all the same"
+        );
+        self.problems.error(span.unwrap_or(&(0..0)), message, &help);
+        false
+    }
+
+    /// Returns whether nothing ties the chain's joints to others or its links to what does not
+    /// move with them, after saying what does.
+    pub(crate) fn is_free_of_ties(&mut self, moving: &[Moving]) -> bool {
+        let mut good = true;
+        let mover = |name: &String| {
+            let has_it = |link: usize| self.urdf.links[link].name == *name;
+            moving
+                .iter()
+                .position(|own| own.links.iter().any(|(link, _)| has_it(*link)))
+        };
+        let mut found = Vec::new();
+        for tie in &self.urdf.ties {
+            match &tie.ends {
+                Tied::Joints(names) => {
+                    let own =
+                        |moving: &&Moving| names.contains(&self.urdf.joints[moving.joint].name);
+                    found.extend(moving.iter().find(own).map(|moving| {
+                        let joint = &self.urdf.joints[moving.joint].name;
+                        let at = lock::advised(&self.urdf.joints[moving.joint]);
+                        let message = format!("joint `{joint}` of the chain is tied by {}", tie.name);
+                        let help = format!("each joint moves by itself: add --lock {joint}={at}, end before it by --tip, or take the tie out");
+                        (&tie.span, message, help)
+                    }));
+                }
+                Tied::Links(names) => {
+                    let movers: BTreeSet<Option<usize>> = names.iter().map(mover).collect();
+                    if movers.len() > 1 {
+                        let message = format!(
+                            "{} ties `{}`, which move apart",
+                            tie.name,
+                            names.join("` and `")
+                        );
+                        let help = "closed loops are not read: take the tie out, or hold what moves between them by --lock".to_owned();
+                        found.push((&tie.span, message, help));
+                    }
+                }
+            }
+        }
+        for (span, message, help) in found {
+            self.problems.error(span, message, &help);
+            good = false;
+        }
+        good
+    }
+
+    /// Lists the joints beside the chain that are held, once.
+    pub(crate) fn say_held(&mut self) {
+        self.held.sort_by_key(|(joint, _)| *joint);
+        let Some((first, _)) = self.held.first() else {
+            return;
+        };
+        let held = self.held.iter().map(|(joint, at)| {
+            format!(
+                "`{}` at {}",
+                self.urdf.joints[*joint].name,
+                position(at).replace('"', "")
+            )
+        });
+        let held = held.collect::<Vec<_>>().join(", ");
+        let message = format!("what hangs on the chain is held: {held}");
+        let help = "--lock JOINT=VALUE holds one elsewhere, --without LINK leaves it away";
+        self.problems
+            .note(&self.urdf.joints[*first].span, message, help);
+    }
+
+    fn moves_beside(&mut self, joint: usize) {
+        let Joint {
+            name,
+            span,
+            kind,
+            child: (child, _),
+            mimic,
+            ..
+        } = &self.urdf.joints[joint];
+        let follows = match mimic {
+            Some(Mimic { joint: other, .. }) => format!(", mimics `{other}`"),
+            None => String::new(),
+        };
+        let message = format!(
+            "joint `{name}` is {}{follows} and hangs on the chain without being part of it",
+            kind.word()
+        );
+        let help = match kind.has_one_axis() {
+            false => format!("leave its link away: --without {child}"),
+            true => {
+                let at = lock::advised(&self.urdf.joints[joint]);
+                format!(
+                    "add --lock {name}={at}, or leave its link away: --without {child}; \
+                     --lock-others 0 holds all that hangs on the chain"
+                )
+            }
+        };
+        self.problems.error(span, message, &help);
+    }
+
+    /// Says what hangs on the base: it moves no joint of the chain, and is left out.
+    pub(crate) fn beside_the_base(&mut self, base: usize, path: &BTreeSet<usize>) {
+        let mut open = vec![base];
+        let mut others = Vec::new();
+        while let Some(link) = open.pop() {
+            for joint in self.below.get(&link).into_iter().flatten() {
+                let [_, child] = self.ends[*joint];
+                match self.step(*joint) {
+                    Some(_) if !self.without.contains(&child) => open.push(child),
+                    None if !path.contains(joint) => others.push(*joint),
+                    _ => {}
+                }
+            }
+        }
+        others.sort_unstable();
+        let [first, ..] = others[..] else { return };
+        let names = others
+            .iter()
+            .map(|joint| self.urdf.joints[*joint].name.as_str());
+        let names = names.collect::<Vec<_>>().join(", ");
+        let message = format!("what hangs on the base is left out: {names}");
+        let help = "a base that stands still feels nothing of it";
+        self.problems
+            .note(&self.urdf.joints[first].span, message, help);
+    }
+}

@@ -1,0 +1,63 @@
+//! Actuators, as limits of torque.
+
+use std::collections::BTreeMap;
+
+use dalembert_model::number::Rational;
+use num_traits::{One, Signed};
+use roxmltree::Node;
+
+use super::{Mjcf, within};
+use crate::urdf::{Number, Urdf};
+
+impl<'a> Mjcf<'a, '_, '_, '_> {
+    /// Takes the forces of actuators for the joints' limits of torque: those of all that
+    /// drive a joint together, or the joint's own limit where that is less.
+    pub(super) fn forces(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
+        let mut limits: BTreeMap<&str, Option<Number>> = BTreeMap::new();
+        for node in within(root, "actuator") {
+            let joint = node.attribute("joint").or(node.attribute("jointinparent"));
+            let Some(joint) = joint else {
+                continue;
+            };
+            let limit = self.force(node);
+            // One without a limit leaves none.
+            match (limits.remove(joint), limit) {
+                (Some(Some(before)), Some(own)) => {
+                    let value = &before.value + &own.value;
+                    limits.insert(joint, Some(Number { value, ..own }));
+                }
+                (None, own) => drop(limits.insert(joint, own)),
+                _ => drop(limits.insert(joint, None)),
+            }
+        }
+        for joint in &mut urdf.joints {
+            let Some(limit) = limits.remove(joint.name.as_str()).flatten() else {
+                continue;
+            };
+            let own = joint.effort.take();
+            let is_less = |own: &Number| own.value < limit.value;
+            joint.effort = own.filter(is_less).or(Some(limit));
+        }
+    }
+
+    /// Returns the largest force of an actuator at its joint.
+    fn force(&mut self, node: Node<'a, '_>) -> Option<Number> {
+        let class = self.class_of(node, "class", 0);
+        let force = self.force_range(node, class, "forcerange", "forcelimited");
+        // What a motor is told is its force.
+        let is_motor = node.has_tag_name("motor") && force.is_none();
+        let force = match is_motor {
+            true => self.force_range(node, class, "ctrlrange", "ctrllimited"),
+            false => force,
+        };
+        let gear = match self.text(node, class, "gear") {
+            None => Rational::one(),
+            Some((text, span)) => {
+                let first = text.split_ascii_whitespace().next().unwrap_or_default();
+                self.reader.parse(first, span)?.value.abs()
+            }
+        };
+        let force = force?.map(|value| value * gear);
+        force.value.is_positive().then_some(force)
+    }
+}

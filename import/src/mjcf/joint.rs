@@ -1,0 +1,212 @@
+//! A joint: where it is, what it turns about, and its limits.
+
+use std::ops::Range;
+
+use dalembert_model::number::{Angle, Rational, Wide};
+use dalembert_model::placed::frame::direction;
+use dalembert_model::robot::Position;
+use dalembert_model::scalar::Scalar;
+use num_traits::{Signed, Zero};
+
+use super::Mjcf;
+use super::pose::Pose;
+use super::world::Item;
+use crate::problems::instead;
+use crate::urdf::{Joint, Kind, Number, Value, start_tag};
+
+const KINDS: [(&str, Kind); 4] = [
+    ("hinge", Kind::Revolute),
+    ("slide", Kind::Prismatic),
+    ("free", Kind::Floating),
+    ("ball", Kind::Ball),
+];
+
+impl<'a> Mjcf<'a, '_, '_, '_> {
+    /// Reads a joint at a place on what it hangs on, and returns it with its anchor in the
+    /// body's frame; `None` after saying what is wrong.
+    pub(super) fn joint(
+        &mut self,
+        item: &Item<'a, '_>,
+        name: String,
+        at: &Pose,
+    ) -> Option<(Joint, [Rational; 3])> {
+        let Item { node, frame, .. } = item;
+        let node = *node;
+        let class = self.class_of(node, "class", item.class);
+        let span = start_tag(self.reader.source, node);
+        let still = Joint {
+            name,
+            kind: Kind::Floating,
+            ..self.fixed(
+                (String::new(), span.clone()),
+                (String::new(), span.clone()),
+                at,
+            )
+        };
+        let none = [(); 3].map(|()| Rational::zero());
+        if node.has_tag_name("freejoint") {
+            return Some((still, none));
+        }
+        let kind = match self.text(node, class, "type") {
+            None => Kind::Revolute,
+            Some((word, span)) => {
+                let found = KINDS.iter().find(|(known, _)| *known == word);
+                if found.is_none() {
+                    let message = format!("`{word}` is no type of joint");
+                    let help = instead(word, KINDS.iter().map(|(word, _)| *word));
+                    self.reader.problems.error(&span, message, &help);
+                }
+                found?.1
+            }
+        };
+        let [axis, pos] = [("axis", ["0", "0", "1"]), ("pos", ["0", "0", "0"])].map(|(key, or)| {
+            match self.text(node, class, key) {
+                Some((text, span)) => self.reader.list(key, text, span),
+                None => Some(self.reader.constant(node, or)),
+            }
+        });
+        let (axis, pos) = (frame.rotate(&axis?), pos?);
+        let anchor = match kind {
+            // Where it slides along says nothing of where it is.
+            Kind::Prismatic | Kind::Floating => none,
+            _ => frame.apply(&pos.map(|x| x.value)),
+        };
+        let along = direction(&axis.each_ref().map(|x| x.value.clone()));
+        // What turns about any axis needs none.
+        let any = [(); 3].map(|()| Wide::zero());
+        let Some(along) = along.or((!kind.has_one_axis()).then_some(any)) else {
+            let message = format!("the axis of joint `{}` has no direction", still.name);
+            self.reader
+                .problems
+                .error(&axis[0].span, message, "axis=\"0 0 1\"");
+            return None;
+        };
+        let mut place = at.shift(&anchor);
+        let zero = self
+            .number(node, class, "ref")
+            .filter(|zero| !zero.value.is_zero());
+        match (&zero, kind) {
+            (Some(zero), Kind::Revolute) => place = place.turn(&along, &self.angle(zero).negate()),
+            (Some(zero), Kind::Prismatic) => {
+                let back = along.map(|x| x.to_rational() * -&zero.value);
+                place = place.shift(&back);
+            }
+            _ => {}
+        }
+        let start = match (zero, kind) {
+            (Some(zero), Kind::Revolute) => Position::Angle(self.angle(&zero)),
+            (Some(zero), _) => Position::Length(zero.value),
+            (None, _) => still.start.clone(),
+        };
+        let mut number = |key| self.number(node, class, key);
+        let [armature, damping, friction, spring] =
+            ["armature", "damping", "frictionloss", "stiffness"].map(&mut number);
+        let loads = [
+            ("armature", &armature),
+            ("damping", &damping),
+            ("frictionloss", &friction),
+        ];
+        for (key, load) in loads {
+            if let Some(load) = load.as_ref().filter(|load| load.value.is_negative()) {
+                let message = format!("the {key} of joint `{}` is negative", still.name);
+                let help = "it adds inertia or takes energy out: zero or more";
+                self.reader.problems.error(&load.span, message, help);
+            }
+        }
+        let position = match self.is_limited(node, class, "limited", "range") {
+            true => self.list::<2>(node, class, "range"),
+            false => None,
+        };
+        let position = self.reader.ordered(&still.name, position);
+        let position = position.map(|range| range.map(|end| self.in_units(kind, end)));
+        let joint = Joint {
+            kind,
+            origin: place.origin(),
+            axis,
+            position,
+            start,
+            effort: self.force_range(node, class, "actuatorfrcrange", "actuatorfrclimited"),
+            damping,
+            friction,
+            spring: spring.filter(|spring| !spring.value.is_zero()),
+            armature: armature.map_or_else(Rational::zero, |armature| armature.value),
+            ..still
+        };
+        Some((joint, anchor))
+    }
+
+    /// Returns the larger end of a range of forces that is one.
+    pub(super) fn force_range(
+        &mut self,
+        node: roxmltree::Node<'a, '_>,
+        class: usize,
+        key: &str,
+        limited: &str,
+    ) -> Option<Number> {
+        if !self.is_limited(node, class, limited, key) {
+            return None;
+        }
+        let [low, high] = self.list::<2>(node, class, key)?;
+        let [low, high] = [low, high].map(|end| end.map(|value| value.abs()));
+        let largest = if low.value > high.value { low } else { high };
+        (!largest.value.is_zero()).then_some(largest)
+    }
+
+    fn in_units(&self, kind: Kind, end: Number) -> Value<Position> {
+        let unit = match kind {
+            Kind::Revolute if self.settings.degrees => "deg",
+            _ => "",
+        };
+        let value = match kind {
+            Kind::Prismatic => Position::Length(end.value.clone()),
+            _ => Position::Angle(self.angle(&end)),
+        };
+        let text = format!("{}{unit}", end.text);
+        Value {
+            value,
+            text,
+            span: end.span,
+        }
+    }
+
+    /// Returns a joint that does not move.
+    pub(super) fn fixed(
+        &self,
+        parent: (String, Range<usize>),
+        child: (String, Range<usize>),
+        at: &Pose,
+    ) -> Joint {
+        let span = child.1.clone();
+        let number = |value: i64| Value {
+            value: Rational::from_integer(value.into()),
+            text: value.to_string(),
+            span: span.clone(),
+        };
+        Joint {
+            name: format!("to {}", child.0),
+            span: span.clone(),
+            kind: Kind::Fixed,
+            origin: at.origin(),
+            parent,
+            child,
+            axis: [number(0), number(0), number(1)],
+            position: None,
+            start: Position::Length(Rational::zero()),
+            effort: None,
+            velocity: None,
+            damping: None,
+            friction: None,
+            spring: None,
+            armature: Rational::zero(),
+            mimic: None,
+        }
+    }
+}
+
+/// Returns an angle or a length as a number of rad or m.
+pub(super) fn radians(position: &Position) -> Rational {
+    match position {
+        Position::Angle(angle @ Angle::PiTimes(_)) => angle.radians(),
+        Position::Angle(Angle::Radians(value)) | Position::Length(value) => value.clone(),
+    }
+}

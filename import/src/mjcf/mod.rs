@@ -1,0 +1,175 @@
+//! What an MJCF says, in the terms of a URDF: bodies are links, and what a body may have
+//! beyond them becomes joints that are fixed and links that weigh nothing.
+//!
+//! - `settings`: units, orders of angles, gravity
+//! - `classes`: defaults and who inherits them
+//! - `pose`: positions and orientations
+//! - `world`: the tree of bodies
+//! - `joint`: a joint and its limits
+//! - `mass`: a body's mass, and what of it cannot be read
+//! - `geom`: the mass of simple shapes
+//! - `force`: actuators, as limits of torque
+//! - `tie`: equalities and tendons
+//!
+//! Meshes, materials, sensors and contacts are not looked at.
+
+mod classes;
+mod force;
+mod geom;
+mod joint;
+mod mass;
+mod pose;
+mod settings;
+mod tie;
+mod world;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use roxmltree::{Document, Node};
+
+use crate::problems::Problems;
+use crate::urdf::{Number, Reader, Urdf, start_tag};
+use classes::Classes;
+use settings::Settings;
+
+/// The elements that take time, and the most that a robot has of them.
+const MANY: &[(&[&str], usize)] = &[
+    (&["body", "site", "frame", "weld", "connect"], 1024),
+    (
+        &["joint", "fixed", "spatial", "general", "motor", "position"],
+        4096,
+    ),
+    (&["geom"], 8192),
+];
+
+/// Returns whether a text is read as MJCF.
+pub(crate) fn is_mjcf(document: &Document) -> bool {
+    document.root_element().has_tag_name("mujoco")
+}
+
+/// Reads an MJCF; `None` after saying why there is none.
+pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
+    let source = document.input_text();
+    let root = document.root_element();
+    let span = start_tag(source, root);
+    let reader = Reader { source, problems };
+    let mut mjcf = Mjcf {
+        reader,
+        settings: Settings::new(),
+        classes: Classes::new(),
+    };
+    if !mjcf.is_small(root) {
+        return None;
+    }
+    mjcf.settings(root);
+    mjcf.classes(root);
+    let mut urdf = Urdf {
+        name: root.attribute("model").unwrap_or("arm").to_owned(),
+        span: span.clone(),
+        links: Vec::new(),
+        joints: Vec::new(),
+        names: [BTreeSet::new(), BTreeSet::new()],
+        gravity: Some(mjcf.settings.gravity(root, &mjcf.reader)),
+        ties: Vec::new(),
+    };
+    mjcf.world(root, &mut urdf)?;
+    mjcf.forces(root, &mut urdf);
+    mjcf.ties(root, &mut urdf);
+    Some(urdf)
+}
+
+/// Reads elements, reporting what is wrong with them.
+struct Mjcf<'a, 'r, 's, 'p> {
+    reader: Reader<'r, 's, 'p>,
+    settings: Settings,
+    classes: Classes<'a>,
+}
+
+/// The text of an attribute, with its place.
+type Text<'a> = (&'a str, Range<usize>);
+
+impl<'a> Mjcf<'a, '_, '_, '_> {
+    /// Returns an attribute of an element, or what its class has for it.
+    fn text(&self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Text<'a>> {
+        match node.attribute_node(key) {
+            Some(own) => Some((own.value(), own.range_value())),
+            None => self.classes.setting(class, node, key),
+        }
+    }
+
+    /// Returns a number that an element or its class may give.
+    fn number(&mut self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Number> {
+        let [number] = self.list(node, class, key)?;
+        Some(number)
+    }
+
+    /// Returns numbers that an element or its class may give.
+    fn list<const N: usize>(
+        &mut self,
+        node: Node<'a, '_>,
+        class: usize,
+        key: &str,
+    ) -> Option<[Number; N]> {
+        let (text, span) = self.text(node, class, key)?;
+        self.reader.list(key, text, span)
+    }
+
+    /// Returns whether an attribute, `true`, `false` or `auto`, is so; by itself it is if
+    /// there is anything to limit.
+    fn is_limited(&mut self, node: Node<'a, '_>, class: usize, key: &str, range: &str) -> bool {
+        match self.text(node, class, key) {
+            Some(("true", _)) => true,
+            Some(("false", _)) => false,
+            Some((word, span)) if word != "auto" => {
+                let message = format!("`{key}` is `{word}`");
+                self.reader
+                    .problems
+                    .error(&span, message, "true, false or auto");
+                false
+            }
+            _ => self.settings.auto_limits && self.text(node, class, range).is_some(),
+        }
+    }
+
+    /// Returns whether there are no more elements than a robot has, after saying of which
+    /// there are more.
+    fn is_small(&mut self, root: Node) -> bool {
+        let span = start_tag(self.reader.source, root);
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        for node in root.descendants() {
+            *counts.entry(node.tag_name().name()).or_default() += 1;
+        }
+        for (tags, few) in MANY {
+            for tag in *tags {
+                let count = counts.get(tag).copied().unwrap_or(0);
+                if count > *few {
+                    let message = format!("there are {count} <{tag}>, more than {few}");
+                    let help = "is this a robot? cut out the arm";
+                    self.reader.problems.error(&span, message, help);
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    fn error(&mut self, node: Node, message: String, help: &str) {
+        let span = start_tag(self.reader.source, node);
+        self.reader.problems.error(&span, message, help);
+    }
+
+    fn note(&mut self, node: Node, message: String, help: &str) {
+        let span = start_tag(self.reader.source, node);
+        self.reader.problems.note(&span, message, help);
+    }
+}
+
+/// The elements of all parts of this name.
+fn within<'a, 'd: 'a>(
+    root: Node<'a, 'd>,
+    part: &'static str,
+) -> impl Iterator<Item = Node<'a, 'd>> {
+    let parts = root.children().filter(move |node| node.has_tag_name(part));
+    parts.flat_map(|part| part.children().filter(Node::is_element))
+}

@@ -1,0 +1,399 @@
+//! Positions and orientations, which MJCF has five ways to write.
+//!
+//! Each orientation is there twice: as its digits stand, a quaternion divided by its
+//! length, and as they were meant, by the rules for angles.
+
+use std::ops::Range;
+
+use dalembert_model::equations::matrix::{Columns, Vector, cross, difference, dot, scaled};
+use dalembert_model::number::{Angle, Rational, Wide};
+use dalembert_model::placed::frame::{direction, length, placement, pose, turned, unit};
+use dalembert_model::robot::Placement;
+use dalembert_model::scalar::Scalar;
+use num_traits::{One, Signed, Zero};
+use roxmltree::Node;
+
+use super::Mjcf;
+use crate::meant::{self, NOTHING, power};
+use crate::urdf::{Number, Origin, Value, start_tag};
+
+/// Angles are computed to more digits than this, in radians.
+const SAME: i32 = -15;
+
+/// Where a frame is in another.
+#[derive(Clone, Debug)]
+pub(super) struct Pose {
+    /// As the digits stand.
+    exact: Columns<Wide>,
+    /// As they were meant.
+    meant: Columns<Wide>,
+    /// The lengths that it comes from.
+    size: Rational,
+    /// The file's own numbers, where they are the position.
+    own: Option<[Number; 3]>,
+    span: Range<usize>,
+}
+
+/// Returns a shift.
+fn shifted(by: &[Rational; 3]) -> Columns<Wide> {
+    Columns {
+        origin: by.each_ref().map(Wide::from_rational),
+        ..Columns::identity()
+    }
+}
+
+impl Pose {
+    pub(super) fn identity(span: Range<usize>) -> Pose {
+        Pose {
+            exact: Columns::identity(),
+            meant: Columns::identity(),
+            size: Rational::zero(),
+            own: None,
+            span,
+        }
+    }
+
+    /// Returns the pose of a frame that has this one in it.
+    pub(super) fn then(&self, next: &Pose) -> Pose {
+        Pose {
+            exact: self.exact.then(&next.exact),
+            meant: self.meant.then(&next.meant),
+            size: &self.size + &next.size,
+            // What nothing is before stays as it is written.
+            own: next.own.clone().filter(|_| self.is_identity()),
+            span: next.span.clone(),
+        }
+    }
+
+    /// Returns the pose with its origin moved along its own axes.
+    pub(super) fn shift(&self, by: &[Rational; 3]) -> Pose {
+        if by.iter().all(Zero::is_zero) {
+            return self.clone();
+        }
+        let size = by.iter().map(Signed::abs).sum::<Rational>();
+        let shifted = shifted(by);
+        Pose {
+            exact: self.exact.then(&shifted),
+            meant: self.meant.then(&shifted),
+            size: &self.size + size,
+            own: None,
+            span: self.span.clone(),
+        }
+    }
+
+    /// Returns the pose turned about one of its own axes.
+    pub(super) fn turn(&self, axis: &Vector<Wide>, by: &Angle) -> Pose {
+        let turned = turned(axis, by);
+        Pose {
+            exact: self.exact.then(&turned),
+            meant: self.meant.then(&turned),
+            ..self.clone()
+        }
+    }
+
+    fn is_identity(&self) -> bool {
+        self.size.is_zero() && placement(&self.exact, &Rational::one()).is_identity()
+    }
+
+    /// Returns a direction in the axes of the frame that this one is in.
+    pub(super) fn rotate(&self, direction: &[Number; 3]) -> [Number; 3] {
+        let one = Rational::one();
+        let wide = direction.each_ref().map(|x| Wide::from_rational(&x.value));
+        let along = Columns {
+            origin: self.meant.rotate(&wide),
+            ..Columns::identity()
+        };
+        let xyz = placement(&along, &one).xyz;
+        let mut turned = direction.clone();
+        for (number, value) in turned.iter_mut().zip(xyz) {
+            number.value = value;
+        }
+        turned
+    }
+
+    /// Returns a point in the frame that this one is in.
+    pub(super) fn apply(&self, point: &[Rational; 3]) -> [Rational; 3] {
+        let size = &self.size + point.iter().map(Signed::abs).sum::<Rational>();
+        placement(&self.meant.then(&shifted(point)), &size_of(&size)).xyz
+    }
+
+    /// Returns the pose as a URDF has it.
+    pub(super) fn origin(&self) -> Origin {
+        let size = size_of(&self.size);
+        let [exact, meant] = [&self.exact, &self.meant].map(|pose| placement(pose, &size));
+        let value = |text: String| (text, self.span.clone());
+        let xyz = exact.xyz.each_ref().map(|x| {
+            let (text, span) = value(Angle::Radians(x.clone()).to_string());
+            let value = x.clone();
+            Value { value, text, span }
+        });
+        let rpy = exact.rpy.each_ref().map(|angle| {
+            let (text, span) = value(short(angle));
+            let value = angle.clone();
+            Value { value, text, span }
+        });
+        let is_same = |(one, other): (&Angle, &Angle)| {
+            let off = (one.radians() - other.radians()).abs();
+            one == other || off < power(SAME)
+        };
+        let same = exact.rpy.iter().zip(&meant.rpy).all(is_same);
+        Origin {
+            xyz: self.own.clone().unwrap_or(xyz),
+            rpy,
+            meant: (!same).then_some(meant),
+        }
+    }
+}
+
+/// Returns what lengths are small against.
+fn size_of(size: &Rational) -> Rational {
+    match size.is_zero() {
+        true => Rational::one(),
+        false => size.clone(),
+    }
+}
+
+/// Returns an angle for a message.
+fn short(angle: &Angle) -> String {
+    match angle {
+        Angle::Radians(value) => {
+            let digits = Rational::from_integer(1_000_000_000.into());
+            Angle::Radians((value * &digits).round() / digits).to_string()
+        }
+        exact => exact.to_string(),
+    }
+}
+
+/// The same rotation as its digits stand and as they were meant.
+type Rotation = [Columns<Wide>; 2];
+
+const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
+
+impl<'a> Mjcf<'a, '_, '_, '_> {
+    /// Returns the position and the orientation of an element; `None` after saying what is
+    /// wrong.
+    pub(super) fn pose(&mut self, node: Node<'a, '_>, class: usize) -> Option<Pose> {
+        let span = start_tag(self.reader.source, node);
+        let xyz = match self.text(node, class, "pos") {
+            Some((text, span)) => self.reader.list("pos", text, span),
+            None => Some(self.reader.constant(node, ["0", "0", "0"])),
+        };
+        let rotation = self.rotation(node, class);
+        let (xyz, (rotation, place)) = (xyz?, rotation?);
+        let values = xyz.each_ref().map(|x| x.value.clone());
+        let [exact, meant] = rotation.map(|turned| Columns {
+            origin: values.each_ref().map(Wide::from_rational),
+            ..turned
+        });
+        Some(Pose {
+            exact,
+            meant,
+            size: values.iter().map(Signed::abs).sum(),
+            own: Some(xyz),
+            span: place.unwrap_or(span),
+        })
+    }
+
+    /// Returns the orientation, with the place of its attribute.
+    fn rotation(
+        &mut self,
+        node: Node<'a, '_>,
+        class: usize,
+    ) -> Option<(Rotation, Option<Range<usize>>)> {
+        let own: Vec<&str> = ORIENTATIONS
+            .into_iter()
+            .filter(|key| node.has_attribute(*key))
+            .collect();
+        if own.len() > 1 {
+            let message = format!("an orientation by `{}`", own.join("` and by `"));
+            self.error(node, message, "one of them says it");
+            return None;
+        }
+        let mut all = own.into_iter().chain(ORIENTATIONS);
+        let found = all.find_map(|key| Some((key, self.text(node, class, key)?)));
+        let Some((key, (text, span))) = found else {
+            return Some(([Columns::identity(), Columns::identity()], None));
+        };
+        let place = span.clone();
+        let rotation = match key {
+            "quat" => {
+                let numbers: [Number; 4] = self.reader.list(key, text, span)?;
+                of_quaternion(&numbers)
+            }
+            "axisangle" => {
+                let [x, y, z, angle] = self.reader.list(key, text, span)?;
+                self.of_axis(&[x, y, z], &angle)
+            }
+            "euler" => {
+                let angles: [Number; 3] = self.reader.list(key, text, span)?;
+                Some(self.of_angles(&angles))
+            }
+            "xyaxes" => {
+                let numbers: [Number; 6] = self.reader.list(key, text, span)?;
+                of_axes(&numbers)
+            }
+            _ => {
+                let axis: [Number; 3] = self.reader.list(key, text, span)?;
+                of_third_axis(&axis)
+            }
+        };
+        if rotation.is_none() {
+            let message = format!("`{key}` has no direction");
+            let help = "a quaternion or an axis is not zero, and two axes are not parallel";
+            self.reader.problems.error(&place, message, help);
+        }
+        Some((rotation?, Some(place)))
+    }
+
+    /// Returns the pose at a point whose z lies along a direction.
+    pub(super) fn along(
+        &self,
+        node: Node,
+        direction: &[Rational; 3],
+        at: &[Rational; 3],
+    ) -> Option<Pose> {
+        let span = start_tag(self.reader.source, node);
+        let number = |value: &Rational| Number {
+            value: value.clone(),
+            text: String::new(),
+            span: span.clone(),
+        };
+        let [exact, meant] = of_third_axis(&direction.each_ref().map(number))?;
+        let turned = Pose {
+            exact,
+            meant,
+            ..Pose::identity(span.clone())
+        };
+        Some(Pose::identity(span).shift(at).then(&turned))
+    }
+
+    /// Returns an angle in the units of the file.
+    pub(super) fn angle(&self, number: &Number) -> Angle {
+        let value = number.value.clone();
+        let angle = match self.settings.degrees {
+            true => Angle::PiTimes(value / Rational::from_integer(180.into())),
+            false => Angle::Radians(value),
+        };
+        angle.canonical()
+    }
+
+    /// Returns an angle as it stands and as it was meant.
+    fn angles(&self, number: &Number) -> [Angle; 2] {
+        let angle = self.angle(number);
+        let meant = meant::meant(&angle, &number.text);
+        [angle.clone(), meant.unwrap_or(angle)]
+    }
+
+    fn of_axis(&self, axis: &[Number; 3], angle: &Number) -> Option<Rotation> {
+        let axis = direction(&axis.each_ref().map(|x| x.value.clone()))?;
+        Some(self.angles(angle).map(|angle| turned(&axis, &angle)))
+    }
+
+    fn of_angles(&self, angles: &[Number; 3]) -> Rotation {
+        let turns = self.settings.euler.iter().zip(angles);
+        turns.fold(
+            [Columns::identity(), Columns::identity()],
+            |before, (turn, angle)| {
+                let mut axis = [(); 3].map(|()| Wide::zero());
+                axis[turn.axis] = Wide::one();
+                let [exact, meant] = self.angles(angle).map(|angle| turned(&axis, &angle));
+                let [own_exact, own_meant] = before;
+                match turn.stays {
+                    true => [exact.then(&own_exact), meant.then(&own_meant)],
+                    false => [own_exact.then(&exact), own_meant.then(&meant)],
+                }
+            },
+        )
+    }
+}
+
+/// Returns the rotation of w, x, y, z, of any length.
+fn of_quaternion(numbers: &[Number; 4]) -> Option<Rotation> {
+    let [w, x, y, z] = numbers.each_ref().map(|number| &number.value);
+    let square: Rational = [w, x, y, z].into_iter().map(|a| a * a).sum();
+    if square.is_zero() {
+        return None;
+    }
+    let two = Rational::from_integer(2.into());
+    let entry = |value: Rational| Wide::from_rational(&(value / &square));
+    let diagonal = |a: &Rational, b: &Rational, c: &Rational| entry(w * w + a * a - b * b - c * c);
+    let [xy, yz, xz] = [x * y, y * z, x * z];
+    let [wx, wy, wz] = [w * x, w * y, w * z];
+    let off = |a: Rational| entry(&two * a);
+    let axes = [
+        [diagonal(x, y, z), off(&xy + &wz), off(&xz - &wy)],
+        [off(&xy - &wz), diagonal(y, x, z), off(&yz + &wx)],
+        [off(&xz + &wy), off(&yz - &wx), diagonal(z, x, y)],
+    ];
+    Some(by_digits(axes, numbers))
+}
+
+/// Returns the rotation whose first axes lie along two directions.
+fn of_axes(numbers: &[Number; 6]) -> Option<Rotation> {
+    let [x, y] = [0, 3].map(|at| {
+        let part = [at, at + 1, at + 2].map(|i| numbers[i].value.clone());
+        direction(&part)
+    });
+    let (x, y) = (x?, y?);
+    let across = difference(&y, &scaled(&dot(&x, &y), &x));
+    // Parallel but for their digits is parallel.
+    if length(&across).magnitude() < 1e-12 {
+        return None;
+    }
+    let y = unit(&across)?;
+    let z = cross(&x, &y);
+    Some(by_digits([x, y, z], numbers))
+}
+
+/// Returns the shortest rotation that turns z to a direction.
+fn of_third_axis(axis: &[Number; 3]) -> Option<Rotation> {
+    let z = direction(&axis.each_ref().map(|x| x.value.clone()))?;
+    let [x, y] = [&z[0], &z[1]];
+    let level = length(&[*x, *y, Wide::zero()]);
+    let angle = Angle::recovered(&level, &z[2]);
+    let about = unit(&[y.neg(), *x, Wide::zero()]);
+    // Upside down there are many shortest ones: about x.
+    let about = about.unwrap_or([Wide::one(), Wide::zero(), Wide::zero()]);
+    Some(by_digits(turned(&about, &angle).axes, axis))
+}
+
+/// Returns a rotation, and what it was meant to be: as far from it as angles may be, since
+/// many a quaternion was made of 1.5708, and 0.707105 tells no more of its digits.
+fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Rotation {
+    let exact = Columns {
+        axes,
+        origin: [(); 3].map(|()| Wide::zero()),
+    };
+    let digits = numbers.iter().map(|number| meant::digits(&number.text).1);
+    let count = digits.max().unwrap_or(0);
+    let unit = match count >= meant::TELLING {
+        true => power(meant::MAX),
+        false => power(NOTHING),
+    };
+    let one = Rational::one();
+    let [x, y, _] = &exact.axes;
+    let level = length(&[x[0], x[1], Wide::zero()]);
+    let is_upright = level.to_rational() <= unit;
+    let angles = match is_upright {
+        // Roll and yaw are about one axis.
+        true => {
+            let up = if x[2].to_rational().is_negative() {
+                1
+            } else {
+                -1
+            };
+            let yaw = Angle::recovered(&y[0].neg(), &y[1]);
+            [Angle::default(), Angle::right_angles(up), yaw]
+        }
+        false => placement(&exact, &one).rpy,
+    };
+    let rpy = angles.map(|angle| match &angle {
+        Angle::Radians(value) => meant::within(value, unit.clone(), count).unwrap_or(angle),
+        Angle::PiTimes(_) => angle,
+    });
+    let meant = pose(&Placement {
+        rpy,
+        ..Placement::default()
+    });
+    [exact, meant]
+}

@@ -1,0 +1,151 @@
+//! Equalities and tendons: what ties joints or bodies to each other beside the tree.
+
+use dalembert_model::number::Rational;
+use num_traits::{One, Zero};
+use roxmltree::Node;
+
+use super::joint::radians;
+use super::{Mjcf, within};
+use crate::problems::instead;
+use crate::urdf::{Mimic, Tie, Tied, Urdf, start_tag};
+
+impl<'a> Mjcf<'a, '_, '_, '_> {
+    /// Reads what ties joints and bodies.
+    pub(super) fn ties(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
+        for node in within(root, "equality") {
+            if node.attribute("active") == Some("false") {
+                continue;
+            }
+            match node.tag_name().name() {
+                "joint" => self.follower(node, urdf),
+                "connect" | "weld" => self.links_tied(root, node, urdf),
+                _ => {}
+            }
+        }
+        for node in within(root, "tendon") {
+            let part = match node.tag_name().name() {
+                "fixed" => "joint",
+                "spatial" => "site",
+                _ => continue,
+            };
+            let parts = node.children().filter(|child| child.has_tag_name(part));
+            let names = parts.filter_map(|child| child.attribute(part).map(str::to_owned));
+            let ends = match part {
+                "joint" => Tied::Joints(names.collect()),
+                _ => Tied::Links(names.collect()),
+            };
+            let word = if part == "joint" {
+                "fixed tendon"
+            } else {
+                "spatial tendon"
+            };
+            urdf.ties.push(self.tie(node, word, ends));
+        }
+    }
+
+    fn tie(&self, node: Node, word: &str, ends: Tied) -> Tie {
+        let name = match node.attribute("name") {
+            Some(name) => format!("{word} `{name}`"),
+            None => word.to_owned(),
+        };
+        Tie {
+            span: start_tag(self.reader.source, node),
+            name,
+            ends,
+        }
+    }
+
+    /// A joint that follows another, or a polynomial of it.
+    fn follower(&mut self, node: Node<'a, '_>, urdf: &mut Urdf) {
+        let place = |this: &mut Self, key: &str| {
+            let (name, span) = this.reader.attribute(node, key)?;
+            let found = urdf.joints.iter().position(|joint| joint.name == name);
+            if found.is_none() {
+                let message = format!("there is no joint `{name}`");
+                let known = urdf.names[1].iter().map(String::as_str);
+                this.reader
+                    .problems
+                    .error(&span, message, &instead(name, known));
+            }
+            found
+        };
+        let Some(own) = place(self, "joint1") else {
+            return;
+        };
+        let other = match node.has_attribute("joint2") {
+            true => place(self, "joint2"),
+            false => None,
+        };
+        let name = urdf.joints[own].name.clone();
+        let Some(other) = other else {
+            // It stays where it is.
+            urdf.ties
+                .push(self.tie(node, "equality", Tied::Joints(vec![name])));
+            return;
+        };
+        let Some(terms) = self.polynomial(node) else {
+            return;
+        };
+        // Both are counted from where the model has them at first.
+        let [start, from] = [own, other].map(|joint| radians(&urdf.joints[joint].start));
+        let is_line = terms[2..].iter().all(Zero::is_zero);
+        let line = is_line.then(|| {
+            let [offset, multiplier] = [&terms[0], &terms[1]];
+            [multiplier.clone(), start + offset - multiplier * from]
+        });
+        urdf.joints[own].mimic = Some(Mimic {
+            joint: urdf.joints[other].name.clone(),
+            span: start_tag(self.reader.source, node),
+            line,
+        });
+    }
+
+    /// Returns the five coefficients of an equality; `None` after saying what is wrong.
+    fn polynomial(&mut self, node: Node<'a, '_>) -> Option<Vec<Rational>> {
+        let mut terms = vec![Rational::zero(); 5];
+        terms[1] = Rational::one();
+        let Some(own) = node.attribute_node("polycoef") else {
+            return Some(terms);
+        };
+        let words = own.value().split_ascii_whitespace();
+        if words.clone().count() > terms.len() {
+            let message = "`polycoef` has more than 5 numbers".to_owned();
+            let help = "polycoef=\"0 1 0 0 0\" is the same as the other joint";
+            self.reader
+                .problems
+                .error(&own.range_value(), message, help);
+            return None;
+        }
+        for (term, word) in terms.iter_mut().zip(words) {
+            *term = self.reader.parse(word, own.range_value())?.value;
+        }
+        Some(terms)
+    }
+
+    /// Two bodies that are held together, by their names or those of sites.
+    fn links_tied(&mut self, root: Node<'a, '_>, node: Node<'a, '_>, urdf: &mut Urdf) {
+        let keys = match node.has_attribute("site1") {
+            true => ["site1", "site2"],
+            false => ["body1", "body2"],
+        };
+        let names = keys.map(|key| node.attribute(key).unwrap_or("world"));
+        let links = names.map(|name| {
+            let is_known = urdf.names[0].contains(name);
+            match is_known {
+                true => name.to_owned(),
+                false => body_of_site(root, name).unwrap_or(name).to_owned(),
+            }
+        });
+        let word = format!("equality `{}`", node.tag_name().name());
+        urdf.ties
+            .push(self.tie(node, &word, Tied::Links(links.into())));
+    }
+}
+
+/// Returns the name of the body that a site is on.
+fn body_of_site<'a>(root: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    let mut sites = root.descendants().filter(|node| node.has_tag_name("site"));
+    let site = sites.find(|site| site.attribute("name") == Some(name))?;
+    let mut bodies = site.ancestors().filter(|node| node.has_tag_name("body"));
+    bodies.next()?.attribute("name")
+}

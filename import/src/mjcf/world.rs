@@ -1,0 +1,287 @@
+//! The tree of bodies.
+
+use std::collections::BTreeSet;
+
+use roxmltree::Node;
+
+use super::Mjcf;
+use super::pose::Pose;
+use crate::urdf::{Joint, Kind, Link, Role, Unread, Urdf, start_tag};
+
+/// What makes copies, or bodies of another file.
+const MADE_ELSEWHERE: [&str; 4] = ["replicate", "composite", "flexcomp", "attach"];
+
+/// An element of a body, through the frames that it is in.
+pub(super) struct Item<'a, 'd> {
+    pub(super) node: Node<'a, 'd>,
+    pub(super) class: usize,
+    /// The frames' pose in the body.
+    pub(super) frame: Pose,
+}
+
+/// A body that has not been looked at.
+struct Open<'a, 'd> {
+    item: Item<'a, 'd>,
+    /// The link that it hangs on.
+    on: String,
+}
+
+/// The names that are given, each once.
+struct Names(BTreeSet<String>);
+
+impl Names {
+    /// Returns this name, or one like it that is not given yet.
+    fn fresh(&mut self, wish: String) -> String {
+        let mut name = wish.clone();
+        let mut count = self.0.len();
+        while !self.0.insert(name.clone()) {
+            count += 1;
+            name = format!("{wish}_{count}");
+        }
+        name
+    }
+}
+
+impl<'a> Mjcf<'a, '_, '_, '_> {
+    /// Reads all bodies with their joints; `None` after saying why there are none.
+    pub(super) fn world(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) -> Option<()> {
+        let world = link("world".to_owned(), urdf.span.clone());
+        urdf.links.push(world);
+        let identity = Pose::identity(urdf.span.clone());
+        let mut open = Vec::new();
+        let parts = root
+            .children()
+            .filter(|node| node.has_tag_name("worldbody"));
+        for part in parts {
+            let class = self.class_of(part, "childclass", 0);
+            let items = self.items(part, class, &identity);
+            let bodies = items
+                .into_iter()
+                .filter(|item| item.node.has_tag_name("body"));
+            open.extend(bodies.map(|item| Open {
+                item,
+                on: "world".to_owned(),
+            }));
+        }
+        open.reverse();
+        let given = |kind: &'static str| {
+            let nodes = root
+                .descendants()
+                .filter(move |node| node.has_tag_name(kind));
+            nodes.filter_map(|node| node.attribute("name").map(str::to_owned))
+        };
+        // Names that the file gives are not given to what has none.
+        let bodies: Vec<String> = given("body").collect();
+        let mut links = Names(bodies.iter().cloned().chain(["world".to_owned()]).collect());
+        let mut joints = Names(given("joint").chain(given("freejoint")).collect());
+        while let Some(next) = open.pop() {
+            let own = self.body(next, urdf, &mut links, &mut joints);
+            open.extend(own.into_iter().rev());
+            if !self
+                .reader
+                .are_few(&urdf.span, "bodies, sites and weights", urdf.links.len())
+            {
+                return None;
+            }
+        }
+        if urdf.links.len() == 1 {
+            let help = "<worldbody> has a <body> for every link";
+            self.error(root, "there are no bodies".to_owned(), help);
+            return None;
+        }
+        self.say_weightless(root);
+        let named = |joint: &&Joint| joint.kind != Kind::Fixed;
+        self.reader.unique(
+            "body",
+            urdf.links.iter().map(|link| (&link.name, &link.span)),
+        );
+        let moving = urdf.joints.iter().filter(named);
+        self.reader.unique(
+            "joint",
+            moving.clone().map(|joint| (&joint.name, &joint.span)),
+        );
+        urdf.names = [
+            urdf.links.iter().map(|link| link.name.clone()).collect(),
+            moving.map(|joint| joint.name.clone()).collect(),
+        ];
+        Some(())
+    }
+
+    /// Says which bodies MuJoCo holds up.
+    fn say_weightless(&mut self, root: Node<'a, '_>) {
+        let bodies = root.descendants().filter(|node| node.has_tag_name("body"));
+        let mut held =
+            bodies.filter(|body| body.attribute("gravcomp").is_some_and(|part| part != "0"));
+        if let Some(first) = held.next() {
+            let message = format!("`gravcomp` of {} bodies is left out", 1 + held.count());
+            self.note(
+                first,
+                message,
+                "the joints carry their weight: the load that holds it up is `gravity`",
+            );
+        }
+    }
+
+    /// Returns the elements of a body in their order, those of frames among them.
+    fn items<'d>(&mut self, body: Node<'a, 'd>, class: usize, at: &Pose) -> Vec<Item<'a, 'd>> {
+        let mut items = Vec::new();
+        let mut open: Vec<(Node, usize, Pose)> = vec![(body, class, at.clone())];
+        while let Some((node, class, frame)) = open.pop() {
+            if node != body && !node.has_tag_name("frame") {
+                items.push(Item { node, class, frame });
+                continue;
+            }
+            let (class, frame) = match node == body {
+                true => (class, frame),
+                false => {
+                    let class = self.class_of(node, "childclass", class);
+                    let own = self.pose(node, class);
+                    (class, own.map_or(frame.clone(), |own| frame.then(&own)))
+                }
+            };
+            let children: Vec<Node> = node.children().filter(Node::is_element).collect();
+            let inside = children.into_iter().rev();
+            open.extend(inside.map(|child| (child, class, frame.clone())));
+        }
+        items
+    }
+
+    /// Reads a body, and returns those that hang on it.
+    fn body<'d>(
+        &mut self,
+        open: Open<'a, 'd>,
+        urdf: &mut Urdf,
+        links: &mut Names,
+        joints: &mut Names,
+    ) -> Vec<Open<'a, 'd>> {
+        let Open { item, on } = open;
+        let Item { node, class, frame } = item;
+        let class = self.class_of(node, "childclass", class);
+        let span = start_tag(self.reader.source, node);
+        let name = match node.attribute("name") {
+            Some(name) => name.to_owned(),
+            None => links.fresh("body".to_owned()),
+        };
+        let identity = Pose::identity(span.clone());
+        let own = self.pose(node, class).unwrap_or(identity.clone());
+        let items = self.items(node, class, &identity);
+        let mut link = link(name.clone(), span.clone());
+        let solids = self.mass(&items, &mut link);
+        for part in &items {
+            let word = part.node.tag_name().name();
+            if MADE_ELSEWHERE.contains(&word) {
+                link.unread.push(Unread {
+                    span: start_tag(self.reader.source, part.node),
+                    message: format!("<{word}> on body `{name}` is not read"),
+                    help: "save the model by MuJoCo's mj_saveLastXML, which writes it out",
+                });
+            }
+        }
+        urdf.links.push(link);
+        self.joints_of(&name, on, &frame.then(&own), &items, urdf, [links, joints]);
+        for (index, solid) in solids.into_iter().enumerate() {
+            let part = links.fresh(format!("{name}, geom {}", index + 1));
+            let ends = [&name, &part].map(|name| (name.clone(), span.clone()));
+            let [on, child] = ends;
+            urdf.joints.push(self.fixed(on, child, &identity));
+            urdf.links.push(Link {
+                inertial: Some(solid),
+                role: Role::Mark,
+                ..self::link(part, span.clone())
+            });
+        }
+        for site in items.iter().filter(|item| item.node.has_tag_name("site")) {
+            self.site(site, &name, urdf, links);
+        }
+        let inside = items
+            .into_iter()
+            .filter(|item| item.node.has_tag_name("body"));
+        let inside = inside.map(|item| Open {
+            item,
+            on: name.clone(),
+        });
+        inside.collect()
+    }
+
+    /// Reads the joints of a body, one behind the other, up to the body itself.
+    fn joints_of(
+        &mut self,
+        body: &str,
+        mut on: String,
+        at: &Pose,
+        items: &[Item<'a, '_>],
+        urdf: &mut Urdf,
+        [links, joints]: [&mut Names; 2],
+    ) {
+        let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.node.tag_name().name());
+        let mut at = at.clone();
+        let own: Vec<&Item> = items.iter().filter(is_joint).collect();
+        for (index, item) in own.iter().enumerate() {
+            let name = item.node.attribute("name").map(str::to_owned);
+            let name = name.unwrap_or_else(|| joints.fresh(format!("{body}_joint")));
+            let Some((joint, anchor)) = self.joint(item, name, &at) else {
+                continue;
+            };
+            let shift = anchor.each_ref().map(|x| -x);
+            at = Pose::identity(joint.span.clone()).shift(&shift);
+            let is_last = index + 1 == own.len() && anchor.iter().all(num_traits::Zero::is_zero);
+            let child = match is_last {
+                true => body.to_owned(),
+                false => {
+                    let name = links.fresh(format!("{body}, {}", joint.name));
+                    urdf.links.push(Link {
+                        role: Role::Between,
+                        ..link(name.clone(), joint.span.clone())
+                    });
+                    name
+                }
+            };
+            let span = joint.span.clone();
+            urdf.joints.push(Joint {
+                parent: (std::mem::replace(&mut on, child.clone()), span.clone()),
+                child: (child, span),
+                ..joint
+            });
+        }
+        if on != body {
+            let span = urdf.links.iter().find(|link| link.name == body);
+            let span = span.map_or(0..0, |link| link.span.clone());
+            urdf.joints
+                .push(self.fixed((on, span.clone()), (body.to_owned(), span), &at));
+        }
+    }
+
+    /// Reads a site as a frame: one that is called as a body is left out.
+    fn site(&mut self, item: &Item<'a, '_>, body: &str, urdf: &mut Urdf, links: &mut Names) {
+        let class = self.class_of(item.node, "class", item.class);
+        let Some(name) = item.node.attribute("name") else {
+            return;
+        };
+        let Some(own) = self.pose(item.node, class) else {
+            return;
+        };
+        if !links.0.insert(name.to_owned()) {
+            return;
+        }
+        let span = start_tag(self.reader.source, item.node);
+        let ends = [body, name].map(|name| (name.to_owned(), span.clone()));
+        let [on, child] = ends;
+        urdf.joints
+            .push(self.fixed(on, child, &item.frame.then(&own)));
+        urdf.links.push(Link {
+            role: Role::Mark,
+            ..link(name.to_owned(), span)
+        });
+    }
+}
+
+/// A link without mass.
+fn link(name: String, span: std::ops::Range<usize>) -> Link {
+    Link {
+        name,
+        span,
+        inertial: None,
+        unread: Vec::new(),
+        role: Role::Body,
+    }
+}

@@ -1,0 +1,206 @@
+//! A model's text: of an MJCF that includes others, all of them as one.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::path::Path;
+
+use dalembert_model::read::{Diagnostic, Diagnostics};
+
+use crate::problems::{Problems, place};
+use crate::{MAX_BYTES, guard};
+
+/// The most files of a model.
+const MAX_FILES: usize = 256;
+
+/// The text of a model, with what it includes in the places that include it.
+#[derive(Clone, Debug)]
+pub struct Text {
+    text: String,
+    /// The files by name, with their own texts.
+    files: Vec<(String, String)>,
+    /// Parts of the text in their order: where each ends, its file, and where it is there.
+    parts: Vec<(usize, usize, usize)>,
+}
+
+/// A file that has not been read to its end.
+struct Open {
+    file: usize,
+    /// What of it is left to read.
+    rest: Range<usize>,
+    /// What it includes, the last first: where, and the names.
+    includes: Vec<(Range<usize>, String)>,
+}
+
+impl Text {
+    /// Takes a text that a file of this name has.
+    pub fn of(name: &str, text: String) -> Text {
+        Text {
+            parts: vec![(text.len(), 0, 0)],
+            files: vec![(name.to_owned(), text.clone())],
+            text,
+        }
+    }
+
+    /// Returns the text, with what it includes of files beside this one; `read` gives the
+    /// text of a file, or says why there is none.
+    ///
+    /// # Errors
+    /// What is wrong with an include, as [`Text::render`] prints it.
+    pub fn with_includes(
+        self,
+        path: &Path,
+        read: impl Fn(&Path) -> Result<String, String>,
+    ) -> Result<Text, String> {
+        if !self.text.contains("<include") || !self.text.contains("<mujoco") {
+            return Ok(self);
+        }
+        let mut made = Text {
+            text: String::new(),
+            files: self.files,
+            parts: Vec::new(),
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut seen = BTreeSet::from([path.to_owned()]);
+        let mut open = vec![made.open(0)?];
+        while let Some(file) = open.last_mut() {
+            let (index, at) = (file.file, file.rest.start);
+            let Some((span, name)) = file.includes.pop() else {
+                let rest = file.rest.clone();
+                open.pop();
+                made.take(index, rest);
+                continue;
+            };
+            file.rest.start = span.end;
+            made.take(index, at..span.start);
+            // As MuJoCo looks for it: beside the first file, then beside this one.
+            let own = Path::new(&made.files[index].0).parent();
+            let beside = [folder, own.unwrap_or(folder)].map(|folder| folder.join(&name));
+            let found = read(&beside[0]).map(|text| (&beside[0], text));
+            let found = found.or_else(|why| {
+                let own = read(&beside[1]).map(|text| (&beside[1], text));
+                own.map_err(|_| why)
+            });
+            let (whole, text) = match found {
+                Ok(found) => found,
+                Err(why) => {
+                    let message = format!("`{name}` cannot be read: {why}");
+                    let help = "a name is relative to the folder of the file that is imported";
+                    return Err(made.error(index, span, message, help));
+                }
+            };
+            if !seen.insert(whole.clone()) || made.files.len() == MAX_FILES {
+                let message = format!(
+                    "`{name}` is included a second time, or among more than {MAX_FILES} files"
+                );
+                return Err(made.error(index, span, message, "each file is included once"));
+            }
+            let others: usize = made.files.iter().map(|(_, text)| text.len()).sum();
+            if others + text.len() > MAX_BYTES {
+                let message = format!(
+                    "with this, the model is longer than {} MiB",
+                    MAX_BYTES >> 20
+                );
+                return Err(made.error(index, span, message, "is this a model of a robot?"));
+            }
+            made.files.push((whole.display().to_string(), text));
+            open.push(made.open(made.files.len() - 1)?);
+        }
+        Ok(made)
+    }
+
+    /// Returns the whole text, for [`crate::import`].
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+
+    pub(crate) fn is_made_of_several(&self) -> bool {
+        self.files.len() > 1
+    }
+
+    /// Returns the name of the file of a place in the text, and its line there.
+    pub fn line(&self, byte: usize) -> (&str, usize) {
+        let (file, at) = self.place(byte);
+        let (name, text) = &self.files[file];
+        (name, place(text, at).0)
+    }
+
+    /// Returns what there is to say of the text, each at its place in its file.
+    pub fn render(&self, found: &[Diagnostic]) -> String {
+        let rendered = found.iter().map(|found| {
+            let (file, start) = self.place(found.span.start);
+            let (name, text) = &self.files[file];
+            let (line, column) = place(text, start);
+            let own = Diagnostic {
+                span: start..start + found.span.len(),
+                line,
+                column,
+                ..found.clone()
+            };
+            own.render(name, text)
+        });
+        rendered.collect::<Vec<_>>().join("\n")
+    }
+
+    /// Returns the file of a place in the text, and the place there.
+    fn place(&self, byte: usize) -> (usize, usize) {
+        let index = self.parts.partition_point(|(end, ..)| *end <= byte);
+        let start = index
+            .checked_sub(1)
+            .map_or(0, |before| self.parts[before].0);
+        match self.parts.get(index).or(self.parts.last()) {
+            Some((_, file, at)) => (*file, at + byte.saturating_sub(start)),
+            None => (0, byte),
+        }
+    }
+
+    fn take(&mut self, file: usize, span: Range<usize>) {
+        let start = span.start;
+        let text = self.files[file].1.get(span).unwrap_or_default();
+        self.text.push_str(text);
+        self.parts.push((self.text.len(), file, start));
+    }
+
+    /// Finds what a file includes; of one that is included its root is left away.
+    fn open(&self, file: usize) -> Result<Open, String> {
+        let (name, text) = &self.files[file];
+        let mut problems = Problems::new(text);
+        let Some(document) = guard::parse(text, &mut problems) else {
+            let errors = problems.finish().err().unwrap_or(Diagnostics(Vec::new()));
+            return Err(errors.render(name, text));
+        };
+        let root = document.root_element();
+        let whole = root.range();
+        let children: Vec<_> = root.children().collect();
+        let rest = match (file, children.first(), children.last()) {
+            (0, ..) => 0..text.len(),
+            (_, Some(first), Some(last)) => first.range().start..last.range().end,
+            _ => whole.end..whole.end,
+        };
+        let includes = root
+            .descendants()
+            .filter(|node| node.has_tag_name("include"));
+        let mut named = Vec::new();
+        for node in includes {
+            let Some(name) = node.attribute("file") else {
+                let help = "<include file=\"arm.xml\"/>";
+                let message = "<include> has no `file`".to_owned();
+                return Err(self.error(file, node.range(), message, help));
+            };
+            named.push((node.range(), name.to_owned()));
+        }
+        named.reverse();
+        Ok(Open {
+            file,
+            rest,
+            includes: named,
+        })
+    }
+
+    fn error(&self, file: usize, span: Range<usize>, message: String, help: &str) -> String {
+        let (name, text) = &self.files[file];
+        let mut problems = Problems::new(text);
+        problems.error(&span, message, help);
+        let errors = problems.finish().err().unwrap_or(Diagnostics(Vec::new()));
+        errors.render(name, text)
+    }
+}

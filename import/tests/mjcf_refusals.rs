@@ -1,0 +1,373 @@
+//! What of an MJCF is refused, by name, with its line and what to do about it; and files
+//! that are meant to do harm.
+
+use std::path::Path;
+
+use crate::support::refused;
+use dalembert_import::{Options, Text, import, import_text};
+
+/// Two joints, a finger beside them, and a place for what each case adds.
+const ARM: &str = r#"<mujoco model="arm">
+  <compiler angle="radian"/>
+  <default> <default class="drive"> <joint armature="0.1"/> </default> </default>
+  <worldbody>
+    <body name="upper" pos="0 0 0.3">
+      <inertial pos="0 0 0.1" mass="2" diaginertia="0.02 0.03 0.04"/>
+      <joint name="turn" class="drive" axis="0 0 1" range="-1 2"/>
+      <body name="lower" pos="0.3 0 0" quat="1 0 0 0">
+        <inertial pos="0 0 0" mass="1" diaginertia="0.02 0.02 0.02"/>
+        <joint name="reach" type="slide" axis="1 0 0"/>
+        <body name="hand" pos="0.1 0 0">
+          <inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>
+          <site name="grip"/>
+          <body name="thumb">
+            <inertial pos="0 0 0.01" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>
+            <joint name="finger" type="slide" axis="0 1 0" range="0 0.04"/>
+          </body>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"#;
+
+/// At the hand, the finger held.
+fn at_the_hand() -> Options {
+    Options {
+        tip: Some("hand".into()),
+        lock: vec![("*".into(), "0".into())],
+        ..Options::default()
+    }
+}
+
+fn with(what: &str, by: &str) -> String {
+    assert!(ARM.contains(what), "{what}");
+    ARM.replacen(what, by, 1)
+}
+
+fn beside(part: &str) -> String {
+    with("</mujoco>", &format!("{part}</mujoco>"))
+}
+
+#[test]
+fn the_arm_itself_is_taken() {
+    let imported = import(ARM, &at_the_hand()).unwrap();
+    assert_eq!(imported.robot.joints.len(), 2);
+    assert!(
+        imported.text.contains("\narmature = 0.1\n"),
+        "{}",
+        imported.text
+    );
+    // A site is the hand where it is asked for.
+    let at_the_site = Options {
+        tip: Some("grip".into()),
+        ..at_the_hand()
+    };
+    assert!(
+        import(ARM, &at_the_site)
+            .unwrap()
+            .text
+            .contains("to link grip of")
+    );
+}
+
+#[test]
+fn refusals_name_the_element_and_the_way_out() {
+    let tendon =
+        "<tendon><fixed name=\"pull\"><joint joint=\"reach\" coef=\"1\"/></fixed></tendon>";
+    let tie = |inside: &str| beside(&format!("<equality>{inside}</equality>"));
+    let drive = "<joint name=\"turn\" class=\"drive\"";
+    let cases: Vec<(String, &[&str])> = vec![
+        (
+            beside(tendon),
+            &[
+                "joint `reach` of the chain is tied by fixed tendon `pull`",
+                "--lock reach=0",
+            ],
+        ),
+        (
+            tie("<joint joint1=\"reach\" joint2=\"turn\" polycoef=\"0 0.5\"/>"),
+            &[
+                "arm.urdf:22:11",
+                "joint `reach` of the chain mimics `turn`",
+                "--lock reach=0",
+            ],
+        ),
+        (
+            tie("<joint joint1=\"reach\"/>"),
+            &["joint `reach` of the chain is tied by equality"],
+        ),
+        (
+            tie("<joint joint1=\"finger\" joint2=\"reach\"/>"),
+            &[
+                "joint `finger` hangs on the chain and follows `reach`, which moves",
+                "--lock finger=0",
+            ],
+        ),
+        (
+            tie("<joint joint1=\"rech\"/>"),
+            &["there is no joint `rech`", "did you mean `reach`?"],
+        ),
+        (
+            tie("<joint joint1=\"reach\" joint2=\"turn\" polycoef=\"0 1 2 3 4 5\"/>"),
+            &["`polycoef` has more than 5 numbers"],
+        ),
+        (
+            tie("<weld body1=\"hand\"/>"),
+            &[
+                "equality `weld` ties `hand` and `world`, which move apart",
+                "closed loops",
+            ],
+        ),
+        (
+            tie("<connect body1=\"upper\" body2=\"hand\" anchor=\"0 0 0\"/>"),
+            &["ties `upper` and `hand`"],
+        ),
+        (
+            with("type=\"slide\" axis=\"1 0 0\"", "type=\"ball\""),
+            &[
+                "arm.urdf:10",
+                "joint `reach` of the chain is a ball",
+                "--base lower",
+            ],
+        ),
+        (
+            with("type=\"slide\" axis=\"1 0 0\"", "type=\"screw\""),
+            &["`screw` is no type of joint", "known: hinge"],
+        ),
+        (
+            with(
+                "<body name=\"lower\"",
+                "<body name=\"lower\" euler=\"0 0 0\"",
+            ),
+            &["an orientation by `quat` and by `euler`", "one of them"],
+        ),
+        (
+            with("quat=\"1 0 0 0\"", "quat=\"0 0 0 0\""),
+            &["arm.urdf:8:", "`quat` has no direction"],
+        ),
+        (
+            with("quat=\"1 0 0 0\"", "quat=\"1 0 0\""),
+            &["`quat` has 3 numbers, not 4"],
+        ),
+        (
+            with("quat=\"1 0 0 0\"", "xyaxes=\"1 0 0 2 0 0\""),
+            &["`xyaxes` has no direction", "parallel"],
+        ),
+        (
+            with("mass=\"2\"", "mass=\"two\""),
+            &["arm.urdf:6:", "`two` is not a decimal number"],
+        ),
+        (with("mass=\"2\"", ""), &["<inertial> has no `mass`"]),
+        (
+            with("mass=\"2\"", "mass=\"-2\""),
+            &["the mass of body `upper` is negative"],
+        ),
+        (
+            with("0.02 0.03 0.04", "0.02 -0.03 0.04"),
+            &["a moment of inertia of body `upper` is negative"],
+        ),
+        (
+            with(
+                "diaginertia=\"0.02 0.03 0.04\"",
+                "diaginertia=\"1 1 1\" fullinertia=\"1 1 1 0 0 0\"",
+            ),
+            &["body `upper` has two inertias"],
+        ),
+        (
+            with("range=\"-1 2\"", "range=\"2 -1\""),
+            &["the limits of joint `turn` are reversed"],
+        ),
+        (
+            with("axis=\"0 0 1\"", "axis=\"0 0 0\""),
+            &["the axis of joint `turn` has no direction"],
+        ),
+        (
+            with(drive, "<joint name=\"turn\" class=\"drve\""),
+            &[
+                "arm.urdf:7:",
+                "there is no class `drve`",
+                "did you mean `drive`?",
+            ],
+        ),
+        (
+            with(
+                "<default class=\"drive\">",
+                "<default class=\"drive\"/> <default class=\"drive\">",
+            ),
+            &["there is a class `drive` already"],
+        ),
+        (
+            with(drive, "<joint name=\"turn\" damping=\"-1\""),
+            &["the damping of joint `turn` is negative"],
+        ),
+        (
+            with("<joint name=\"finger\"", "<joint name=\"turn\""),
+            &["there is a joint `turn` already"],
+        ),
+        (
+            with("<body name=\"thumb\"", "<body name=\"hand\""),
+            &["there is a body `hand` already"],
+        ),
+        (
+            with("angle=\"radian\"", "angle=\"grad\""),
+            &["`angle` is `grad`", "radian or degree"],
+        ),
+        (
+            with("angle=\"radian\"", "eulerseq=\"xyw\""),
+            &["`eulerseq` is `xyw`"],
+        ),
+        (
+            with("angle=\"radian\"", "coordinate=\"global\""),
+            &["`coordinate` is `global`"],
+        ),
+        (
+            with("angle=\"radian\"", "settotalmass=\"3\""),
+            &["`settotalmass` changes every mass"],
+        ),
+        (
+            with("angle=\"radian\"", "boundmass=\"0.5\""),
+            &["`boundmass` of the compiler is more than body `hand` has"],
+        ),
+        (
+            with("<site name=\"grip\"/>", "<attach model=\"m\" body=\"b\"/>"),
+            &["<attach> on body `hand` is not read"],
+        ),
+        (
+            with(
+                "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"0.02 0.02 0.02\"/>",
+                "<geom type=\"mesh\" mesh=\"m\"/>",
+            ),
+            &[
+                "the mass of body `lower` is that of its geoms",
+                "mj_saveLastXML",
+            ],
+        ),
+        (
+            with(
+                "<compiler angle=\"radian\"/>",
+                "<include file=\"other.xml\"/>",
+            ),
+            &["<include> in a text without a place"],
+        ),
+        (
+            "<mujocoinclude/>".to_owned(),
+            &["this is a part of an MJCF"],
+        ),
+    ];
+    for (source, parts) in cases {
+        let text = refused(&source, &at_the_hand());
+        for part in parts {
+            assert!(text.contains(part), "{part} is missing:\n{text}");
+        }
+    }
+    // At once, each at its place.
+    let several = with("mass=\"2\"", "mass=\"two\"").replace("quat=\"1 0 0 0\"", "quat=\"1 0 0\"");
+    let text = refused(&several, &at_the_hand());
+    assert_eq!(text.matches("error: ").count(), 2, "{text}");
+}
+
+/// What is beside the chain and tied to itself alone is held, a follower where its leader
+/// holds it.
+#[test]
+fn what_is_tied_beside_the_chain_is_held() {
+    let second = "<body name=\"other\"> <inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"0 0 0\"/> \
+        <joint name=\"follow\" type=\"slide\" axis=\"0 1 0\"/> </body> <body name=\"thumb\"";
+    let source = with("<body name=\"thumb\"", second).replace(
+        "</mujoco>",
+        "<equality><joint joint1=\"follow\" joint2=\"finger\" polycoef=\"0.01 -2\"/></equality>\
+         <tendon><fixed><joint joint=\"finger\" coef=\"1\"/></fixed></tendon></mujoco>",
+    );
+    let options = Options {
+        lock: vec![("*".into(), "0".into()), ("finger".into(), "0.03".into())],
+        ..at_the_hand()
+    };
+    let text = import(&source, &options).unwrap().text;
+    assert!(text.contains("# Held: follow = -0.05\n"), "{text}");
+}
+
+/// Includes: one that is missing, twice, in a circle, and one that says where a mistake is.
+#[test]
+fn includes_are_checked() {
+    let text = |main: &str, part: &'static str| {
+        let read = move |path: &Path| match path.to_string_lossy().as_ref() {
+            "robots/part.xml" | "robots/arm.xml" => Ok(part.to_owned()),
+            _ => Err("there is no such file".to_owned()),
+        };
+        let main = format!("<mujoco>{main}</mujoco>");
+        Text::of("robots/arm.xml", main).with_includes(Path::new("robots/arm.xml"), read)
+    };
+    let include = "<include file=\"part.xml\"/>";
+    let twice = format!("{include}\n{include}");
+    let circle = "<mujocoinclude><include file=\"part.xml\"/></mujocoinclude>";
+    let whole = "<mujocoinclude><include file=\"arm.xml\"/></mujocoinclude>";
+    for (main, part, says) in [
+        (
+            "<include file=\"prt.xml\"/>",
+            "",
+            "`prt.xml` cannot be read: there is no such file",
+        ),
+        ("<include/>", "", "<include> has no `file`"),
+        (&twice, "<mujocoinclude/>", "robots/arm.xml:2:1"),
+        (include, circle, "`part.xml` is included a second time"),
+        (include, whole, "`arm.xml` is included a second time"),
+        (include, "<mujocoinclude>", "robots/part.xml:1"),
+    ] {
+        let error = text(main, part).expect_err(main);
+        assert!(error.contains(says), "{says}: {error}");
+    }
+    let part =
+        "<mujocoinclude>\n  <worldbody> <body name='b' quat='0'/> </worldbody></mujocoinclude>";
+    let made = text(include, part).unwrap();
+    let errors = import_text(&made, &Options::default()).unwrap_err();
+    let shown = made.render(&errors.0);
+    assert!(shown.contains("robots/part.xml:2:36"), "{shown}");
+    assert!(shown.contains("`quat` has 1 numbers, not 4"), "{shown}");
+}
+
+/// What grows without end: depth, entities, classes, bodies, joints without number.
+#[test]
+fn hostile_files_are_refused_at_once() {
+    let nested = |open: &str, close: &str, count: usize| {
+        format!("{}{}", open.repeat(count), close.repeat(count))
+    };
+    let model = |inside: &str| format!("<mujoco><worldbody>{inside}</worldbody></mujoco>");
+    let classes: String = (0..6000)
+        .map(|i| format!("<default class='c{i}'/>"))
+        .collect();
+    let entities = "<!DOCTYPE m [<!ENTITY a \"aaaaaaaaaa\">]><mujoco>&a;</mujoco>";
+    let doubled = "<joint joint1='a' joint2='b'/><joint joint1='b' joint2='a'/>";
+    let joint = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/><joint type='slide' name=";
+    let circle = format!(
+        "<mujoco><worldbody><body name='x'>{joint}'x'/><body name='p'>{joint}'a'/></body>\
+         <body name='q'>{joint}'b'/></body></body></worldbody><equality>{doubled}</equality></mujoco>"
+    );
+    for text in [
+        model(&nested("<body>", "</body>", 100_000)),
+        model(&nested("<body>", "</body>", 200)),
+        model(&nested("<frame>", "</frame>", 100_000)),
+        model(&"<body/>".repeat(100_000)),
+        model(&format!("<body>{}</body>", "<joint/>".repeat(50_000))),
+        model(&format!(
+            "<body>{}</body>",
+            "<site name='s'/>".repeat(50_000)
+        )),
+        format!("<mujoco><default>{classes}</default></mujoco>"),
+        format!(
+            "<mujoco>{}</mujoco>",
+            nested("<default class='a'>", "</default>", 200)
+        ),
+        entities.to_owned(),
+        model("<body pos='1e999999999 0 0'><joint/></body>"),
+    ] {
+        let errors = import(&text, &Options::default()).expect_err("no robot");
+        assert!(!errors.0.is_empty(), "{}", &text[..text.len().min(80)]);
+    }
+    // A circle of followers has an answer, too.
+    let options = Options {
+        tip: Some("x".into()),
+        lock: vec![("*".into(), "0".into())],
+        ..Options::default()
+    };
+    assert_eq!(import(&circle, &options).unwrap().robot.joints.len(), 1);
+}
