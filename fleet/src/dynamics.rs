@@ -101,6 +101,20 @@ impl Loaded {
     pub fn open(path: &Path, urdf: &dalembert_import::Options, fit: bool) -> Result<Loaded, Error> {
         let load = load(urdf, Output::InverseDynamics);
         let arm = Arm::load(path, &load).map_err(Error::new)?;
+        Loaded::with(arm, fit)
+    }
+
+    /// Loads a robot, for its torques.
+    ///
+    /// # Errors
+    /// Why nothing was generated for it.
+    pub fn of(robot: &Robot) -> Result<Loaded, Error> {
+        let load = load(&Default::default(), Output::InverseDynamics);
+        let arm = Arm::parse(&write(robot), &robot.name, &load).map_err(Error::new)?;
+        Loaded::with(arm, false)
+    }
+
+    fn with(arm: Arm, fit: bool) -> Result<Loaded, Error> {
         let torques = place(&arm)?;
         let fitted = match fit {
             true => Some(Fitted::new(arm.robot())?),
