@@ -134,7 +134,10 @@ fn is_number(of: &DataType) -> bool {
 fn nulls_within(array: &ArrayRef) -> Option<NullBuffer> {
     let lists = array.as_fixed_size_list();
     let width = lists.value_length() as usize;
-    let nulls = lists.values().nulls().filter(|nulls| nulls.null_count() > 0)?;
+    let nulls = lists
+        .values()
+        .nulls()
+        .filter(|nulls| nulls.null_count() > 0)?;
     // Of a slice of an array, values are those of the slice.
     let valid = (0..lists.len()).map(|row| (0..width).all(|k| nulls.is_valid(row * width + k)));
     Some(NullBuffer::from_iter(valid))

@@ -54,7 +54,9 @@ pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), 
     let builder = move |config: SessionConfig| {
         let mut config = config;
         evaluate_once(&mut config);
-        let mut state = SessionStateBuilder::new().with_default_features().with_config(config);
+        let mut state = SessionStateBuilder::new()
+            .with_default_features()
+            .with_config(config);
         let scalars = state.scalar_functions().get_or_insert_default();
         scalars.extend(functions.scalars.iter().cloned());
         let aggregates = state.aggregate_functions().get_or_insert_default();
@@ -77,8 +79,12 @@ pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), 
         override_config_producer: Some(Arc::new(producer)),
         ..SchedulerConfig::default()
     };
-    let cluster = BallistaCluster::new_from_config(&config).await.map_err(failed)?;
-    start_server(cluster, address, Arc::new(config)).await.map_err(failed)
+    let cluster = BallistaCluster::new_from_config(&config)
+        .await
+        .map_err(failed)?;
+    start_server(cluster, address, Arc::new(config))
+        .await
+        .map_err(failed)
 }
 
 /// Where an executor is, and what it may use.
@@ -103,14 +109,22 @@ pub struct Executor {
 /// # Errors
 /// A scheduler that does not answer, an address that is taken, and those of Ballista.
 pub async fn executor(executor: Executor, functions: Functions) -> Result<(), Error> {
-    let Executor { scheduler_host, scheduler_port, .. } = executor.clone();
+    let Executor {
+        scheduler_host,
+        scheduler_port,
+        ..
+    } = executor.clone();
     reach(&format!("{scheduler_host}:{scheduler_port}")).await?;
     let mut registry = BallistaFunctionRegistry::default();
     for scalar in functions.scalars {
-        registry.scalar_functions.insert(scalar.name().to_owned(), scalar);
+        registry
+            .scalar_functions
+            .insert(scalar.name().to_owned(), scalar);
     }
     for aggregate in functions.aggregates {
-        registry.aggregate_functions.insert(aggregate.name().to_owned(), aggregate);
+        registry
+            .aggregate_functions
+            .insert(aggregate.name().to_owned(), aggregate);
     }
     let producer = || {
         let mut config = SessionConfig::new_with_ballista();
@@ -133,5 +147,7 @@ pub async fn executor(executor: Executor, functions: Functions) -> Result<(), Er
         override_config_producer: Some(Arc::new(producer)),
         ..ExecutorProcessConfig::default()
     };
-    start_executor_process(Arc::new(config)).await.map_err(failed)
+    start_executor_process(Arc::new(config))
+        .await
+        .map_err(failed)
 }

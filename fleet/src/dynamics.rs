@@ -160,7 +160,10 @@ fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
 
 /// Returns the place of the one function of an arm, its machine code ready for many states.
 fn place(arm: &Arm) -> Result<usize, Error> {
-    let found = arm.functions().iter().position(|f| f.scalar() == Scalar::F64);
+    let found = arm
+        .functions()
+        .iter()
+        .position(|f| f.scalar() == Scalar::F64);
     let place = found.ok_or_else(|| Error::new("the generator returned no function"))?;
     let native = arm.functions()[place].native();
     native.prepare_rows().map_err(Error::new)?;

@@ -60,7 +60,9 @@ impl Engine {
         limits: Limits,
     ) -> Result<Engine, Error> {
         let pool = Arc::new(GreedyMemoryPool::new(limits.memory as usize));
-        let runtime = RuntimeEnvBuilder::new().with_memory_pool(pool).build_arc()?;
+        let runtime = RuntimeEnvBuilder::new()
+            .with_memory_pool(pool)
+            .build_arc()?;
         let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
         register(&context, name, robot);
         Ok(Engine {
@@ -87,7 +89,10 @@ impl Engine {
 
         crate::cluster::reach(scheduler).await?;
         let config = config(limits.partitions).upgrade_for_ballista();
-        let state = SessionStateBuilder::new().with_default_features().with_config(config).build();
+        let state = SessionStateBuilder::new()
+            .with_default_features()
+            .with_config(config)
+            .build();
         let url = format!("df://{scheduler}");
         let context = SessionContext::remote_with_state(&url, state).await?;
         // After it: becoming a cluster's resets the functions.
@@ -104,7 +109,9 @@ impl Engine {
     fn aggregate(&self, suffix: &str) -> Result<Arc<AggregateUDF>, Error> {
         let mut all = self.functions.aggregates.iter();
         let found = all.find(|aggregate| aggregate.name().ends_with(suffix));
-        found.cloned().ok_or_else(|| Error::new(format!("there is no aggregate `{suffix}`")))
+        found
+            .cloned()
+            .ok_or_else(|| Error::new(format!("there is no aggregate `{suffix}`")))
     }
 
     /// Computes an aggregate that returns bytes of every log, in their order; a log with a row
@@ -173,7 +180,10 @@ impl Engine {
         let schema = table.schema().as_arrow().clone();
         let mut arguments = Vec::new();
         if with_time {
-            let kind = schema.field_with_name(&log.columns.time)?.data_type().clone();
+            let kind = schema
+                .field_with_name(&log.columns.time)?
+                .data_type()
+                .clone();
             arguments.push(time(&log.columns.time, &kind, log.columns.time_factor));
         }
         for (source, factors) in log.layout.sources.iter().zip(&log.columns.factors) {

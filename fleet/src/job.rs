@@ -66,7 +66,10 @@ pub struct LogArgs {
 pub fn bytes(text: &str) -> Result<u64, String> {
     let bad = || format!("`{text}` is no size: 512M or 4G was expected");
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let unit = match text[digits.len()..].to_ascii_uppercase().trim_end_matches("IB") {
+    let unit = match text[digits.len()..]
+        .to_ascii_uppercase()
+        .trim_end_matches("IB")
+    {
         "" => 1,
         "K" => 1 << 10,
         "M" => 1 << 20,
@@ -102,10 +105,20 @@ impl RobotArgs {
     /// a query is refused instead of answered by another robot.
     pub fn function_name(&self, robot: &Loaded) -> String {
         let stem = self.robot.file_stem().unwrap_or_default().to_string_lossy();
-        let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+        let plain = |c: char| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_lowercase()
+            } else {
+                '_'
+            }
+        };
         let stem: String = stem.chars().map(plain).collect();
         let hash = robot.robot().input_hash();
-        let hash: String = hash.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
+        let hash: String = hash
+            .iter()
+            .take(4)
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
         format!("{stem}_{hash}")
     }
 }
@@ -166,7 +179,8 @@ impl Job {
             _scratch: scratch,
         };
         job.logs = job.good(found)?;
-        job.progress.expect(job.logs.iter().map(|log| log.rows).sum());
+        job.progress
+            .expect(job.logs.iter().map(|log| log.rows).sum());
         Ok(job)
     }
 
@@ -205,8 +219,15 @@ impl Job {
         let progress = self.progress.clone();
         let is_remote = self.is_remote;
         // What a cluster evaluates is not counted here.
-        let done = move |log: &Log| if is_remote { progress.add(log.rows) };
-        let found = self.engine.over(suffix, &self.logs, &self.going, done).await?;
+        let done = move |log: &Log| {
+            if is_remote {
+                progress.add(log.rows)
+            }
+        };
+        let found = self
+            .engine
+            .over(suffix, &self.logs, &self.going, done)
+            .await?;
         self.keep(found)
     }
 

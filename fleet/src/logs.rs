@@ -58,7 +58,8 @@ pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
 
 /// Returns whether a file is a recording of ROS 2, by its name.
 pub fn is_mcap(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
 }
 
 /// Opens a log of either kind.

@@ -25,7 +25,9 @@ impl Unfinished {
     pub fn beside(name: &Path) -> Result<Unfinished, Error> {
         let file = name.file_name().filter(|_| !name.is_dir());
         let file = file.ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
-        let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = name
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
             return Err(Error::new("there is no such folder").at(folder.display()));
         }

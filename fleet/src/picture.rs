@@ -40,7 +40,11 @@ impl Curves {
             self.time[0] = *first;
         }
         self.time[1] = *last;
-        for (ranges, own) in self.ranges.iter_mut().zip(residuals.chunks_exact(time.len())) {
+        for (ranges, own) in self
+            .ranges
+            .iter_mut()
+            .zip(residuals.chunks_exact(time.len()))
+        {
             for (s, value) in own.iter().enumerate() {
                 let place = (self.seen + s as u64) * COLUMNS as u64 / self.rows;
                 let range = &mut ranges[(place as usize).min(COLUMNS - 1)];
@@ -64,14 +68,32 @@ pub fn picture(logs: &[&Curves]) -> String {
     let mut y = 0.0;
     for log in logs {
         y += TOP;
-        text(&mut svg, 4.0, y - 8.0, "start", &format!("{}: residuals, N·m or N", log.name));
+        text(
+            &mut svg,
+            4.0,
+            y - 8.0,
+            "start",
+            &format!("{}: residuals, N·m or N", log.name),
+        );
         for (i, ranges) in log.ranges.iter().enumerate() {
             strip(&mut svg, y, i, ranges);
             y += HEIGHT;
         }
-        text(&mut svg, LEFT, y + 12.0, "start", &format!("{:.2} s", log.time[0]));
+        text(
+            &mut svg,
+            LEFT,
+            y + 12.0,
+            "start",
+            &format!("{:.2} s", log.time[0]),
+        );
         let end = LEFT + COLUMNS as f64;
-        text(&mut svg, end, y + 12.0, "end", &format!("{:.2} s", log.time[1]));
+        text(
+            &mut svg,
+            end,
+            y + 12.0,
+            "end",
+            &format!("{:.2} s", log.time[1]),
+        );
         y += 20.0;
     }
     svg += "</svg>\n";
@@ -79,7 +101,12 @@ pub fn picture(logs: &[&Curves]) -> String {
 }
 
 fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
-    let filled = || ranges.iter().enumerate().filter(|(_, range)| range[0] <= range[1]);
+    let filled = || {
+        ranges
+            .iter()
+            .enumerate()
+            .filter(|(_, range)| range[0] <= range[1])
+    };
     let largest = filled().fold(0.0f64, |max, (_, [least, most])| max.max(most.max(-least)));
     let middle = y + 0.5 * HEIGHT;
     let scale = match largest {
@@ -101,11 +128,26 @@ fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
          <polygon points=\"{}\" fill=\"#1f77b4\"/>",
         points.trim_end()
     );
-    text(svg, LEFT - 6.0, middle - 4.0, "end", &format!("joint {}", joint + 1));
-    text(svg, LEFT - 6.0, middle + 10.0, "end", &format!("±{largest:.3}"));
+    text(
+        svg,
+        LEFT - 6.0,
+        middle - 4.0,
+        "end",
+        &format!("joint {}", joint + 1),
+    );
+    text(
+        svg,
+        LEFT - 6.0,
+        middle + 10.0,
+        "end",
+        &format!("±{largest:.3}"),
+    );
 }
 
 fn text(svg: &mut String, x: f64, y: f64, anchor: &str, text: &str) {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>");
+    let _ = writeln!(
+        svg,
+        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
+    );
 }

@@ -136,7 +136,13 @@ impl fmt::Display for Progress {
         let done = self.done.load(Ordering::Relaxed) as f64;
         let total = self.total.load(Ordering::Relaxed) as f64;
         let rate = done / self.start.elapsed().as_secs_f64().max(1e-9);
-        write!(f, "{:.2} of {:.2} M states, {:.2} M/s", done / 1e6, total / 1e6, rate / 1e6)?;
+        write!(
+            f,
+            "{:.2} of {:.2} M states, {:.2} M/s",
+            done / 1e6,
+            total / 1e6,
+            rate / 1e6
+        )?;
         match rate > 0.0 && total > done {
             true => write!(f, ", {:.0} s left", (total - done) / rate),
             false => Ok(()),

@@ -27,13 +27,21 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<String, Er
     }
     let mut job = Job::new(&args.logs, true, going).await?;
     let progress = job.progress.clone();
-    let found = progress.shown(args.logs.progress, job.aggregates("_fit")).await?;
+    let found = progress
+        .shown(args.logs.progress, job.aggregates("_fit"))
+        .await?;
     let loaded = job.loaded.clone();
-    let names: Vec<String> = job.logs.iter().map(|log| log.name.display().to_string()).collect();
+    let names: Vec<String> = job
+        .logs
+        .iter()
+        .map(|log| log.name.display().to_string())
+        .collect();
     let is_written = args.output.is_some();
     let solved = going.blocking(move |_| {
         use crate::dynamics::Dynamics;
-        let model = loaded.model().ok_or_else(|| Error::new("the robot has no columns"))?;
+        let model = loaded
+            .model()
+            .ok_or_else(|| Error::new("the robot has no columns"))?;
         solve(model, &found, &names, is_written)
     });
     let (text, robot) = going.unless_ended(solved).await?;
@@ -49,14 +57,20 @@ fn solve(
     names: &[String],
     is_written: bool,
 ) -> Result<(String, Option<String>), Error> {
-    let files = found.iter().map(|bytes| Accumulator::from_bytes(model, bytes));
+    let files = found
+        .iter()
+        .map(|bytes| Accumulator::from_bytes(model, bytes));
     let files = files.collect::<Result<Vec<_>, _>>()?;
     let mut all = Accumulator::new(model);
     for file in &files {
         all.merge(file)?;
     }
     let fit = fit(model, &all, &Prior::None)?;
-    let mut rows = vec![["parameter", "value", "std. error"].map(str::to_owned).to_vec()];
+    let mut rows = vec![
+        ["parameter", "value", "std. error"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
     for k in 0..model.columns().len() {
         let [value, error] = [fit.parameters[k], fit.standard_errors[k]].map(number);
         rows.push(vec![model.name(k), value, error]);
@@ -70,7 +84,12 @@ fn solve(
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let mut add = |name: &str, before: &[f64], after: &[f64]| {
         for (i, (before, after)) in before.iter().zip(after).enumerate() {
-            rows.push(vec![name.to_owned(), (i + 1).to_string(), number(*before), number(*after)]);
+            rows.push(vec![
+                name.to_owned(),
+                (i + 1).to_string(),
+                number(*before),
+                number(*after),
+            ]);
         }
     };
     let what = match files.len() {

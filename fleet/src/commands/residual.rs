@@ -54,7 +54,9 @@ pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Er
     }
     let mut job = Job::new(&args.logs, false, going).await?;
     let progress = job.progress.clone();
-    let found = progress.shown(args.logs.progress, summaries(&mut job)).await?;
+    let found = progress
+        .shown(args.logs.progress, summaries(&mut job))
+        .await?;
     let mut text = summary(&job, &found);
     if args.watch_for.is_some() {
         text += &watched(args, &job, &found, going).await?;
@@ -75,17 +77,22 @@ pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Er
 /// Computes the residuals of every log.
 async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
     let found = job.aggregates("_residuals").await?;
-    let found: Result<Vec<Residuals>, Error> =
-        found.iter().map(|bytes| Residuals::from_bytes(bytes)).collect();
+    let found: Result<Vec<Residuals>, Error> = found
+        .iter()
+        .map(|bytes| Residuals::from_bytes(bytes))
+        .collect();
     let found = found?;
     let logs: Vec<_> = job.logs.iter().cloned().zip(found).collect();
-    let checked = logs.into_iter().map(|(log, found)| match found.not_finite() {
-        0 => Ok(found),
-        count => {
-            let whole = || Bad::whole(&log.name, format!("torques of {count} rows are not finite"));
-            Err(crate::engine::locate(&log).unwrap_or_else(whole))
-        }
-    });
+    let checked = logs
+        .into_iter()
+        .map(|(log, found)| match found.not_finite() {
+            0 => Ok(found),
+            count => {
+                let whole =
+                    || Bad::whole(&log.name, format!("torques of {count} rows are not finite"));
+                Err(crate::engine::locate(&log).unwrap_or_else(whole))
+            }
+        });
     job.keep(checked.collect())
 }
 
@@ -102,12 +109,19 @@ fn summary(job: &Job, found: &[Residuals]) -> String {
     }
     let states = all.states();
     let files = found.len();
-    format!("{}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n", table(&rows))
+    format!(
+        "{}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n",
+        table(&rows)
+    )
 }
 
 fn lines(name: &str, found: &Residuals, time: bool) -> Vec<Vec<String>> {
     let line = |(i, joint): (usize, &crate::functions::Joint)| {
-        let at = if time { format!("{:.3}", joint.time()) } else { String::new() };
+        let at = if time {
+            format!("{:.3}", joint.time())
+        } else {
+            String::new()
+        };
         vec![
             name.to_owned(),
             (i + 1).to_string(),
@@ -130,7 +144,9 @@ async fn watched(
     let n = job.robot.joints();
     // Half of the residuals are below it, whatever a contact does to the others.
     let noise = |found: &Residuals| -> Vec<f64> {
-        (0..n).map(|i| (found.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE)).collect()
+        (0..n)
+            .map(|i| (found.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE))
+            .collect()
     };
     let quiet = match &args.quiet {
         None => None,
@@ -152,10 +168,17 @@ async fn watched(
             Some((noise, 2.0 * level))
         }
     };
-    let noises: Vec<(PathBuf, Vec<f64>)> = job.logs.iter().zip(found).map(|(log, found)| {
-        let own = quiet.as_ref().map_or_else(|| noise(found), |quiet| quiet.0.clone());
-        (log.path.clone(), own)
-    }).collect();
+    let noises: Vec<(PathBuf, Vec<f64>)> = job
+        .logs
+        .iter()
+        .zip(found)
+        .map(|(log, found)| {
+            let own = quiet
+                .as_ref()
+                .map_or_else(|| noise(found), |quiet| quiet.0.clone());
+            (log.path.clone(), own)
+        })
+        .collect();
     let bar = quiet.as_ref().map_or(args.bar, |quiet| quiet.1);
     let (robot, noises) = (job.robot.clone(), Arc::new(noises));
     let all = job.each(move |log, going| {
@@ -166,7 +189,13 @@ async fn watched(
     let head = ["contact in", "from, s", "to, s", "joint", "largest, N·m"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for (log, contacts) in job.logs.iter().zip(all.await?) {
-        for Contact { start, end, joint, largest } in contacts {
+        for Contact {
+            start,
+            end,
+            joint,
+            largest,
+        } in contacts
+        {
             rows.push(vec![
                 log.name.display().to_string(),
                 format!("{start:.3}"),
@@ -177,7 +206,9 @@ async fn watched(
         }
     }
     match rows.len() {
-        1 => Ok(format!("\nno contacts: no sum of residuals is over {bar:.0} times the noise\n")),
+        1 => Ok(format!(
+            "\nno contacts: no sum of residuals is over {bar:.0} times the noise\n"
+        )),
         _ => Ok(format!("\n{}", table(&rows))),
     }
 }
@@ -209,7 +240,9 @@ async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<St
         Ok(Some((log.path.clone(), curves)))
     });
     let curves: Vec<_> = curves.await?.into_iter().flatten().collect();
-    let found = worst.iter().flat_map(|path| curves.iter().find(|(own, _)| own == path));
+    let found = worst
+        .iter()
+        .flat_map(|path| curves.iter().find(|(own, _)| own == path));
     let found: Vec<&Curves> = found.map(|(_, curves)| curves).collect();
     Ok(picture(&found))
 }

@@ -77,10 +77,14 @@ struct Scene {
 
 pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
     if args.files == 0 || args.seconds * args.rate < 1.0 || !(args.noise >= 0.0) {
-        return Err(Error::new("there have to be files, states, and a noise that is not negative"));
+        return Err(Error::new(
+            "there have to be files, states, and a noise that is not negative",
+        ));
     }
     let folder = args.output.clone();
-    let is_used = folder.read_dir().is_ok_and(|mut entries| entries.next().is_some());
+    let is_used = folder
+        .read_dir()
+        .is_ok_and(|mut entries| entries.next().is_some());
     if is_used {
         return Err(Error::new("there is something in it already").at(folder.display()));
     }
@@ -106,7 +110,10 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
     });
     let said = progress.shown(shown, made).await?;
     let folder = folder.display();
-    Ok(format!("{said}{} states in {files} logs in {folder}\n", states * files))
+    Ok(format!(
+        "{said}{} states in {files} logs in {folder}\n",
+        states * files
+    ))
 }
 
 /// A folder that has not got its name yet.
@@ -129,7 +136,8 @@ impl Folder {
     }
 
     fn finish(self) -> Result<(), Error> {
-        std::fs::rename(&self.path, &self.name).map_err(|why| Error::new(why).at(self.name.display()))
+        std::fs::rename(&self.path, &self.name)
+            .map_err(|why| Error::new(why).at(self.name.display()))
     }
 }
 
@@ -166,9 +174,9 @@ impl Scene {
         let [q, qd, qdd] = &states;
         let mut tau = vec![0.0; n * count];
         exact.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
-        let rms = tau.chunks_exact(count).map(|own| {
-            libm::sqrt(own.iter().map(|x| x * x).sum::<f64>() / count as f64)
-        });
+        let rms = tau
+            .chunks_exact(count)
+            .map(|own| libm::sqrt(own.iter().map(|x| x * x).sum::<f64>() / count as f64));
         // A joint that holds nothing has some noise all the same.
         let noise = rms.map(|rms| args.noise * rms.max(1e-3)).collect();
         Ok(Scene {
@@ -261,7 +269,9 @@ impl Scene {
             let (from, to) = (one.start, one.start + one.duration);
             let peak = number(one.torque[joint]);
             let joint = joint + 1;
-            said += &format!("{name}: contact from {from:.3} to {to:.3} s, joint {joint}, {peak} N·m\n");
+            said += &format!(
+                "{name}: contact from {from:.3} to {to:.3} s, joint {joint}, {peak} N·m\n"
+            );
         }
         Ok(said)
     }
@@ -305,12 +315,20 @@ impl Scene {
             let count = BLOCK.min(recording.states - first);
             let mut states = [(); 3].map(|()| vec![0.0; n * count]);
             for s in 0..count {
-                fill(&mut states, s, count, cycle[(first + s) % cycle.len()].clone());
+                fill(
+                    &mut states,
+                    s,
+                    count,
+                    cycle[(first + s) % cycle.len()].clone(),
+                );
             }
             let [q, qd, qdd] = &states;
             let mut tau = vec![0.0; n * count];
-            self.exact.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
-            let time: Vec<f64> = (0..count).map(|s| (first + s) as f64 * recording.period).collect();
+            self.exact
+                .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+            let time: Vec<f64> = (0..count)
+                .map(|s| (first + s) as f64 * recording.period)
+                .collect();
             for (s, time) in time.iter().enumerate() {
                 for i in 0..n {
                     let own = &mut tau[i * count + s];
@@ -323,7 +341,10 @@ impl Scene {
             let [q, qd, qdd] = states;
             let step = recording.resolution;
             let q = match step > 0.0 {
-                true => q.into_iter().map(|q| step * libm::round(q / step)).collect(),
+                true => q
+                    .into_iter()
+                    .map(|q| step * libm::round(q / step))
+                    .collect(),
                 false => q,
             };
             self.write(table, time, &[q, qd, qdd, tau])?;
@@ -332,7 +353,12 @@ impl Scene {
         Ok(())
     }
 
-    fn write(&self, table: &mut Table, time: Vec<f64>, columns: &[Vec<f64>; 4]) -> Result<(), Error> {
+    fn write(
+        &self,
+        table: &mut Table,
+        time: Vec<f64>,
+        columns: &[Vec<f64>; 4],
+    ) -> Result<(), Error> {
         let chosen = columns.iter().enumerate();
         let chosen = chosen.filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
         let each = chosen.flat_map(|(_, of)| of.chunks_exact(time.len().max(1)));

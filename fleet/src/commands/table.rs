@@ -3,7 +3,12 @@
 /// Returns rows of text in columns, the first to the left and the others to the right.
 pub(super) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |k: usize| rows.iter().filter_map(|row| row.get(k)).map(|x| x.chars().count()).max();
+    let width = |k: usize| {
+        rows.iter()
+            .filter_map(|row| row.get(k))
+            .map(|x| x.chars().count())
+            .max()
+    };
     let widths: Vec<usize> = (0..columns).map(|k| width(k).unwrap_or(0)).collect();
     let mut text = String::new();
     for row in rows {

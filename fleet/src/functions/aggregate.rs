@@ -153,7 +153,11 @@ impl Accumulator for Keeping {
     }
 
     fn merge_batch(&mut self, states: &[ArrayRef]) -> Result<()> {
-        for bytes in states.iter().flat_map(|array| array.as_binary::<i32>()).flatten() {
+        for bytes in states
+            .iter()
+            .flat_map(|array| array.as_binary::<i32>())
+            .flatten()
+        {
             self.kept.merge(self.robot.as_ref(), bytes)?;
         }
         Ok(())

@@ -226,7 +226,13 @@ impl Kept for Residuals {
             put(joint.squares.rest.to_bits());
             put(joint.worst.to_bits());
             put(joint.time.to_bits());
-            let filled = || joint.bins.iter().enumerate().filter(|(_, count)| **count > 0);
+            let filled = || {
+                joint
+                    .bins
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, count)| **count > 0)
+            };
             put(filled().count() as u64);
             for (bin, count) in filled() {
                 put(bin as u64);

@@ -82,7 +82,10 @@ impl ScalarUDFImpl for Scalar {
     }
 
     fn invoke_with_args(&self, given: ScalarFunctionArgs) -> Result<ColumnarValue> {
-        let is_constant = given.args.iter().all(|of| matches!(of, ColumnarValue::Scalar(_)));
+        let is_constant = given
+            .args
+            .iter()
+            .all(|of| matches!(of, ColumnarValue::Scalar(_)));
         let arrays = match is_constant {
             true => ColumnarValue::values_to_arrays(&given.args)?,
             false => {

@@ -57,9 +57,16 @@ impl Block {
             see(place, "the time".into(), self.time[place]);
         }
         for (quantity, name) in super::mapping::QUANTITIES.iter().enumerate() {
-            for (i, column) in self.quantities[quantity].chunks_exact(self.len().max(1)).enumerate() {
+            for (i, column) in self.quantities[quantity]
+                .chunks_exact(self.len().max(1))
+                .enumerate()
+            {
                 if let Some(place) = column.iter().position(|x| !x.is_finite()) {
-                    see(place, format!("the {name} of joint {}", i + 1), column[place]);
+                    see(
+                        place,
+                        format!("the {name} of joint {}", i + 1),
+                        column[place],
+                    );
                 }
             }
         }
@@ -100,7 +107,10 @@ impl<'a> Blocks<'a> {
             names.extend(source.columns().iter().map(String::as_str));
         }
         let mask = projection(&builder, &names);
-        let reader = builder.with_projection(mask).with_batch_size(ROWS).build()?;
+        let reader = builder
+            .with_projection(mask)
+            .with_batch_size(ROWS)
+            .build()?;
         Ok(Blocks {
             reader,
             columns,
@@ -139,7 +149,10 @@ impl<'a> Blocks<'a> {
         }
         let places: Vec<usize> = (0..valid.len()).filter(|place| valid[*place]).collect();
         let mut block = Block {
-            rows: places.iter().map(|place| self.row + 1 + *place as u64).collect(),
+            rows: places
+                .iter()
+                .map(|place| self.row + 1 + *place as u64)
+                .collect(),
             time: picked(&time, &places, 1, 0, 1.0).collect(),
             ..Block::default()
         };
@@ -220,5 +233,7 @@ fn picked<'a>(
     factor: f64,
 ) -> impl Iterator<Item = f64> + 'a {
     let values = array.as_primitive::<Float64Type>().values();
-    places.iter().map(move |place| values[place * width + i] * factor)
+    places
+        .iter()
+        .map(move |place| values[place * width + i] * factor)
 }

@@ -114,7 +114,9 @@ pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Re
     let layout = columns.layout(builder.schema()).map_err(whole)?;
     let metadata = builder.metadata().clone();
     let groups = metadata.row_groups().iter();
-    let group = groups.map(|group| group.compressed_size().max(0) as u64).max();
+    let group = groups
+        .map(|group| group.compressed_size().max(0) as u64)
+        .max();
     let rows = metadata.file_metadata().num_rows().max(0) as u64;
     if rows == 0 {
         return Err(Bad::whole(path, "it has no rows"));

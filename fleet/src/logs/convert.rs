@@ -7,8 +7,8 @@ use super::block::open;
 use super::check::{Bad, Clock, Log};
 use super::mapping::Columns;
 use super::rates::Rates;
-use super::write::{Table, canonical_names};
 use super::states;
+use super::write::{Table, canonical_names};
 use crate::error::Error;
 
 /// Converts a log; returns that of the file that was written.
@@ -61,7 +61,9 @@ pub fn convert(log: &Log, to: &Path, goes_on: &dyn Fn() -> bool) -> Result<Log, 
     let canonical = Columns::canonical(n);
     let written = open(to).map_err(whole)?;
     let groups = written.metadata().row_groups().iter();
-    let group = groups.map(|group| group.compressed_size().max(0) as u64).max();
+    let group = groups
+        .map(|group| group.compressed_size().max(0) as u64)
+        .max();
     Ok(Log {
         name: name.clone(),
         path: to.to_owned(),

@@ -151,11 +151,19 @@ impl Mapping {
         let constants = constants.unwrap_or_else(|| vec![1.0; n]);
         length("torque constants", constants.len(), n)?;
         if constants.iter().any(|x| !x.is_finite() || *x == 0.0) {
-            return Err(Error::new("torque constants have to be finite and not zero"));
+            return Err(Error::new(
+                "torque constants have to be finite and not zero",
+            ));
         }
         let frequency = self.motion_frequency.or(file.motion_frequency);
         let names = self.joint_names.clone().or(file.joint_names);
-        let names = names.or_else(|| robot.joints.iter().map(|joint| joint.name.clone()).collect());
+        let names = names.or_else(|| {
+            robot
+                .joints
+                .iter()
+                .map(|joint| joint.name.clone())
+                .collect()
+        });
         let joint_names: Vec<String> = names.unwrap_or_default();
         if !joint_names.is_empty() {
             length("names of joints", joint_names.len(), n)?;
@@ -222,9 +230,13 @@ impl Columns {
         let pattern = &self.patterns[quantity];
         if pattern.contains("{}") {
             let each = 1..=self.joints;
-            each.map(|i| pattern.replace("{}", &i.to_string())).collect()
+            each.map(|i| pattern.replace("{}", &i.to_string()))
+                .collect()
         } else {
-            pattern.split(',').map(|name| name.trim().to_owned()).collect()
+            pattern
+                .split(',')
+                .map(|name| name.trim().to_owned())
+                .collect()
         }
     }
 
@@ -233,7 +245,9 @@ impl Columns {
     /// # Errors
     /// A column that is not there, or of another type or width than expected.
     pub fn layout(&self, schema: &Schema) -> Result<Layout, Error> {
-        let time = schema.field_with_name(&self.time).map_err(|_| missing(&self.time, "time", schema))?;
+        let time = schema
+            .field_with_name(&self.time)
+            .map_err(|_| missing(&self.time, "time", schema))?;
         let kind = time.data_type();
         if !kind.is_numeric() && !matches!(kind, DataType::Timestamp(..)) {
             let name = &self.time;
@@ -280,7 +294,9 @@ impl Columns {
             let field = found(name).ok_or_else(|| missing(name, QUANTITIES[quantity], schema))?;
             if !field.data_type().is_numeric() {
                 let kind = field.data_type();
-                return Err(Error::new(format!("column `{name}` is {kind}: a number was expected")));
+                return Err(Error::new(format!(
+                    "column `{name}` is {kind}: a number was expected"
+                )));
             }
         }
         Ok(Some(Source::Columns(names)))
@@ -288,7 +304,11 @@ impl Columns {
 }
 
 fn missing(name: &str, quantity: &str, schema: &Schema) -> Error {
-    let all: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
+    let all: Vec<&str> = schema
+        .fields()
+        .iter()
+        .map(|field| field.name().as_str())
+        .collect();
     let few = all.iter().take(12).copied().collect::<Vec<_>>().join(", ");
     let more = if all.len() > 12 { ", …" } else { "" };
     Error::new(format!(

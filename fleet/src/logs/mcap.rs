@@ -41,7 +41,10 @@ impl<'a> Messages<'a> {
         for message in self.messages.by_ref() {
             let message = message.map_err(Error::new)?;
             let channel = &message.channel;
-            let schema = channel.schema.as_ref().map_or("", |schema| schema.name.as_str());
+            let schema = channel
+                .schema
+                .as_ref()
+                .map_or("", |schema| schema.name.as_str());
             if !SCHEMAS.contains(&schema) {
                 if self.columns.topic.as_deref() == Some(&channel.topic) {
                     return Err(Error::new(format!(
@@ -63,7 +66,9 @@ impl<'a> Messages<'a> {
             }
             if channel.message_encoding != "cdr" {
                 let encoding = &channel.message_encoding;
-                return Err(Error::new(format!("messages are encoded as `{encoding}`, not as cdr")));
+                return Err(Error::new(format!(
+                    "messages are encoded as `{encoding}`, not as cdr"
+                )));
             }
             self.row += 1;
             let place = || format!("message {}", self.row);
@@ -104,7 +109,12 @@ impl<'a> Messages<'a> {
                     return Err(place(Error::new(why)));
                 }
                 let factors = &self.columns.factors[quantity];
-                states.extend(order.iter().zip(factors).map(|(from, factor)| values[*from] * factor));
+                states.extend(
+                    order
+                        .iter()
+                        .zip(factors)
+                        .map(|(from, factor)| values[*from] * factor),
+                );
             }
         }
         let count = block.len();

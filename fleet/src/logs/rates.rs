@@ -90,7 +90,10 @@ fn joined(first: &Block, second: &Block, joints: usize) -> Block {
     };
     for quantity in [0, 3] {
         for joint in 0..joints {
-            for block in [first, second].into_iter().filter(|block| !block.is_empty()) {
+            for block in [first, second]
+                .into_iter()
+                .filter(|block| !block.is_empty())
+            {
                 all.quantities[quantity].extend_from_slice(block.column(quantity, joint));
             }
         }

@@ -39,7 +39,11 @@ impl Table {
         if file {
             fields.push(Field::new("file", DataType::Utf8, false));
         }
-        fields.extend(names.iter().map(|name| Field::new(name, DataType::Float64, false)));
+        fields.extend(
+            names
+                .iter()
+                .map(|name| Field::new(name, DataType::Float64, false)),
+        );
         let schema = Arc::new(Schema::new(fields));
         // Numbers of a log do not repeat, names of files do.
         let properties = WriterProperties::builder()
@@ -65,12 +69,15 @@ impl Table {
         let rows = columns.first().map_or(0, |column| column.len());
         let mut arrays: Vec<ArrayRef> = Vec::with_capacity(columns.len() + 1);
         if self.has_file {
-            arrays.push(Arc::new(StringArray::from_iter_values(std::iter::repeat_n(file, rows))));
+            arrays.push(Arc::new(StringArray::from_iter_values(
+                std::iter::repeat_n(file, rows),
+            )));
         }
         for column in columns {
             arrays.push(Arc::new(Float64Array::from(column.to_vec())));
         }
-        self.writer.write(&RecordBatch::try_new(self.schema.clone(), arrays)?)?;
+        self.writer
+            .write(&RecordBatch::try_new(self.schema.clone(), arrays)?)?;
         Ok(())
     }
 

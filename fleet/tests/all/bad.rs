@@ -22,7 +22,9 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     let folder = Folder::new();
     log(&folder, "good.parquet", |_| {});
     log(&folder, "back.parquet", |of| of.time[12_344] = 1.0);
-    log(&folder, "double.parquet", |of| of.time[9_000] = of.time[8_999]);
+    log(&folder, "double.parquet", |of| {
+        of.time[9_000] = of.time[8_999]
+    });
     log(&folder, "clock.parquet", |of| of.time[17] = f64::NAN);
     let bytes = fs::read(folder.file("good.parquet")).unwrap();
     fs::write(folder.file("short.parquet"), &bytes[..bytes.len() / 2]).unwrap();
@@ -52,7 +54,9 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     }
     assert!(!out.exists());
     // What is wrong with numbers shows when they are used.
-    log(&folder, "number.parquet", |of| of.quantities[1][20_000 + 15_554] = f64::NAN);
+    log(&folder, "number.parquet", |of| {
+        of.quantities[1][20_000 + 15_554] = f64::NAN
+    });
     let one = folder.file("number.parquet");
     for command in ["residual", "identify"] {
         let said = fails(&[command, text(&one), "--robot", text(&arm)]);
@@ -63,7 +67,12 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     assert!(skipped.status.success());
     let said = String::from_utf8_lossy(&skipped.stderr).into_owned();
     assert_eq!(said.matches("left out: ").count(), 8, "{said}");
-    let good = succeeds(&["residual", text(&folder.file("good.parquet")), "--robot", text(&arm)]);
+    let good = succeeds(&[
+        "residual",
+        text(&folder.file("good.parquet")),
+        "--robot",
+        text(&arm),
+    ]);
     assert_eq!(String::from_utf8(skipped.stdout).unwrap(), good);
 }
 
@@ -77,7 +86,12 @@ fn damaged_pages_are_named() {
     let middle = bytes.len() / 2;
     bytes[middle..middle + 40_000].fill(0xff);
     fs::write(&path, bytes).unwrap();
-    let said = fails(&["residual", text(&path), "--robot", text(&robot_file("planar2r"))]);
+    let said = fails(&[
+        "residual",
+        text(&path),
+        "--robot",
+        text(&robot_file("planar2r")),
+    ]);
     assert!(said.contains("log.parquet: "), "{said}");
 }
 
@@ -93,7 +107,10 @@ fn flags_that_cannot_be_are_refused() {
         (&["-o", text(&folder.0)], "it is a folder"),
         (&["--memory", "12Q"], "512M or 4G was expected"),
         (&["--memory", "1K"], "64M is the least"),
-        (&["--torque-constants", "1,2,3"], "3 torque constants, and the robot has 2 joints"),
+        (
+            &["--torque-constants", "1,2,3"],
+            "3 torque constants, and the robot has 2 joints",
+        ),
         (&["--position", "q1"], "names 1 columns of position"),
     ] {
         let said = fails(&[&base[..], more].concat());
@@ -117,13 +134,27 @@ fn what_is_ended_leaves_nothing() {
     ended(&[&simulate[..], &minutes].concat(), &folder.0);
     assert!(folder.names().is_empty(), "{:?}", folder.names());
 
-    let many = ["--files", "1", "--exact", "--seconds", "2000", "--encoders-only"];
+    let many = [
+        "--files",
+        "1",
+        "--exact",
+        "--seconds",
+        "2000",
+        "--encoders-only",
+    ];
     succeeds(&[&simulate[..], &many].concat());
     let (all, out) = (folder.file("logs/*.parquet"), folder.file("out.parquet"));
     let work = folder.file("work");
     fs::create_dir(&work).unwrap();
     let arguments = [
-        "residual", text(&all), "--robot", text(&arm), "-o", text(&out), "--work", text(&work),
+        "residual",
+        text(&all),
+        "--robot",
+        text(&arm),
+        "-o",
+        text(&out),
+        "--work",
+        text(&work),
     ];
     ended(&arguments, &work);
     assert_eq!(folder.names(), ["logs", "work"]);
@@ -134,15 +165,25 @@ fn what_is_ended_leaves_nothing() {
 #[cfg(unix)]
 fn ended(arguments: &[&str], folder: &Path) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
-    let mut child = command.args(arguments).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = command
+        .args(arguments)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     let start = Instant::now();
     while fs::read_dir(folder).unwrap().count() == 0 {
-        assert!(start.elapsed() < Duration::from_secs(300), "nothing was begun");
+        assert!(
+            start.elapsed() < Duration::from_secs(300),
+            "nothing was begun"
+        );
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(Duration::from_millis(20));
     }
     std::thread::sleep(Duration::from_millis(200));
-    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
     assert!(sent.success());
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -18,14 +18,39 @@ fn simulated(folder: &Folder, more: &[&str]) -> String {
 #[test]
 fn identification_closes_the_loop() {
     let folder = Folder::new();
-    simulated(&folder, &["--files", "3", "--seconds", "12", "--rate", "500", "--vary", "0.2"]);
+    simulated(
+        &folder,
+        &[
+            "--files",
+            "3",
+            "--seconds",
+            "12",
+            "--rate",
+            "500",
+            "--vary",
+            "0.2",
+        ],
+    );
     let (old, new) = (robot_file("planar2r"), folder.file("new.toml"));
-    let (seen, unseen) = (folder.file("logs/log000[01].parquet"), folder.file("logs/log0002.parquet"));
-    let said = succeeds(&["identify", text(&seen), "--robot", text(&old), "-o", text(&new)]);
+    let (seen, unseen) = (
+        folder.file("logs/log000[01].parquet"),
+        folder.file("logs/log0002.parquet"),
+    );
+    let said = succeeds(&[
+        "identify",
+        text(&seen),
+        "--robot",
+        text(&old),
+        "-o",
+        text(&new),
+    ]);
     assert!(said.contains("std. error") && said.contains("with parameters from the others"));
     let rms = |robot: &std::path::Path| -> Vec<f64> {
         let table = succeeds(&["residual", text(&unseen), "--robot", text(robot)]);
-        rows(&table, "log0002.parquet").iter().map(|row| row[1]).collect()
+        rows(&table, "log0002.parquet")
+            .iter()
+            .map(|row| row[1])
+            .collect()
     };
     let (before, after) = (rms(&old), rms(&new));
     println!("{before:?} -> {after:?}");
@@ -39,7 +64,10 @@ fn identification_closes_the_loop() {
         assert!(*after < 1.05 * own, "{after} {own}");
     }
     let generated = dalembert_jit::Arm::load(&new, &Default::default());
-    assert!(generated.is_ok(), "the generator does not read the new file");
+    assert!(
+        generated.is_ok(),
+        "the generator does not read the new file"
+    );
 }
 
 /// The table is that of the states themselves, in one file and in all.
@@ -55,8 +83,16 @@ fn tables_and_rows_are_those_of_the_states() {
     let (pattern, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
     let (out, svg) = (folder.file("out.parquet"), folder.file("out.svg"));
     let table = succeeds(&[
-        "residual", text(&pattern), "--robot", text(&arm), "-o", text(&out), "--svg", text(&svg),
-        "--worst", "1",
+        "residual",
+        text(&pattern),
+        "--robot",
+        text(&arm),
+        "-o",
+        text(&out),
+        "--svg",
+        text(&svg),
+        "--worst",
+        "1",
     ]);
     for (sample, name) in samples.iter().zip(["a.parquet", "b.parquet"]) {
         let found = rows(&table, name);
@@ -73,7 +109,11 @@ fn tables_and_rows_are_those_of_the_states() {
     }
     assert!(table.contains("40000 states in 2 files"), "{table}");
     let drawn = std::fs::read_to_string(&svg).unwrap();
-    assert_eq!(drawn.matches("<polygon").count(), 2, "one file of two joints");
+    assert_eq!(
+        drawn.matches("<polygon").count(),
+        2,
+        "one file of two joints"
+    );
     // Rows are in order, with all that they are of.
     let names = ["q", "qd", "qdd", "residual"].map(|name| format!("{name}{{}}"));
     let mapping = dalembert_fleet::logs::Mapping {
@@ -82,16 +122,25 @@ fn tables_and_rows_are_those_of_the_states() {
     };
     let columns = mapping.resolve(robot.robot()).unwrap();
     let mut place = 0;
-    let wanted = samples.each_ref().map(|sample| sample.residuals(robot.as_ref(), 1));
+    let wanted = samples
+        .each_ref()
+        .map(|sample| sample.residuals(robot.as_ref(), 1));
     for block in Blocks::open(&out, &columns).unwrap() {
         let block = block.unwrap();
         for residual in block.column(3, 1) {
-            assert_eq!(*residual, wanted[place / 20_000][place % 20_000], "row {place}");
+            assert_eq!(
+                *residual,
+                wanted[place / 20_000][place % 20_000],
+                "row {place}"
+            );
             place += 1;
         }
     }
     assert_eq!(place, 40_000);
-    assert_eq!(folder.names(), ["a.parquet", "b.parquet", "out.parquet", "out.svg"]);
+    assert_eq!(
+        folder.names(),
+        ["a.parquet", "b.parquet", "out.parquet", "out.svg"]
+    );
 }
 
 /// Logs in degrees, of other names, as lists, with currents, in milliseconds.
@@ -111,8 +160,18 @@ fn columns_and_units_are_the_logs() {
     let mut columns = vec![stamps];
     for quantity in 0..4 {
         for (i, constant) in [0.5, -2.0].iter().enumerate() {
-            let factor = if quantity == 3 { 1.0 / constant } else { degrees };
-            columns.push(sample.column(quantity, i).iter().map(|x| x * factor).collect());
+            let factor = if quantity == 3 {
+                1.0 / constant
+            } else {
+                degrees
+            };
+            columns.push(
+                sample
+                    .column(quantity, i)
+                    .iter()
+                    .map(|x| x * factor)
+                    .collect(),
+            );
         }
     }
     let slices: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
@@ -124,16 +183,38 @@ fn columns_and_units_are_the_logs() {
                  torque-constants = [0.5, -2.0]\n";
     std::fs::write(&mapping, flags).unwrap();
     let arm = robot_file("planar2r");
-    let plain = succeeds(&["residual", text(&folder.file("plain.parquet")), "--robot", text(&arm)]);
+    let plain = succeeds(&[
+        "residual",
+        text(&folder.file("plain.parquet")),
+        "--robot",
+        text(&arm),
+    ]);
     let other = succeeds(&[
-        "residual", text(&path), "--robot", text(&arm), "--mapping", text(&mapping), "--units", "deg",
+        "residual",
+        text(&path),
+        "--robot",
+        text(&arm),
+        "--mapping",
+        text(&mapping),
+        "--units",
+        "deg",
     ]);
     assert_eq!(rows(&plain, "plain.parquet"), rows(&other, "other.parquet"));
     std::fs::write(&mapping, "positon = 'q{}'\n").unwrap();
-    let why = fails(&["residual", text(&path), "--robot", text(&arm), "--mapping", text(&mapping)]);
+    let why = fails(&[
+        "residual",
+        text(&path),
+        "--robot",
+        text(&arm),
+        "--mapping",
+        text(&mapping),
+    ]);
     assert!(why.contains("positon") && why.contains("position"), "{why}");
     let why = fails(&["residual", text(&path), "--robot", text(&arm)]);
-    assert!(why.contains("no column `time`") && why.contains("stamp, pa"), "{why}");
+    assert!(
+        why.contains("no column `time`") && why.contains("stamp, pa"),
+        "{why}"
+    );
 }
 
 /// Encoders alone: rates are differentiated, and residuals stay near the torques' noise.
@@ -149,15 +230,24 @@ fn rates_that_are_missing_are_differentiated() {
         let work = folder.file("");
         // The motion has 0.6 Hz: a filter for 5 Hz lets more of the encoder's steps through.
         let table = succeeds(&[
-            "residual", text(&logs), "--robot", text(&arm), "--work", text(&work),
-            "--motion-frequency", "2",
+            "residual",
+            text(&logs),
+            "--robot",
+            text(&arm),
+            "--work",
+            text(&work),
+            "--motion-frequency",
+            "2",
         ]);
         assert_eq!(folder.names(), ["logs"], "what was converted is gone");
         rows(&table, "log0000.parquet")
     });
     for (with, without) in with.iter().zip(&without) {
         println!("{} {}", with[1], without[1]);
-        assert!((without[1] / with[1] - 1.0).abs() < 0.05, "{with:?} {without:?}");
+        assert!(
+            (without[1] / with[1] - 1.0).abs() < 0.05,
+            "{with:?} {without:?}"
+        );
     }
 }
 
@@ -165,7 +255,10 @@ fn rates_that_are_missing_are_differentiated() {
 #[test]
 fn collisions_are_found_and_nothing_else() {
     let folder = Folder::new();
-    let said = simulated(&folder, &["--files", "2", "--seconds", "30", "--collisions", "2"]);
+    let said = simulated(
+        &folder,
+        &["--files", "2", "--seconds", "30", "--collisions", "2"],
+    );
     let happened: Vec<(String, f64, usize)> = said
         .lines()
         .filter_map(|line| {
@@ -178,11 +271,19 @@ fn collisions_are_found_and_nothing_else() {
     assert_eq!(happened.len(), 4, "{said}");
     let (logs, arm) = (folder.file("logs/*.parquet"), robot_file("planar2r"));
     let table = succeeds(&[
-        "residual", text(&logs), "--robot", text(&arm), "--watch-for", "collision",
+        "residual",
+        text(&logs),
+        "--robot",
+        text(&arm),
+        "--watch-for",
+        "collision",
     ]);
     let (_, listed) = table.split_once("contact in").expect("contacts");
-    let found: Vec<Vec<&str>> =
-        listed.lines().skip(1).map(|line| line.split_whitespace().collect()).collect();
+    let found: Vec<Vec<&str>> = listed
+        .lines()
+        .skip(1)
+        .map(|line| line.split_whitespace().collect())
+        .collect();
     assert_eq!(found.len(), 4, "{table}");
     for ((name, from, joint), found) in happened.iter().zip(&found) {
         assert!(found[0].ends_with(name), "{found:?}");
@@ -196,7 +297,10 @@ fn collisions_are_found_and_nothing_else() {
 #[test]
 fn a_payload_is_found() {
     let folder = Folder::new();
-    simulated(&folder, &["--files", "1", "--seconds", "20", "--payload", "0.5"]);
+    simulated(
+        &folder,
+        &["--files", "1", "--seconds", "20", "--payload", "0.5"],
+    );
     let robot = robot("planar2r", false);
     let columns = Columns::canonical(2);
     let mut halves = [vec![0.0; 2], vec![0.0; 2]];
@@ -204,7 +308,12 @@ fn a_payload_is_found() {
         let block = block.unwrap();
         let [q, qd, qdd, measured] = &block.quantities;
         let mut tau = vec![0.0; measured.len()];
-        let states = dalembert_fleet::States { count: block.len(), q, qd, qdd };
+        let states = dalembert_fleet::States {
+            count: block.len(),
+            q,
+            qd,
+            qdd,
+        };
         robot.inverse_dynamics(states, &mut tau).unwrap();
         for (s, time) in block.time.iter().enumerate() {
             for i in 0..2 {

@@ -7,7 +7,8 @@ use dalembert::interface::InverseDynamics;
 use dalembert_fit::{Accumulator, Model, Prior, fit};
 use dalembert_fleet::{Dynamics, Error, Generated, Residuals, States, register};
 use datafusion::arrow::array::{
-    Array, ArrayRef, AsArray, FixedSizeListArray, Float32Array, Float64Array, Int64Array, RecordBatch,
+    Array, ArrayRef, AsArray, FixedSizeListArray, Float32Array, Float64Array, Int64Array,
+    RecordBatch,
 };
 use datafusion::arrow::datatypes::{DataType, Field, Float64Type};
 use datafusion::datasource::MemTable;
@@ -19,10 +20,17 @@ const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
 
 /// A list column of a quantity.
 fn lists(sample: &Sample, quantity: usize, joints: usize, single: bool) -> ArrayRef {
-    let states = (0..sample.count * joints).map(|at| sample.column(quantity, at % joints)[at / joints]);
+    let states =
+        (0..sample.count * joints).map(|at| sample.column(quantity, at % joints)[at / joints]);
     let (kind, values): (_, ArrayRef) = match single {
-        true => (DataType::Float32, Arc::new(Float32Array::from_iter_values(states.map(|x| x as f32)))),
-        false => (DataType::Float64, Arc::new(Float64Array::from_iter_values(states))),
+        true => (
+            DataType::Float32,
+            Arc::new(Float32Array::from_iter_values(states.map(|x| x as f32))),
+        ),
+        false => (
+            DataType::Float64,
+            Arc::new(Float64Array::from_iter_values(states)),
+        ),
     };
     let item = Arc::new(Field::new_list_field(kind, true));
     Arc::new(FixedSizeListArray::try_new(item, joints as i32, values, None).unwrap())
@@ -32,16 +40,24 @@ fn lists(sample: &Sample, quantity: usize, joints: usize, single: bool) -> Array
 /// some rows in some partitions.
 fn table(sample: &Sample, joints: usize, batch: usize, partitions: usize) -> MemTable {
     let mut columns: Vec<(String, ArrayRef)> = vec![
-        ("time".into(), Arc::new(Float64Array::from(sample.time.clone()))),
+        (
+            "time".into(),
+            Arc::new(Float64Array::from(sample.time.clone())),
+        ),
         (
             "half".into(),
-            Arc::new(Int64Array::from_iter_values((0..sample.count).map(|k| (2 * k / sample.count) as i64))),
+            Arc::new(Int64Array::from_iter_values(
+                (0..sample.count).map(|k| (2 * k / sample.count) as i64),
+            )),
         ),
     ];
     for (quantity, name) in NAMES.iter().enumerate() {
         for i in 0..joints {
             let values = sample.column(quantity, i).to_vec();
-            columns.push((format!("{name}{}", i + 1), Arc::new(Float64Array::from(values))));
+            columns.push((
+                format!("{name}{}", i + 1),
+                Arc::new(Float64Array::from(values)),
+            ));
         }
         columns.push(((*name).into(), lists(sample, quantity, joints, false)));
         columns.push((format!("{name}_f32"), lists(sample, quantity, joints, true)));
@@ -65,7 +81,10 @@ fn context(robot: &Arc<dyn Dynamics>, table: MemTable, partitions: usize) -> Ses
 
 /// The columns of a result, all batches as one.
 fn query(context: &SessionContext, sql: &str) -> Result<RecordBatch, String> {
-    let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).build().unwrap();
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .build()
+        .unwrap();
     runtime.block_on(async {
         let frame = context.sql(sql).await.map_err(|why| why.to_string())?;
         let batches = frame.collect().await.map_err(|why| why.to_string())?;
@@ -76,7 +95,11 @@ fn query(context: &SessionContext, sql: &str) -> Result<RecordBatch, String> {
 
 fn floats(list: &dyn Array) -> Vec<f64> {
     let lists = list.as_fixed_size_list();
-    lists.values().as_primitive::<Float64Type>().values().to_vec()
+    lists
+        .values()
+        .as_primitive::<Float64Type>()
+        .values()
+        .to_vec()
 }
 
 const COLUMNS: &str = "q1, q2, qd1, qd2, qdd1, qdd2";
@@ -93,13 +116,18 @@ fn columns_and_lists_give_the_robots_own_torques() {
          arm_inverse_dynamics({COLUMNS}) FROM logs"
     );
     let found = query(&context, &sql).unwrap();
-    let wanted: Vec<Vec<f64>> = (0..2).map(|i| sample.residuals(robot.as_ref(), i)).collect();
+    let wanted: Vec<Vec<f64>> = (0..2)
+        .map(|i| sample.residuals(robot.as_ref(), i))
+        .collect();
     for (column, bound) in [(0, 0.0), (1, 0.0), (2, 0.0), (3, 2e-4)] {
         let found = floats(found.column(column));
         for (s, own) in found.chunks(2).enumerate() {
             for i in 0..2 {
                 let error = (own[i] - wanted[i][s]).abs();
-                assert!(error <= bound, "column {column}, state {s}, joint {i}: {error}");
+                assert!(
+                    error <= bound,
+                    "column {column}, state {s}, joint {i}: {error}"
+                );
             }
         }
     }
@@ -119,7 +147,11 @@ fn nulls_propagate_in_functions_and_are_skipped_by_aggregates() {
     assert_eq!(found.column(0).null_count(), 300);
     assert!(found.column(0).is_null(299) && found.column(0).is_valid(300));
     let rms = |arguments: &str, from: &str| {
-        let found = query(&context, &format!("SELECT arm_rms({arguments}) FROM {from}")).unwrap();
+        let found = query(
+            &context,
+            &format!("SELECT arm_rms({arguments}) FROM {from}"),
+        )
+        .unwrap();
         (found.column(0).is_null(0), floats(found.column(0)))
     };
     let skipped = rms(&format!("q, qd1, {some}, qdd, tau"), "logs");
@@ -139,17 +171,28 @@ fn wrong_widths_are_refused_at_planning() {
     let sample = Sample::new(three.as_ref(), 10, 3);
     let context = context(&robot, table(&sample, 3, 10, 1), 1);
     let said = |sql: &str| {
-        let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .build()
+            .unwrap();
         let planned = runtime.block_on(context.sql(sql));
         planned.map(|_| ()).unwrap_err().to_string()
     };
     for (sql, parts) in [
         (
             "SELECT arm_residual(q, qd, qdd, tau) FROM logs",
-            ["`q` is FixedSizeList<Float64, 3>", "FixedSizeList<Float32 or Float64, 2>"],
+            [
+                "`q` is FixedSizeList<Float64, 3>",
+                "FixedSizeList<Float32 or Float64, 2>",
+            ],
         ),
-        ("SELECT arm_rms(q1, q2, qd1) FROM logs", ["`qd2` is nothing", "2 columns of Float64"]),
-        ("SELECT arm_rms(q1, q2) FROM logs", ["`qd` is missing", "q, qd, qdd, tau"]),
+        (
+            "SELECT arm_rms(q1, q2, qd1) FROM logs",
+            ["`qd2` is nothing", "2 columns of Float64"],
+        ),
+        (
+            "SELECT arm_rms(q1, q2) FROM logs",
+            ["`qd` is missing", "q, qd, qdd, tau"],
+        ),
         (
             "SELECT arm_inverse_dynamics(q1, q2, qd1, qd2, qdd1, qdd2, qdd3) FROM logs",
             ["1 arguments too many", "`arm_inverse_dynamics`"],
@@ -158,7 +201,10 @@ fn wrong_widths_are_refused_at_planning() {
             "SELECT arm_inverse_dynamics(q1, 'x', qd1, qd2, qdd1, qdd2) FROM logs",
             ["`q2` is Utf8", "a number was expected"],
         ),
-        ("SELECT arm_residuals(q, qd, qdd, tau) FROM logs", ["the time is", "a time, and"]),
+        (
+            "SELECT arm_residuals(q, qd, qdd, tau) FROM logs",
+            ["the time is", "a time, and"],
+        ),
     ] {
         let said = said(sql);
         for part in parts {
@@ -232,7 +278,11 @@ fn aggregates_do_not_depend_on_partitions() {
             assert_eq!(all.joints()[i].time(), sample.time[place]);
             sizes.sort_by(f64::total_cmp);
             let quantile = all.quantile(i, 0.99);
-            assert!((quantile / sizes[4949] - 1.0).abs() < 8e-3, "{quantile} {}", sizes[4949]);
+            assert!(
+                (quantile / sizes[4949] - 1.0).abs() < 8e-3,
+                "{quantile} {}",
+                sizes[4949]
+            );
         }
         let Some((_, one, others)) = &first else {
             first = Some((rms, all, parameters));
@@ -260,14 +310,26 @@ fn fits_by_machine_code_are_those_of_the_library() {
         let kept = Accumulator::from_bytes(model, &bytes).unwrap();
         let mut own = Accumulator::new(model);
         for s in 0..sample.count {
-            let at = |quantity| (0..n).map(|i| sample.column(quantity, i)[s]).collect::<Vec<_>>();
+            let at = |quantity| {
+                (0..n)
+                    .map(|i| sample.column(quantity, i)[s])
+                    .collect::<Vec<_>>()
+            };
             own.add(model, [&at(0), &at(1), &at(2)], &at(3)).unwrap();
         }
         assert_eq!(kept.states(), 600);
         let [kept, own] = [kept, own].map(|data| fit(model, &data, &Prior::None).unwrap());
-        let parts = kept.parameters.iter().zip(&own.parameters).zip(&own.standard_errors);
+        let parts = kept
+            .parameters
+            .iter()
+            .zip(&own.parameters)
+            .zip(&own.standard_errors);
         for (k, ((x, y), error)) in parts.enumerate() {
-            assert!((x - y).abs() <= 1e-8 * error, "{name}, {}: {x} {y}", model.name(k));
+            assert!(
+                (x - y).abs() <= 1e-8 * error,
+                "{name}, {}: {x} {y}",
+                model.name(k)
+            );
         }
     }
 }
@@ -295,7 +357,12 @@ fn generated_types_are_registered_by_their_traits() {
         let own = floats(query(&context, sql).unwrap().column(0));
         let fitted = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
         let kept = Accumulator::from_bytes(&model, fitted.column(0).as_binary::<i32>().value(0));
-        (own, fit(&model, &kept.unwrap(), &Prior::None).unwrap().parameters)
+        (
+            own,
+            fit(&model, &kept.unwrap(), &Prior::None)
+                .unwrap()
+                .parameters,
+        )
     });
     for (x, y) in values[0].0.iter().zip(&values[1].0) {
         assert!((x - y).abs() < 1e-12, "{x} {y}");
@@ -304,6 +371,8 @@ fn generated_types_are_registered_by_their_traits() {
         assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "{x} {y}");
     }
     let three: Model = robot("planar3r", true).model().unwrap().clone();
-    let why = Generated::<_, 2>::new(Planar2r, Some(three)).unwrap_err().to_string();
+    let why = Generated::<_, 2>::new(Planar2r, Some(three))
+        .unwrap_err()
+        .to_string();
     assert!(why.contains("3 joints"), "{why}");
 }

@@ -60,7 +60,9 @@ fn record(log: &Path, to: &Path, is_little: bool) {
     let mut writer = Writer::new(BufWriter::new(File::create(to).unwrap())).unwrap();
     let mut channel = |topic: &str, schema: &str| {
         let schema = writer.add_schema(schema, "ros2msg", b"").unwrap();
-        writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).unwrap()
+        writer
+            .add_channel(schema, topic, "cdr", &BTreeMap::new())
+            .unwrap()
     };
     let other = channel("/chatter", "std_msgs/msg/String");
     let states = channel("/joint_states", "sensor_msgs/msg/JointState");
@@ -111,7 +113,10 @@ fn recordings_give_what_parquet_files_give() {
             }
         }
         let why = fails(&base);
-        assert!(why.contains("--joint-names") && why.contains("b, gripper, a"), "{why}");
+        assert!(
+            why.contains("--joint-names") && why.contains("b, gripper, a"),
+            "{why}"
+        );
         let why = fails(&[&named[..], &["--topic", "/chatter"]].concat());
         assert!(why.contains("std_msgs/msg/String"), "{why}");
         let why = fails(&[&base[..], &["--joint-names", "a,wrist"]].concat());

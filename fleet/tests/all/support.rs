@@ -40,8 +40,9 @@ impl Folder {
     /// What is in it.
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).unwrap();
-        let mut names: Vec<String> =
-            entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
         names.sort();
         names
     }
@@ -65,13 +66,23 @@ impl Sample {
         let n = robot.joints();
         let mut random = Random::new(seed);
         let mut draw = |largest: f64| -> Vec<f64> {
-            (0..n * count).map(|_| within(&mut random, largest)).collect()
+            (0..n * count)
+                .map(|_| within(&mut random, largest))
+                .collect()
         };
         let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(&mut draw);
         let mut tau = vec![0.0; n * count];
-        let states = States { count, q: &q, qd: &qd, qdd: &qdd };
+        let states = States {
+            count,
+            q: &q,
+            qd: &qd,
+            qdd: &qdd,
+        };
         robot.inverse_dynamics(states, &mut tau).unwrap();
-        noise.iter_mut().zip(&tau).for_each(|(noise, tau)| *noise += tau);
+        noise
+            .iter_mut()
+            .zip(&tau)
+            .for_each(|(noise, tau)| *noise += tau);
         Sample {
             count,
             time: (0..count).map(|k| k as f64 * 1e-3).collect(),
@@ -87,10 +98,19 @@ impl Sample {
     pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
         let [q, qd, qdd, _] = &self.quantities;
         let mut tau = vec![0.0; q.len()];
-        let states = States { count: self.count, q, qd, qdd };
+        let states = States {
+            count: self.count,
+            q,
+            qd,
+            qdd,
+        };
         robot.inverse_dynamics(states, &mut tau).unwrap();
         let own = &tau[joint * self.count..(joint + 1) * self.count];
-        self.column(3, joint).iter().zip(own).map(|(x, y)| x - y).collect()
+        self.column(3, joint)
+            .iter()
+            .zip(own)
+            .map(|(x, y)| x - y)
+            .collect()
     }
 
     /// Writes a log with the columns that this program writes.
@@ -107,7 +127,10 @@ impl Sample {
 
 /// Runs the command.
 pub fn fleet(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dalembert-fleet")).args(arguments).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"))
+        .args(arguments)
+        .output()
+        .unwrap()
 }
 
 /// Runs the command, which is to succeed; returns its standard output.
