@@ -76,7 +76,8 @@ struct Scene {
 }
 
 pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
-    if args.files == 0 || args.seconds * args.rate < 1.0 || !(args.noise >= 0.0) {
+    let is_noise = args.noise >= 0.0 && args.noise.is_finite();
+    if args.files == 0 || args.seconds * args.rate < 1.0 || !is_noise {
         return Err(Error::new(
             "there have to be files, states, and a noise that is not negative",
         ));

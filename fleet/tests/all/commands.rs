@@ -316,14 +316,14 @@ fn a_payload_is_found() {
         };
         robot.inverse_dynamics(states, &mut tau).unwrap();
         for (s, time) in block.time.iter().enumerate() {
-            for i in 0..2 {
+            for (i, sum) in halves[usize::from(*time >= 10.0)].iter_mut().enumerate() {
                 let place = i * block.len() + s;
-                halves[usize::from(*time >= 10.0)][i] += (measured[place] - tau[place]).powi(2);
+                *sum += (measured[place] - tau[place]).powi(2);
             }
         }
     }
-    for i in 0..2 {
-        assert!(halves[1][i] > 100.0 * halves[0][i], "{halves:?}");
+    for (loaded, free) in halves[1].iter().zip(&halves[0]) {
+        assert!(*loaded > 100.0 * free, "{halves:?}");
     }
 }
 

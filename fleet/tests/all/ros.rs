@@ -19,7 +19,7 @@ struct Cdr {
 
 impl Cdr {
     fn put<const N: usize>(&mut self, mut word: [u8; N]) {
-        while (self.bytes.len() - 4) % N != 0 {
+        while !(self.bytes.len() - 4).is_multiple_of(N) {
             self.bytes.push(0);
         }
         if !self.is_little {
