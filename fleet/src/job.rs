@@ -179,9 +179,20 @@ impl Job {
             _scratch: scratch,
         };
         job.logs = job.good(found)?;
-        job.progress
-            .expect(job.logs.iter().map(|log| log.rows).sum());
+        job.progress.expect(job.rows());
         Ok(job)
+    }
+
+    /// Returns the number of rows of all logs.
+    pub fn rows(&self) -> u64 {
+        self.logs.iter().map(|log| log.rows).sum()
+    }
+
+    /// Says of what a cluster does not compute that this machine does.
+    pub fn tell_local(&self, what: &str) {
+        if self.is_remote {
+            eprintln!("{what}: rows in order, computed by this machine and not by the cluster");
+        }
     }
 
     /// Returns what was found of good files; names the bad ones.

@@ -53,20 +53,28 @@ pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Er
         Unfinished::beside(output)?;
     }
     let mut job = Job::new(&args.logs, false, going).await?;
+    let passes = usize::from(args.output.is_some()) + usize::from(args.watch_for.is_some());
+    if passes > 0 || args.svg.is_some() {
+        job.tell_local("-o, --svg and --watch-for");
+    }
+    job.progress.expect(passes as u64 * job.rows());
     let progress = job.progress.clone();
-    let found = progress
-        .shown(args.logs.progress, summaries(&mut job))
-        .await?;
-    let mut text = summary(&job, &found);
+    let all = computed(args, &mut job, going);
+    progress.shown(args.logs.progress, all).await
+}
+
+async fn computed(args: &ResidualArgs, job: &mut Job, going: &Going) -> Result<String, Error> {
+    let found = summaries(job).await?;
+    let mut text = summary(job, &found);
     if args.watch_for.is_some() {
-        text += &watched(args, &job, &found, going).await?;
+        text += &watched(args, job, &found, going).await?;
     }
     let svg = match &args.svg {
-        Some(_) => Some(drawn(args, &job, &found).await?),
+        Some(_) => Some(drawn(args, job, &found).await?),
         None => None,
     };
     if let Some(output) = &args.output {
-        write_residuals(&job, output, going).await?;
+        write_residuals(job, output, going).await?;
     }
     if let (Some(name), Some(svg)) = (&args.svg, svg) {
         output::write(name, &svg)?;

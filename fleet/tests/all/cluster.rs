@@ -15,7 +15,7 @@ use dalembert_fleet::logs::{Columns, Log, inspect};
 use dalembert_fleet::progress::Going;
 use dalembert_fleet::{Dynamics, Residuals};
 
-use crate::support::{Folder, Sample, fails, robot, robot_file, succeeds, text};
+use crate::support::{Folder, Sample, fails, fleet, robot, robot_file, succeeds, text};
 
 /// A process that is killed at the end.
 struct Process(Child);
@@ -227,7 +227,7 @@ fn a_cluster_returns_what_one_process_returns() {
         assert_eq!(here, there);
     }
     let out = folder.file("out.parquet");
-    succeeds(&[
+    let local = fleet(&[
         "residual",
         text(&all),
         "--robot",
@@ -237,6 +237,7 @@ fn a_cluster_returns_what_one_process_returns() {
         "-o",
         text(&out),
     ]);
+    assert!(String::from_utf8_lossy(&local.stderr).contains("computed by this machine"));
     assert!(out.exists());
     // Another robot has other functions: there is an error, and no table of this one.
     let other = robot_file("planar3r");
