@@ -2,8 +2,8 @@
 
 use std::fmt;
 use std::io::{IsTerminal, Write};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use dalembert_fit::{Accumulator, Model};
@@ -83,21 +83,12 @@ pub const INTERRUPTED: &str = "interrupted: nothing was written";
 
 /// Counts states, and tells on the terminal how many there are, how fast it goes, and how long
 /// it takes.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Progress {
     total: AtomicU64,
     done: AtomicU64,
-    start: Instant,
-}
-
-impl Default for Progress {
-    fn default() -> Progress {
-        Progress {
-            total: AtomicU64::new(0),
-            done: AtomicU64::new(0),
-            start: Instant::now(),
-        }
-    }
+    /// When there was something to do.
+    start: OnceLock<Instant>,
 }
 
 impl Progress {
@@ -108,6 +99,7 @@ impl Progress {
 
     /// Adds states that are to do.
     pub fn expect(&self, states: u64) {
+        self.start.get_or_init(Instant::now);
         self.total.fetch_add(states, Ordering::Relaxed);
     }
 
@@ -135,7 +127,11 @@ impl fmt::Display for Progress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let done = self.done.load(Ordering::Relaxed) as f64;
         let total = self.total.load(Ordering::Relaxed) as f64;
-        let rate = done / self.start.elapsed().as_secs_f64().max(1e-9);
+        let elapsed = self
+            .start
+            .get()
+            .map_or(0.0, |start| start.elapsed().as_secs_f64());
+        let rate = done / elapsed.max(1e-9);
         write!(
             f,
             "{:.2} of {:.2} M states, {:.2} M/s",

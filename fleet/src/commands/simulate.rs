@@ -71,8 +71,8 @@ struct Scene {
     controller: Robot,
     trajectory: Trajectory,
     noise: Vec<f64>,
-    /// Torques of the true arm.
-    exact: Loaded,
+    /// Torques of the true arm, for `--exact`.
+    exact: Arc<Loaded>,
 }
 
 pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
@@ -96,7 +96,7 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
     let counted = progress.clone();
     let (shown, files) = (args.progress, args.files);
     let made = going.blocking(move |going| {
-        let scene = Scene::new(args, robot.robot())?;
+        let scene = Scene::new(args, robot)?;
         // Beside it, under another name, until all logs are there.
         let part = Folder::beside(&scene.args.output)?;
         let mut said = String::new();
@@ -150,7 +150,8 @@ impl Drop for Folder {
 }
 
 impl Scene {
-    fn new(args: SimulateArgs, robot: &Robot) -> Result<Scene, Error> {
+    fn new(args: SimulateArgs, loaded: Arc<Loaded>) -> Result<Scene, Error> {
+        let robot = loaded.robot();
         let model = Model::new(robot, &Options::default())?;
         let n = model.joints();
         let effort = Effort {
@@ -161,12 +162,6 @@ impl Scene {
             ..Effort::default()
         };
         let (trajectory, _) = excite(&model, &vec![1.0; n], 8.0, &effort)?;
-        let mut random = Random::new(args.seed);
-        let truth = match args.vary > 0.0 {
-            true => varied(robot, args.vary, &mut random)?,
-            false => robot.clone(),
-        };
-        let exact = Loaded::of(&truth)?;
         let (count, period) = (800, 0.01);
         let mut states = [(); 3].map(|()| vec![0.0; n * count]);
         for s in 0..count {
@@ -174,18 +169,27 @@ impl Scene {
         }
         let [q, qd, qdd] = &states;
         let mut tau = vec![0.0; n * count];
-        exact.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
-        let rms = tau
+        loaded.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+        let squares = tau
             .chunks_exact(count)
-            .map(|own| libm::sqrt(own.iter().map(|x| x * x).sum::<f64>() / count as f64));
+            .map(|own| own.iter().map(|x| x * x).sum::<f64>());
         // A joint that holds nothing has some noise all the same.
-        let noise = rms.map(|rms| args.noise * rms.max(1e-3)).collect();
+        let usual = squares.map(|sum| libm::sqrt(sum / count as f64).max(1e-3));
+        let usual: Vec<f64> = usual.collect();
+        let (truth, exact) = match args.vary > 0.0 {
+            true => {
+                let truth = varied(robot, args.vary, &usual, &mut Random::new(args.seed))?;
+                let exact = args.exact.then(|| Loaded::of(&truth)).transpose()?;
+                (truth, exact.map_or_else(|| loaded.clone(), Arc::new))
+            }
+            false => (robot.clone(), loaded.clone()),
+        };
         Ok(Scene {
+            noise: usual.iter().map(|torque| args.noise * torque).collect(),
             args,
             truth,
             controller: robot.clone(),
             trajectory,
-            noise,
             exact,
         })
     }
@@ -384,15 +388,16 @@ fn rational(value: f64) -> Result<Rational, Error> {
     found.map_err(|_| Error::new(format!("{value} is not a number of a robot file")))
 }
 
-/// Returns an arm with other masses, bodies of the same shape, and more friction.
-fn varied(robot: &Robot, part: f64, random: &mut Random) -> Result<Robot, Error> {
+/// Returns an arm with other masses, bodies of the same shape, and friction of a tenth of each
+/// joint's usual torque at most.
+fn varied(robot: &Robot, part: f64, usual: &[f64], random: &mut Random) -> Result<Robot, Error> {
     let mut robot = robot.clone();
-    for joint in &mut robot.joints {
+    for (joint, usual) in robot.joints.iter_mut().zip(usual) {
         let factor = rational(1.0 + within(random, part))?;
         joint.mass = &joint.mass * &factor;
         joint.inertia = joint.inertia.map(|x| x * &factor);
-        joint.viscous = &joint.viscous + &rational(0.5 + 0.5 * random.unit())?;
-        joint.coulomb = &joint.coulomb + &rational(1.0 + random.unit())?;
+        joint.viscous = &joint.viscous + &rational(0.1 * usual * random.unit())?;
+        joint.coulomb = &joint.coulomb + &rational(0.05 * usual * (1.0 + random.unit()))?;
         if joint.coulomb_width == Rational::default() {
             joint.coulomb_width = rational(0.01)?;
         }
