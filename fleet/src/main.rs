@@ -50,6 +50,10 @@ fn main() -> ExitCode {
 }
 
 fn failed(why: &str) -> ExitCode {
-    eprintln!("error: {why}");
+    // What is wrong with a robot file says so itself, at each place.
+    match why.starts_with("error") {
+        true => eprintln!("{why}"),
+        false => eprintln!("error: {why}"),
+    }
     ExitCode::FAILURE
 }
