@@ -41,7 +41,8 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// Adds states and their measured torques to what is accumulated for a fit.
+    /// Adds states and their measured torques to what is accumulated for a fit; `room` is
+    /// for what is computed of them, and is kept from call to call.
     ///
     /// # Errors
     /// As [`Dynamics::inverse_dynamics`], and where there is no [`Dynamics::model`].
@@ -49,6 +50,7 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
         &self,
         states: States<'_>,
         tau: &[f64],
+        _room: &mut Vec<f64>,
         into: &mut Accumulator,
     ) -> Result<(), Error> {
         let model = self.model().ok_or_else(no_model)?;
@@ -202,14 +204,15 @@ impl Dynamics for Loaded {
         &self,
         states: States<'_>,
         tau: &[f64],
+        room: &mut Vec<f64>,
         into: &mut Accumulator,
     ) -> Result<(), Error> {
         let fitted = self.fitted.as_ref().ok_or_else(no_model)?;
         let native = fitted.arm.functions()[fitted.regressor].native();
         let entries = self.joints() * fitted.model.base();
-        let mut y = vec![0.0; entries * states.count];
-        call(native, self.joints(), states, &mut y, entries)?;
-        into.add_columns(&fitted.model, &y, states.qd, tau, states.count)?;
+        room.resize(entries * states.count, 0.0);
+        call(native, self.joints(), states, room, entries)?;
+        into.add_columns(&fitted.model, room, states.qd, tau, states.count)?;
         Ok(())
     }
 }

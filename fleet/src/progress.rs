@@ -178,9 +178,10 @@ impl Dynamics for Counted {
         &self,
         states: States<'_>,
         tau: &[f64],
+        room: &mut Vec<f64>,
         into: &mut Accumulator,
     ) -> Result<(), Error> {
         self.progress.add(states.count as u64);
-        self.robot.accumulate(states, tau, into)
+        self.robot.accumulate(states, tau, room, into)
     }
 }

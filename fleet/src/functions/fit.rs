@@ -16,12 +16,17 @@ const PIECE: usize = 128;
 #[derive(Debug)]
 pub(super) struct Parameters {
     kept: Accumulator,
+    /// A piece of states, and the regressors of it.
+    parts: [Vec<f64>; 4],
+    room: Vec<f64>,
 }
 
 impl Parameters {
     pub(super) fn new(robot: &dyn Dynamics) -> Result<Parameters> {
         Ok(Parameters {
             kept: Accumulator::new(model(robot)?),
+            parts: Default::default(),
+            room: Vec::new(),
         })
     }
 }
@@ -33,7 +38,7 @@ fn model(robot: &dyn Dynamics) -> Result<&Model, Error> {
 
 impl Kept for Parameters {
     fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error> {
-        let mut parts = [(); 4].map(|()| Vec::new());
+        let Parameters { kept, parts, room } = self;
         for first in (0..piece.count).step_by(PIECE) {
             let last = piece.count.min(first + PIECE);
             for (part, all) in parts.iter_mut().zip(&piece.quantities) {
@@ -42,9 +47,9 @@ impl Kept for Parameters {
                     part.extend_from_slice(&column[first..last]);
                 }
             }
-            let [q, qd, qdd, tau] = &parts;
+            let [q, qd, qdd, tau] = &*parts;
             let count = last - first;
-            robot.accumulate(States { count, q, qd, qdd }, tau, &mut self.kept)?;
+            robot.accumulate(States { count, q, qd, qdd }, tau, room, kept)?;
         }
         Ok(())
     }
@@ -65,6 +70,6 @@ impl Kept for Parameters {
 
     fn size(&self) -> usize {
         // The triangles, and 64 rows that each of them waits with.
-        4 * self.kept.to_bytes().len()
+        4 * self.kept.to_bytes().len() + 8 * self.room.capacity()
     }
 }
