@@ -93,7 +93,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     let text = write(&identified(&model, &bodies)?);
     match output {
-        Some(output) => std::fs::write(&output, text)?,
+        Some(output) => {
+            // Whole or not at all: it gets its name when all of it is written.
+            let part = format!("{output}.{}.part", std::process::id());
+            let written = std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, &output));
+            if let Err(why) = written {
+                let _ = std::fs::remove_file(&part);
+                return Err(format!("{output}: {why}").into());
+            }
+        }
         None => print!("\n{text}"),
     }
     Ok(())

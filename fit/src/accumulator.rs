@@ -160,6 +160,42 @@ impl Accumulator {
         Ok(())
     }
 
+    /// Adds states by what a generated `regressor` returns for many of them, column by column:
+    /// entry (i, k) of state s at `(i * base + k) * states + s`, velocities and torques of
+    /// joint i at `i * states + s`.
+    ///
+    /// # Errors
+    /// As [`Accumulator::add`]; an index is that of the array.
+    pub fn add_columns(
+        &mut self,
+        model: &Model,
+        y: &[f64],
+        qd: &[f64],
+        tau: &[f64],
+        states: usize,
+    ) -> Result<(), Error> {
+        self.matches(model)?;
+        let (n, base) = (self.rows.len(), model.base());
+        check("qd", qd, n * states)?;
+        check("tau", tau, n * states)?;
+        check("y", y, n * base * states)?;
+        let ones = vec![1.0; states];
+        let column = |of: &[f64], i: usize| i * states..of.len().min((i + 1) * states);
+        for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {
+            let rates = &qd[column(qd, i)];
+            let coulomb: Vec<f64> = rates.iter().map(|qd| model.coulomb(i, qd)).collect();
+            let entries = row.iter().map(|k| match model.columns()[*k] {
+                Column::Base(k) => &y[column(y, i * base + k)],
+                Column::Coulomb(_) => &coulomb[..],
+                Column::Offset(_) => &ones[..],
+            });
+            let entries: Vec<&[f64]> = entries.chain([&tau[column(tau, i)]]).collect();
+            triangle.push_columns(&entries);
+        }
+        self.states += states as u64;
+        Ok(())
+    }
+
     /// Adds all states of another accumulator.
     ///
     /// # Errors

@@ -150,6 +150,12 @@ impl Model {
         &self.robot
     }
 
+    /// Returns the robot whose generated `regressor` has the columns of the base parameters:
+    /// that of the file, with the drives that are identified.
+    pub fn generator_robot(&self) -> Robot {
+        candidates(&self.robot, &self.options)
+    }
+
     /// Returns what is identified beside the links' parameters.
     pub fn options(&self) -> &Options {
         &self.options

@@ -57,6 +57,24 @@ impl Triangle {
         }
     }
 
+    /// Adds rows that are given column by column, all columns of one length.
+    pub fn push_columns(&mut self, columns: &[&[f64]]) {
+        let rows = columns.first().map_or(0, |column| column.len());
+        let mut next = 0;
+        while next < rows {
+            let count = (ROWS - self.filled).min(rows - next);
+            for (block, column) in self.block.iter_mut().zip(columns) {
+                let place = &mut block.0[self.filled..self.filled + count];
+                place.copy_from_slice(&column[next..next + count]);
+            }
+            next += count;
+            self.filled += count;
+            if self.filled == ROWS {
+                self.absorb();
+            }
+        }
+    }
+
     /// Adds the rows of another factor, which stand for all that it was given.
     pub fn merge(&mut self, other: &Triangle) {
         let other = other.clone().reduced();

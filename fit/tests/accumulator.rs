@@ -204,3 +204,35 @@ fn a_state_that_is_refused_changes_nothing() {
     let few = fit(&model, &data, &Prior::None).unwrap_err();
     assert!(few.to_string().contains("there are 0 states"), "{few}");
 }
+
+/// States that come column by column, as from a generated regressor of many of them, give the
+/// same bits as one by one, in whatever numbers they come.
+#[test]
+fn columns_give_what_rows_give() {
+    let model = model(&guess(&truth("puma560")));
+    let (n, base, width) = (model.joints(), model.base(), model.columns().len());
+    let states = states(&model, 300, 7);
+    let mut rows = Accumulator::new(&model);
+    for state in &states {
+        rows.add_rows(&model, &state.y, &state.qdd).unwrap();
+    }
+    for count in [1, 7, 64, 129, 300] {
+        let mut columns = Accumulator::new(&model);
+        for part in states.chunks(count) {
+            let each = |entry: &dyn Fn(&State, usize) -> f64, entries: usize| -> Vec<f64> {
+                let of = |e: usize| part.iter().map(move |state| entry(state, e));
+                (0..entries).flat_map(of).collect()
+            };
+            let y = each(&|state, e| state.y[e / base * width + e % base], n * base);
+            let qd = each(&|state, i| state.qd[i], n);
+            let tau = each(&|state, i| state.qdd[i], n);
+            columns.add_columns(&model, &y, &qd, &tau, part.len()).unwrap();
+        }
+        assert_eq!(columns, rows, "{count} at once");
+    }
+    let mut columns = Accumulator::new(&model);
+    let (y, one) = (vec![0.0; n * base], vec![0.0; n]);
+    let short = columns.add_columns(&model, &y[1..], &one, &one, 1);
+    assert!(matches!(short, Err(Error::Length { argument: "y", .. })), "{short:?}");
+    assert_eq!(columns.states(), 0);
+}

@@ -36,7 +36,7 @@ pub struct Collision {
 
 impl Collision {
     /// Returns the part of the peak at a time.
-    fn part(&self, time: f64) -> f64 {
+    pub fn part(&self, time: f64) -> f64 {
         let phase = (time - self.start) / self.duration;
         match (0.0..1.0).contains(&phase) {
             true => libm::sin(core::f64::consts::PI * phase),

@@ -1,0 +1,54 @@
+//! The commands.
+
+#[cfg(feature = "cluster")]
+mod cluster;
+mod contacts;
+mod identify;
+mod residual;
+mod simulate;
+mod table;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Error;
+use crate::progress::Going;
+
+/// Residuals of an arm's model, and its parameters, from a fleet's logs
+#[derive(Debug, Parser)]
+#[command(name = "dalembert-fleet", version)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Tells how far measured torques are from the model's, by file and joint
+    Residual(residual::ResidualArgs),
+    /// Identifies the parameters of an arm, and writes its robot file
+    Identify(identify::IdentifyArgs),
+    /// Writes logs of a simulated arm
+    Simulate(simulate::SimulateArgs),
+    /// Runs the scheduler of a cluster
+    #[cfg(feature = "cluster")]
+    Scheduler(cluster::SchedulerArgs),
+    /// Runs an executor of a cluster
+    #[cfg(feature = "cluster")]
+    Executor(cluster::ExecutorArgs),
+}
+
+/// Runs a command; returns what goes to standard output.
+///
+/// # Errors
+/// What went wrong; then no output has changed.
+pub async fn run(arguments: Arguments, going: &Going) -> Result<String, Error> {
+    match arguments.command {
+        Command::Residual(args) => residual::run(&args, going).await,
+        Command::Identify(args) => identify::run(&args, going).await,
+        Command::Simulate(args) => simulate::run(args, going).await,
+        #[cfg(feature = "cluster")]
+        Command::Scheduler(args) => cluster::scheduler(args, going).await,
+        #[cfg(feature = "cluster")]
+        Command::Executor(args) => cluster::executor(args, going).await,
+    }
+}

@@ -1,0 +1,82 @@
+//! `scheduler` and `executor`: a cluster for the commands over logs.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+
+use crate::cluster::{self, Executor};
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+use crate::functions::Functions;
+use crate::job::{RobotArgs, bytes};
+use crate::output::Scratch;
+use crate::progress::Going;
+
+#[derive(Args, Debug)]
+pub(super) struct SchedulerArgs {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Where to listen; not secured: only where nobody else reaches it
+    #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50050")]
+    listen: SocketAddr,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct ExecutorArgs {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// The scheduler
+    #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50050")]
+    scheduler: String,
+    /// Where to listen, with the port after it as well; not secured
+    #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50051")]
+    listen: SocketAddr,
+    /// Tasks at once [default: the machine's threads]
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<usize>,
+    /// How much memory queries may take, as 512M or 4G
+    #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = bytes)]
+    memory: u64,
+    /// Folder in which a folder for what stages pass on is created
+    /// [default: the system's for temporary files]
+    #[arg(long, value_name = "FOLDER")]
+    work: Option<PathBuf>,
+}
+
+/// Returns the functions of a robot, all of them.
+async fn functions(robot: &RobotArgs, going: &Going) -> Result<Functions, Error> {
+    let loaded = robot.load(true, going).await?;
+    let name = robot.function_name(&loaded);
+    let loaded: Arc<dyn Dynamics> = loaded;
+    Ok(Functions::of(&name, &loaded))
+}
+
+pub(super) async fn scheduler(args: SchedulerArgs, going: &Going) -> Result<String, Error> {
+    let functions = functions(&args.robot, going).await?;
+    eprintln!("scheduler at {}, not secured", args.listen);
+    let served = going.unless_ended(cluster::scheduler(args.listen, functions));
+    served.await.map(|()| String::new())
+}
+
+pub(super) async fn executor(args: ExecutorArgs, going: &Going) -> Result<String, Error> {
+    let functions = functions(&args.robot, going).await?;
+    let address = || Error::new(format!("`{}`: HOST:PORT was expected", args.scheduler));
+    let (host, port) = args.scheduler.rsplit_once(':').ok_or_else(address)?;
+    let port = port.parse().map_err(|_| address())?;
+    let parent = args.work.clone().unwrap_or_else(std::env::temp_dir);
+    let scratch = Scratch::within(&parent)?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let executor = Executor {
+        address: args.listen,
+        scheduler_host: host.to_owned(),
+        scheduler_port: port,
+        threads: args.threads.unwrap_or(cores).max(1),
+        memory: args.memory,
+        work: scratch.file("stages"),
+    };
+    eprintln!("executor at {}, not secured", args.listen);
+    let served = going.unless_ended(cluster::executor(executor, functions));
+    served.await.map(|()| String::new())
+}

@@ -1,0 +1,280 @@
+//! `residual`: how far measured torques are from the model's.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+
+use super::contacts::{Contact, contacts};
+use super::table::{number, table};
+use crate::error::Error;
+use crate::functions::Residuals;
+use crate::job::{Job, LogArgs};
+use crate::logs::{Bad, Table, canonical_names};
+use crate::output::{self, Unfinished};
+use crate::picture::{Curves, picture};
+use crate::progress::Going;
+use crate::walk::walk;
+
+#[derive(Args, Debug)]
+pub(super) struct ResidualArgs {
+    #[command(flatten)]
+    logs: LogArgs,
+    /// Parquet file of all states and their residuals; always written by this machine
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// SVG of the worst files' residuals over time
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// How many files the SVG shows
+    #[arg(long, value_name = "COUNT", default_value_t = 3)]
+    worst: usize,
+    /// List the times at which residuals change
+    #[arg(long, value_enum)]
+    watch_for: Option<WatchFor>,
+    /// Bar of cumulative sums, in units of a joint's noise
+    #[arg(long, value_name = "SUM", default_value_t = 40.0)]
+    bar: f64,
+    /// A log in which nothing happens: noise and bar are taken from it
+    #[arg(long, value_name = "FILE")]
+    quiet: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WatchFor {
+    /// Contacts: residuals that change for a short time
+    Collision,
+}
+
+pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Error> {
+    let outputs = [&args.output, &args.svg];
+    for output in outputs.into_iter().flatten() {
+        // Before anything is computed for it.
+        Unfinished::beside(output)?;
+    }
+    let mut job = Job::new(&args.logs, false, going).await?;
+    let passes = usize::from(args.output.is_some()) + usize::from(args.watch_for.is_some());
+    if passes > 0 || args.svg.is_some() {
+        job.tell_local("-o, --svg and --watch-for");
+    }
+    job.progress.expect(passes as u64 * job.rows());
+    let progress = job.progress.clone();
+    let all = computed(args, &mut job, going);
+    progress.shown(args.logs.progress, all).await
+}
+
+async fn computed(args: &ResidualArgs, job: &mut Job, going: &Going) -> Result<String, Error> {
+    let found = summaries(job).await?;
+    let mut text = summary(job, &found);
+    if args.watch_for.is_some() {
+        text += &watched(args, job, &found, going).await?;
+    }
+    let svg = match &args.svg {
+        Some(_) => Some(drawn(args, job, &found).await?),
+        None => None,
+    };
+    if let Some(output) = &args.output {
+        write_residuals(job, output, going).await?;
+    }
+    if let (Some(name), Some(svg)) = (&args.svg, svg) {
+        output::write(name, &svg)?;
+    }
+    Ok(text)
+}
+
+/// Computes the residuals of every log.
+async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
+    let found = job.aggregates("_residuals").await?;
+    let found: Result<Vec<Residuals>, Error> = found
+        .iter()
+        .map(|bytes| Residuals::from_bytes(bytes))
+        .collect();
+    let found = found?;
+    let logs: Vec<_> = job.logs.iter().cloned().zip(found).collect();
+    let checked = logs
+        .into_iter()
+        .map(|(log, found)| match found.not_finite() {
+            0 => Ok(found),
+            count => {
+                let whole =
+                    || Bad::whole(&log.name, format!("torques of {count} rows are not finite"));
+                Err(crate::engine::locate(&log).unwrap_or_else(whole))
+            }
+        });
+    job.keep(checked.collect())
+}
+
+fn summary(job: &Job, found: &[Residuals]) -> String {
+    let head = ["file", "joint", "rms", "99 %", "worst", "at, s"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let mut all = Residuals::new(job.robot.joints());
+    for (log, found) in job.logs.iter().zip(found) {
+        all.merge(found);
+        rows.extend(lines(&log.name.display().to_string(), found, true));
+    }
+    if found.len() > 1 {
+        rows.extend(lines("all", &all, false));
+    }
+    let states = all.states();
+    let files = found.len();
+    format!(
+        "{}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n",
+        table(&rows)
+    )
+}
+
+fn lines(name: &str, found: &Residuals, time: bool) -> Vec<Vec<String>> {
+    let line = |(i, joint): (usize, &crate::functions::Joint)| {
+        let at = if time {
+            format!("{:.3}", joint.time())
+        } else {
+            String::new()
+        };
+        vec![
+            name.to_owned(),
+            (i + 1).to_string(),
+            number(found.rms(i)),
+            number(found.quantile(i, 0.99)),
+            number(joint.worst()),
+            at,
+        ]
+    };
+    found.joints().iter().enumerate().map(line).collect()
+}
+
+/// Lists contacts of every log.
+async fn watched(
+    args: &ResidualArgs,
+    job: &Job,
+    found: &[Residuals],
+    going: &Going,
+) -> Result<String, Error> {
+    let n = job.robot.joints();
+    // Half of the residuals are below it, whatever a contact does to the others.
+    let noise = |found: &Residuals| -> Vec<f64> {
+        (0..n)
+            .map(|i| (found.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE))
+            .collect()
+    };
+    let quiet = match &args.quiet {
+        None => None,
+        Some(quiet) => {
+            let quiet = LogArgs {
+                logs: vec![quiet.display().to_string()],
+                skip_bad: false,
+                ..args.logs.clone()
+            };
+            let mut quiet = Job::new(&quiet, false, going).await?;
+            let found = summaries(&mut quiet).await?;
+            let noise = noise(&found[0]);
+            let robot = job.robot.clone();
+            let own = noise.clone();
+            let level = quiet.each(move |log, going| {
+                Ok(contacts(robot.as_ref(), log, &own, f64::MAX / 4.0, going)?.1)
+            });
+            let level = level.await?.into_iter().fold(0.0, f64::max);
+            Some((noise, 2.0 * level))
+        }
+    };
+    let noises: Vec<(PathBuf, Vec<f64>)> = job
+        .logs
+        .iter()
+        .zip(found)
+        .map(|(log, found)| {
+            let own = quiet
+                .as_ref()
+                .map_or_else(|| noise(found), |quiet| quiet.0.clone());
+            (log.path.clone(), own)
+        })
+        .collect();
+    let bar = quiet.as_ref().map_or(args.bar, |quiet| quiet.1);
+    let (robot, noises) = (job.robot.clone(), Arc::new(noises));
+    let all = job.each(move |log, going| {
+        let noise = noises.iter().find(|(path, _)| *path == log.path);
+        let noise = noise.map(|(_, noise)| &noise[..]).unwrap_or_default();
+        Ok(contacts(robot.as_ref(), log, noise, bar, going)?.0)
+    });
+    let head = ["contact in", "from, s", "to, s", "joint", "largest, N·m"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for (log, contacts) in job.logs.iter().zip(all.await?) {
+        for Contact {
+            start,
+            end,
+            joint,
+            largest,
+        } in contacts
+        {
+            rows.push(vec![
+                log.name.display().to_string(),
+                format!("{start:.3}"),
+                format!("{end:.3}"),
+                (joint + 1).to_string(),
+                number(largest),
+            ]);
+        }
+    }
+    match rows.len() {
+        1 => Ok(format!(
+            "\nno contacts: no sum of residuals is over {bar:.0} times the noise\n"
+        )),
+        _ => Ok(format!("\n{}", table(&rows))),
+    }
+}
+
+/// Draws the logs whose residuals are largest, each joint's as part of the smallest one's.
+async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<String, Error> {
+    let n = job.robot.joints();
+    // Joints have torques of other sizes: each counts by its own over all logs.
+    let mut all = Residuals::new(n);
+    found.iter().for_each(|found| all.merge(found));
+    let size = |found: &Residuals| {
+        let parts = (0..n).map(|i| found.rms(i) / all.rms(i).max(f64::MIN_POSITIVE));
+        parts.fold(0.0, f64::max)
+    };
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    order.sort_by(|a, b| size(&found[*b]).total_cmp(&size(&found[*a])));
+    order.truncate(args.worst);
+    let worst: Vec<PathBuf> = order.iter().map(|k| job.logs[*k].path.clone()).collect();
+    let (robot, chosen) = (job.robot.clone(), worst.clone());
+    let curves = job.each(move |log, going| {
+        if !chosen.contains(&log.path) {
+            return Ok(None);
+        }
+        let mut curves = Curves::new(&log.name.display().to_string(), n, log.rows);
+        walk(robot.as_ref(), log, going, |block, residuals| {
+            curves.add(&block.time, residuals);
+            Ok(())
+        })?;
+        Ok(Some((log.path.clone(), curves)))
+    });
+    let curves: Vec<_> = curves.await?.into_iter().flatten().collect();
+    let found = worst
+        .iter()
+        .flat_map(|path| curves.iter().find(|(own, _)| own == path));
+    let found: Vec<&Curves> = found.map(|(_, curves)| curves).collect();
+    Ok(picture(&found))
+}
+
+/// Writes all states with their residuals, log after log.
+async fn write_residuals(job: &Job, output: &std::path::Path, going: &Going) -> Result<(), Error> {
+    let part = Unfinished::beside(output)?;
+    let n = job.robot.joints();
+    let mut names = canonical_names(n);
+    names.extend((1..=n).map(|i| format!("residual{i}")));
+    let (logs, robot, path) = (job.logs.clone(), job.robot.clone(), part.path().to_owned());
+    let written = going.blocking(move |going| {
+        let mut table = Table::create(&path, &names, true)?;
+        for log in &logs {
+            let name = log.name.display().to_string();
+            walk(robot.as_ref(), log, going, |block, residuals| {
+                let each = block.quantities.iter().map(|of| &of[..]).chain([residuals]);
+                let each = each.flat_map(|of| of.chunks_exact(block.len().max(1)));
+                let all: Vec<&[f64]> = std::iter::once(&block.time[..]).chain(each).collect();
+                table.write(&name, &all)
+            })?;
+        }
+        table.close()
+    });
+    written.await.map_err(|why| why.at(output.display()))?;
+    part.finish()
+}

@@ -1,0 +1,406 @@
+//! `simulate`: logs of an arm whose parameters are known.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use dalembert_fit::random::{Random, normal, within};
+use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
+use dalembert_fit::{Effort, Model, Options, Trajectory, excite};
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::robot::{Robot, write};
+
+use super::table::number;
+use crate::dynamics::{Dynamics, Loaded, States};
+use crate::error::Error;
+use crate::job::RobotArgs;
+use crate::logs::{Table, canonical_names};
+use crate::output::{self, Unfinished};
+use crate::progress::{Going, Progress};
+
+#[derive(Args, Clone, Debug)]
+pub(super) struct SimulateArgs {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Folder for the logs, which is created; it must not exist yet, or be empty
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+    /// Number of logs
+    #[arg(long, default_value_t = 4)]
+    files: u64,
+    /// Length of each, s
+    #[arg(long, default_value_t = 60.0)]
+    seconds: f64,
+    /// States a second
+    #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
+    rate: f64,
+    /// What all that is random is drawn from
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Noise of torques, as part of each joint's rms torque
+    #[arg(long, value_name = "PART", default_value_t = 0.005)]
+    noise: f64,
+    /// Steps of the encoders in a turn (or 2π m); 0 for exact positions
+    #[arg(long, value_name = "COUNT", default_value_t = 131_072)]
+    encoder: u32,
+    /// By how much the arm's masses may be other than the file's; they come with friction
+    #[arg(long, value_name = "PART", default_value_t = 0.0)]
+    vary: f64,
+    /// Take up this mass, kg, in the middle of each log
+    #[arg(long, value_name = "KG")]
+    payload: Option<f64>,
+    /// Collisions in each log
+    #[arg(long, value_name = "COUNT", default_value_t = 0)]
+    collisions: u32,
+    /// Leave velocities and accelerations away: they are differentiated when the log is read
+    #[arg(long)]
+    encoders_only: bool,
+    /// The arm follows its trajectory exactly instead of under computed torque: fast
+    #[arg(long, conflicts_with = "payload")]
+    exact: bool,
+    /// Tell how far it is, also where standard error is no terminal
+    #[arg(long)]
+    progress: bool,
+}
+
+/// What all logs have in common.
+struct Scene {
+    args: SimulateArgs,
+    truth: Robot,
+    controller: Robot,
+    trajectory: Trajectory,
+    noise: Vec<f64>,
+    /// Torques of the true arm, for `--exact`.
+    exact: Arc<Loaded>,
+}
+
+pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
+    let is_noise = args.noise >= 0.0 && args.noise.is_finite();
+    if args.files == 0 || args.seconds * args.rate < 1.0 || !is_noise {
+        return Err(Error::new(
+            "there have to be files, states, and a noise that is not negative",
+        ));
+    }
+    let folder = args.output.clone();
+    let is_used = folder
+        .read_dir()
+        .is_ok_and(|mut entries| entries.next().is_some());
+    if is_used {
+        return Err(Error::new("there is something in it already").at(folder.display()));
+    }
+    let robot = args.robot.load(false, going).await?;
+    let progress = Arc::new(Progress::default());
+    let states = (args.seconds * args.rate) as u64;
+    progress.expect(states * args.files);
+    let counted = progress.clone();
+    let (shown, files) = (args.progress, args.files);
+    let made = going.blocking(move |going| {
+        let scene = Scene::new(args, robot)?;
+        // Beside it, under another name, until all logs are there.
+        let part = Folder::beside(&scene.args.output)?;
+        let mut said = String::new();
+        for file in 0..files {
+            said += &scene.record(&part.path, file, &counted, going)?;
+        }
+        if scene.args.vary > 0.0 {
+            output::write(&part.path.join("truth.toml"), &write(&scene.truth))?;
+        }
+        part.finish()?;
+        Ok(said)
+    });
+    let said = progress.shown(shown, made).await?;
+    let folder = folder.display();
+    Ok(format!(
+        "{said}{} states in {files} logs in {folder}\n",
+        states * files
+    ))
+}
+
+/// A folder that has not got its name yet.
+struct Folder {
+    path: PathBuf,
+    name: PathBuf,
+}
+
+impl Folder {
+    fn beside(name: &Path) -> Result<Folder, Error> {
+        if name.is_dir() {
+            std::fs::remove_dir(name).map_err(|why| Error::new(why).at(name.display()))?;
+        }
+        let path = Unfinished::beside(name)?.path().to_owned();
+        std::fs::create_dir(&path).map_err(|why| Error::new(why).at(path.display()))?;
+        Ok(Folder {
+            path,
+            name: name.to_owned(),
+        })
+    }
+
+    fn finish(self) -> Result<(), Error> {
+        std::fs::rename(&self.path, &self.name)
+            .map_err(|why| Error::new(why).at(self.name.display()))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // Renamed, or there is an error to report already.
+        let _ = std::fs::remove_dir_all(&self.path);
+    }
+}
+
+impl Scene {
+    fn new(args: SimulateArgs, loaded: Arc<Loaded>) -> Result<Scene, Error> {
+        let robot = loaded.robot();
+        let model = Model::new(robot, &Options::default())?;
+        let n = model.joints();
+        let effort = Effort {
+            starts: 8,
+            descents: 1,
+            steps: 10,
+            seed: args.seed,
+            ..Effort::default()
+        };
+        let (trajectory, _) = excite(&model, &vec![1.0; n], 8.0, &effort)?;
+        let (count, period) = (800, 0.01);
+        let mut states = [(); 3].map(|()| vec![0.0; n * count]);
+        for s in 0..count {
+            fill(&mut states, s, count, trajectory.at(s as f64 * period));
+        }
+        let [q, qd, qdd] = &states;
+        let mut tau = vec![0.0; n * count];
+        loaded.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+        let squares = tau
+            .chunks_exact(count)
+            .map(|own| own.iter().map(|x| x * x).sum::<f64>());
+        // A joint that holds nothing has some noise all the same.
+        let usual = squares.map(|sum| libm::sqrt(sum / count as f64).max(1e-3));
+        let usual: Vec<f64> = usual.collect();
+        let (truth, exact) = match args.vary > 0.0 {
+            true => {
+                let truth = varied(robot, args.vary, &usual, &mut Random::new(args.seed))?;
+                let exact = args.exact.then(|| Loaded::of(&truth)).transpose()?;
+                (truth, exact.map_or_else(|| loaded.clone(), Arc::new))
+            }
+            false => (robot.clone(), loaded.clone()),
+        };
+        Ok(Scene {
+            noise: usual.iter().map(|torque| args.noise * torque).collect(),
+            args,
+            truth,
+            controller: robot.clone(),
+            trajectory,
+            exact,
+        })
+    }
+
+    fn recording(&self, file: u64) -> Recording {
+        let steps = f64::from(self.args.encoder);
+        Recording {
+            period: 1.0 / self.args.rate,
+            states: (self.args.seconds * self.args.rate) as usize,
+            noise: self.noise.clone(),
+            resolution: match self.args.encoder {
+                0 => 0.0,
+                _ => 2.0 * core::f64::consts::PI / steps,
+            },
+            seed: self.args.seed.wrapping_mul(1_000_003).wrapping_add(file),
+        }
+    }
+
+    /// Draws contacts of 0.1 s that a joint feels as a hundred times its noise.
+    fn collisions(&self, random: &mut Random) -> Vec<Collision> {
+        let count = self.args.collisions;
+        let each = (0..count).map(|k| {
+            let part = (f64::from(k) + 0.5 + within(random, 0.2)) / f64::from(count);
+            let joint = (random.unit() * self.noise.len() as f64) as usize;
+            let joint = joint.min(self.noise.len() - 1);
+            let mut torque = vec![0.0; self.noise.len()];
+            let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
+            torque[joint] = sign * 100.0 * self.noise[joint].max(1e-3);
+            Collision {
+                start: part * self.args.seconds,
+                duration: 0.1,
+                torque,
+            }
+        });
+        each.collect()
+    }
+
+    /// Writes a log; returns what happens in it.
+    fn record(
+        &self,
+        folder: &Path,
+        file: u64,
+        progress: &Progress,
+        going: &Going,
+    ) -> Result<String, Error> {
+        let name = format!("log{file:04}.parquet");
+        let path = folder.join(&name);
+        let recording = self.recording(file);
+        let mut random = Random::new(recording.seed ^ 0x636f_6e74);
+        let collisions = self.collisions(&mut random);
+        let n = self.noise.len();
+        let mut names = canonical_names(n);
+        if self.args.encoders_only {
+            names.retain(|name| !name.starts_with("qd"));
+        }
+        let mut table = Table::create(&path, &names, false)?;
+        match self.args.exact {
+            true => self.follow(&mut table, &recording, &collisions, progress, going)?,
+            false => {
+                let log = self.controlled(&recording, &collisions)?;
+                for first in (0..log.q.len()).step_by(BLOCK) {
+                    going.check()?;
+                    let last = log.q.len().min(first + BLOCK);
+                    let time = (first..last).map(|k| k as f64 * recording.period).collect();
+                    let columns = [&log.q, &log.qd, &log.qdd, &log.tau].map(|of| {
+                        let entry = |i: usize| of[first..last].iter().map(move |x| x[i]);
+                        (0..n).flat_map(entry).collect()
+                    });
+                    self.write(&mut table, time, &columns)?;
+                    progress.add((last - first) as u64);
+                }
+            }
+        }
+        table.close()?;
+        let mut said = String::new();
+        if let Some(payload) = self.args.payload {
+            let at = 0.5 * self.args.seconds;
+            said += &format!("{name}: {payload} kg more from {at:.3} s on\n");
+        }
+        for one in &collisions {
+            let joint = one.torque.iter().position(|x| *x != 0.0).unwrap_or(0);
+            let (from, to) = (one.start, one.start + one.duration);
+            let peak = number(one.torque[joint]);
+            let joint = joint + 1;
+            said += &format!(
+                "{name}: contact from {from:.3} to {to:.3} s, joint {joint}, {peak} N·m\n"
+            );
+        }
+        Ok(said)
+    }
+
+    fn controlled(&self, recording: &Recording, collisions: &[Collision]) -> Result<Log, Error> {
+        let mut arms = vec![(0.0, self.truth.clone())];
+        if let Some(payload) = self.args.payload {
+            let mut loaded = self.truth.clone();
+            if let Some(hand) = loaded.joints.last_mut() {
+                hand.mass = &hand.mass + &rational(payload)?;
+            }
+            arms.push((0.5 * self.args.seconds, loaded));
+        }
+        let controlled = Controlled {
+            arms,
+            controller: self.controller.clone(),
+            bandwidth: 20.0,
+            collisions: collisions.to_vec(),
+        };
+        Ok(control(&controlled, &self.trajectory, recording)?)
+    }
+
+    /// Writes states on the trajectory itself, whose motors feel all that pushes.
+    fn follow(
+        &self,
+        table: &mut Table,
+        recording: &Recording,
+        collisions: &[Collision],
+        progress: &Progress,
+        going: &Going,
+    ) -> Result<(), Error> {
+        let n = self.noise.len();
+        let mut random = Random::new(recording.seed);
+        // A period of it is all that there is; only noise goes on.
+        let cycle = (self.trajectory.period * self.args.rate) as usize;
+        let cycle: Vec<[Vec<f64>; 3]> = (0..cycle.max(1))
+            .map(|k| self.trajectory.at(k as f64 * recording.period))
+            .collect();
+        for first in (0..recording.states).step_by(BLOCK) {
+            going.check()?;
+            let count = BLOCK.min(recording.states - first);
+            let mut states = [(); 3].map(|()| vec![0.0; n * count]);
+            for s in 0..count {
+                fill(
+                    &mut states,
+                    s,
+                    count,
+                    cycle[(first + s) % cycle.len()].clone(),
+                );
+            }
+            let [q, qd, qdd] = &states;
+            let mut tau = vec![0.0; n * count];
+            self.exact
+                .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+            let time: Vec<f64> = (0..count)
+                .map(|s| (first + s) as f64 * recording.period)
+                .collect();
+            for (s, time) in time.iter().enumerate() {
+                for i in 0..n {
+                    let own = &mut tau[i * count + s];
+                    *own += self.noise[i] * normal(&mut random);
+                    for one in collisions {
+                        *own -= one.torque[i] * one.part(*time);
+                    }
+                }
+            }
+            let [q, qd, qdd] = states;
+            let step = recording.resolution;
+            let q = match step > 0.0 {
+                true => q
+                    .into_iter()
+                    .map(|q| step * libm::round(q / step))
+                    .collect(),
+                false => q,
+            };
+            self.write(table, time, &[q, qd, qdd, tau])?;
+            progress.add(count as u64);
+        }
+        Ok(())
+    }
+
+    fn write(
+        &self,
+        table: &mut Table,
+        time: Vec<f64>,
+        columns: &[Vec<f64>; 4],
+    ) -> Result<(), Error> {
+        let chosen = columns.iter().enumerate();
+        let chosen = chosen.filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
+        let each = chosen.flat_map(|(_, of)| of.chunks_exact(time.len().max(1)));
+        let all: Vec<&[f64]> = std::iter::once(&time[..]).chain(each).collect();
+        table.write("", &all)
+    }
+}
+
+/// States that are written at once.
+const BLOCK: usize = 8192;
+
+fn fill(states: &mut [Vec<f64>; 3], s: usize, count: usize, state: [Vec<f64>; 3]) {
+    for (to, from) in states.iter_mut().zip(state) {
+        for (i, value) in from.into_iter().enumerate() {
+            to[i * count + s] = value;
+        }
+    }
+}
+
+fn rational(value: f64) -> Result<Rational, Error> {
+    let found = parse_decimal(&format!("{value:.6e}"));
+    found.map_err(|_| Error::new(format!("{value} is not a number of a robot file")))
+}
+
+/// Returns an arm with other masses, bodies of the same shape, and friction of a tenth of each
+/// joint's usual torque at most.
+fn varied(robot: &Robot, part: f64, usual: &[f64], random: &mut Random) -> Result<Robot, Error> {
+    let mut robot = robot.clone();
+    for (joint, usual) in robot.joints.iter_mut().zip(usual) {
+        let factor = rational(1.0 + within(random, part))?;
+        joint.mass = &joint.mass * &factor;
+        joint.inertia = joint.inertia.map(|x| x * &factor);
+        joint.viscous = &joint.viscous + &rational(0.1 * usual * random.unit())?;
+        joint.coulomb = &joint.coulomb + &rational(0.05 * usual * (1.0 + random.unit()))?;
+        if joint.coulomb_width == Rational::default() {
+            joint.coulomb_width = rational(0.01)?;
+        }
+    }
+    Ok(robot)
+}

@@ -1,0 +1,40 @@
+//! Tables on standard output.
+
+/// Returns rows of text in columns, the first to the left and the others to the right.
+pub(super) fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |k: usize| {
+        rows.iter()
+            .filter_map(|row| row.get(k))
+            .map(|x| x.chars().count())
+            .max()
+    };
+    let widths: Vec<usize> = (0..columns).map(|k| width(k).unwrap_or(0)).collect();
+    let mut text = String::new();
+    for row in rows {
+        let cells = row.iter().zip(&widths).enumerate();
+        let cells: Vec<String> = cells
+            .map(|(k, (cell, width))| match k {
+                0 => format!("{cell:width$}"),
+                _ => format!("{cell:>width$}"),
+            })
+            .collect();
+        text += cells.join("  ").trim_end();
+        text.push('\n');
+    }
+    text
+}
+
+/// Returns a number with four digits that count.
+pub(super) fn number(x: f64) -> String {
+    let size = x.abs();
+    match size {
+        _ if !x.is_finite() => x.to_string(),
+        0.0 => "0".to_owned(),
+        _ if !(1e-4..1e6).contains(&size) => format!("{x:.3e}"),
+        _ => {
+            let digits = (3 - libm::floor(libm::log10(size)) as i32).clamp(0, 7);
+            format!("{x:.*}", digits as usize)
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! What the functions ask of a robot: torques and rows of the regressor, for many states.
+//!
+//! States lie in columns: entry i of state s at `i * states + s`.
+
+use std::fmt;
+use std::path::Path;
+
+use dalembert::interface::InverseDynamics;
+use dalembert_fit::{Accumulator, Model, Options};
+use dalembert_jit::{Arm, Load, Native, Output, Place, Rows, RowsMut, Scalar};
+use dalembert_model::robot::{Robot, write};
+
+use crate::error::Error;
+
+/// Positions, velocities and accelerations of many states, in columns.
+#[derive(Clone, Copy, Debug)]
+pub struct States<'a> {
+    /// Number of states.
+    pub count: usize,
+    /// q, rad or m.
+    pub q: &'a [f64],
+    /// q̇
+    pub qd: &'a [f64],
+    /// q̈
+    pub qdd: &'a [f64],
+}
+
+/// A robot whose functions are registered.
+pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
+    /// Returns the number of joints.
+    fn joints(&self) -> usize;
+
+    /// Computes the torques of states into columns.
+    ///
+    /// # Errors
+    /// What went wrong; arrays have the lengths that `count` asks for.
+    fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error>;
+
+    /// Returns the columns of the regressor, if parameters can be identified.
+    fn model(&self) -> Option<&Model> {
+        None
+    }
+
+    /// Adds states and their measured torques to what is accumulated for a fit; `room` is
+    /// for what is computed of them, and is kept from call to call.
+    ///
+    /// # Errors
+    /// As [`Dynamics::inverse_dynamics`], and where there is no [`Dynamics::model`].
+    fn accumulate(
+        &self,
+        states: States<'_>,
+        tau: &[f64],
+        _room: &mut Vec<f64>,
+        into: &mut Accumulator,
+    ) -> Result<(), Error> {
+        let model = self.model().ok_or_else(no_model)?;
+        let n = self.joints();
+        let mut at = [(); 4].map(|()| vec![0.0; n]);
+        for s in 0..states.count {
+            for i in 0..n {
+                let place = i * states.count + s;
+                for (at, from) in at.iter_mut().zip([states.q, states.qd, states.qdd, tau]) {
+                    at[i] = from[place];
+                }
+            }
+            let [q, qd, qdd, tau] = &at;
+            into.add(model, [q, qd, qdd], tau)?;
+        }
+        Ok(())
+    }
+}
+
+fn no_model() -> Error {
+    Error::new("this robot was registered without the columns that a fit needs")
+}
+
+/// Any robot, at run time: a robot file or a URDF, its functions compiled in memory.
+pub struct Loaded {
+    arm: Arm,
+    torques: usize,
+    fitted: Option<Fitted>,
+    notes: Vec<String>,
+}
+
+/// What a fit needs: the columns, and the machine code of the regressor.
+struct Fitted {
+    model: Model,
+    arm: Arm,
+    regressor: usize,
+}
+
+impl fmt::Debug for Loaded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Loaded({})", self.arm.robot().name)
+    }
+}
+
+impl Loaded {
+    /// Loads a robot file or a URDF; with `fit`, the regressor too.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or why nothing was generated for it.
+    pub fn open(path: &Path, urdf: &dalembert_import::Options, fit: bool) -> Result<Loaded, Error> {
+        let load = load(urdf, Output::InverseDynamics);
+        let arm = Arm::load(path, &load).map_err(Error::new)?;
+        Loaded::with(arm, fit)
+    }
+
+    /// Loads a robot, for its torques.
+    ///
+    /// # Errors
+    /// Why nothing was generated for it.
+    pub fn of(robot: &Robot) -> Result<Loaded, Error> {
+        let load = load(&Default::default(), Output::InverseDynamics);
+        let arm = Arm::parse(&write(robot), &robot.name, &load).map_err(Error::new)?;
+        Loaded::with(arm, false)
+    }
+
+    fn with(arm: Arm, fit: bool) -> Result<Loaded, Error> {
+        let torques = place(&arm)?;
+        let fitted = match fit {
+            true => Some(Fitted::new(arm.robot())?),
+            false => None,
+        };
+        let notes = arm.notes().to_vec();
+        Ok(Loaded {
+            arm,
+            torques,
+            fitted,
+            notes,
+        })
+    }
+
+    /// Returns the robot.
+    pub fn robot(&self) -> &Robot {
+        self.arm.robot()
+    }
+
+    /// Returns the robot as a robot file.
+    pub fn robot_file(&self) -> &str {
+        self.arm.robot_file()
+    }
+
+    /// Returns what a user should know of the robot.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    fn native(&self) -> &Native {
+        self.arm.functions()[self.torques].native()
+    }
+}
+
+fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
+    Load {
+        urdf: urdf.clone(),
+        outputs: Some(vec![output]),
+        scalars: Some(vec![Scalar::F64]),
+        ..Load::default()
+    }
+}
+
+/// Returns the place of the one function of an arm, its machine code ready for many states.
+fn place(arm: &Arm) -> Result<usize, Error> {
+    let found = arm
+        .functions()
+        .iter()
+        .position(|f| f.scalar() == Scalar::F64);
+    let place = found.ok_or_else(|| Error::new("the generator returned no function"))?;
+    let native = arm.functions()[place].native();
+    native.prepare_rows().map_err(Error::new)?;
+    Ok(place)
+}
+
+impl Fitted {
+    fn new(robot: &Robot) -> Result<Fitted, Error> {
+        let model = Model::new(robot, &Options::default())?;
+        let text = write(&model.generator_robot());
+        let load = load(&Default::default(), Output::Regressor);
+        let arm = Arm::parse(&text, "the robot with its drives", &load).map_err(Error::new)?;
+        let regressor = place(&arm)?;
+        Ok(Fitted {
+            model,
+            arm,
+            regressor,
+        })
+    }
+}
+
+impl Dynamics for Loaded {
+    fn joints(&self) -> usize {
+        self.arm.robot().joints.len()
+    }
+
+    fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error> {
+        call(self.native(), self.joints(), states, tau, self.joints())
+    }
+
+    fn model(&self) -> Option<&Model> {
+        self.fitted.as_ref().map(|fitted| &fitted.model)
+    }
+
+    fn accumulate(
+        &self,
+        states: States<'_>,
+        tau: &[f64],
+        room: &mut Vec<f64>,
+        into: &mut Accumulator,
+    ) -> Result<(), Error> {
+        let fitted = self.fitted.as_ref().ok_or_else(no_model)?;
+        let native = fitted.arm.functions()[fitted.regressor].native();
+        let entries = self.joints() * fitted.model.base();
+        room.resize(entries * states.count, 0.0);
+        call(native, self.joints(), states, room, entries)?;
+        into.add_columns(&fitted.model, room, states.qd, tau, states.count)?;
+        Ok(())
+    }
+}
+
+/// Calls machine code of (q, q̇, q̈) for many states.
+fn call(
+    native: &Native,
+    joints: usize,
+    states: States<'_>,
+    results: &mut [f64],
+    entries: usize,
+) -> Result<(), Error> {
+    let place = Place::columns(joints, states.count);
+    let read = [states.q, states.qd, states.qdd].map(|data| Rows {
+        data,
+        place: place.clone(),
+    });
+    let mut written = [RowsMut {
+        data: results,
+        place: Place::columns(entries, states.count),
+    }];
+    let called = native.call_rows(&read, &mut written, states.count, 1);
+    called.map_err(Error::new)
+}
+
+/// A generated type, by its trait: `interface: traits;` of `dynamics!` and of robot files.
+pub struct Generated<R, const N: usize> {
+    robot: R,
+    model: Option<Model>,
+}
+
+impl<R, const N: usize> Generated<R, N> {
+    /// Returns the robot; with a model of the same robot file, parameters can be identified.
+    ///
+    /// # Errors
+    /// A model of another number of joints.
+    pub fn new(robot: R, model: Option<Model>) -> Result<Generated<R, N>, Error> {
+        match &model {
+            Some(model) if model.joints() != N => Err(Error::new(format!(
+                "the model has {} joints and the generated robot {N}",
+                model.joints()
+            ))),
+            _ => Ok(Generated { robot, model }),
+        }
+    }
+}
+
+impl<R, const N: usize> fmt::Debug for Generated<R, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Generated({})", std::any::type_name::<R>())
+    }
+}
+
+impl<R, const N: usize> Dynamics for Generated<R, N>
+where
+    R: InverseDynamics<f64, N> + Send + Sync + 'static,
+{
+    fn joints(&self) -> usize {
+        N
+    }
+
+    fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error> {
+        let count = states.count;
+        for s in 0..count {
+            let of = |from: &[f64]| std::array::from_fn(|i| from[i * count + s]);
+            let (q, qd, qdd) = (of(states.q), of(states.qd), of(states.qdd));
+            let torques = self.robot.inverse_dynamics(&q, &qd, &qdd);
+            for (i, torque) in torques.into_iter().enumerate() {
+                tau[i * count + s] = torque;
+            }
+        }
+        Ok(())
+    }
+
+    fn model(&self) -> Option<&Model> {
+        self.model.as_ref()
+    }
+}

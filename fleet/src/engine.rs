@@ -1,0 +1,259 @@
+//! One aggregate over each of many logs, on this machine or on a cluster.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use datafusion::arrow::array::AsArray;
+use datafusion::arrow::datatypes::DataType;
+use datafusion::execution::context::SessionContext;
+use datafusion::execution::memory_pool::GreedyMemoryPool;
+use datafusion::execution::runtime_env::RuntimeEnvBuilder;
+use datafusion::logical_expr::{AggregateUDF, Expr, cast, ident, lit};
+use datafusion::prelude::{ParquetReadOptions, SessionConfig};
+use futures::stream::{self, StreamExt};
+use url::Url;
+
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+use crate::functions::{Functions, evaluate_once, register};
+use crate::logs::{Bad, Log, Source, states};
+use crate::progress::Going;
+
+/// What a query may use.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Bytes: of what readers hold, and of the engine's pool.
+    pub memory: u64,
+    /// Threads that work on queries.
+    pub partitions: usize,
+}
+
+/// Rows of a batch, and bytes that a partition takes beside the row group that it reads.
+const BATCH: usize = 8192;
+const PARTITION: u64 = 32 << 20;
+
+/// Where queries run.
+pub struct Engine {
+    context: SessionContext,
+    functions: Functions,
+    limits: Limits,
+    is_cluster: bool,
+}
+
+fn config(partitions: usize) -> SessionConfig {
+    let mut config = SessionConfig::new()
+        .with_target_partitions(partitions.max(1))
+        .with_batch_size(BATCH)
+        .with_collect_statistics(false);
+    evaluate_once(&mut config);
+    config
+}
+
+impl Engine {
+    /// Returns the engine of this machine, with a robot's functions.
+    ///
+    /// # Errors
+    /// Those of the engine.
+    pub fn embedded(
+        name: &str,
+        robot: &Arc<dyn Dynamics>,
+        limits: Limits,
+    ) -> Result<Engine, Error> {
+        let pool = Arc::new(GreedyMemoryPool::new(limits.memory as usize));
+        let runtime = RuntimeEnvBuilder::new()
+            .with_memory_pool(pool)
+            .build_arc()?;
+        let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
+        register(&context, name, robot);
+        Ok(Engine {
+            context,
+            functions: Functions::of(name, robot),
+            limits,
+            is_cluster: false,
+        })
+    }
+
+    /// Returns the engine of a cluster, whose scheduler is at `HOST:PORT`.
+    ///
+    /// # Errors
+    /// An address that is none, or that nobody answers at.
+    #[cfg(feature = "cluster")]
+    pub async fn cluster(
+        scheduler: &str,
+        name: &str,
+        robot: &Arc<dyn Dynamics>,
+        limits: Limits,
+    ) -> Result<Engine, Error> {
+        use ballista::prelude::{SessionConfigExt, SessionContextExt};
+        use datafusion::execution::SessionStateBuilder;
+
+        crate::cluster::reach(scheduler).await?;
+        let config = config(limits.partitions).upgrade_for_ballista();
+        let state = SessionStateBuilder::new()
+            .with_default_features()
+            .with_config(config)
+            .build();
+        let url = format!("df://{scheduler}");
+        let context = SessionContext::remote_with_state(&url, state).await?;
+        // After it: becoming a cluster's resets the functions.
+        register(&context, name, robot);
+        Ok(Engine {
+            context,
+            functions: Functions::of(name, robot),
+            limits,
+            is_cluster: true,
+        })
+    }
+
+    /// Returns an aggregate by the end of its name.
+    fn aggregate(&self, suffix: &str) -> Result<Arc<AggregateUDF>, Error> {
+        let mut all = self.functions.aggregates.iter();
+        let found = all.find(|aggregate| aggregate.name().ends_with(suffix));
+        found
+            .cloned()
+            .ok_or_else(|| Error::new(format!("there is no aggregate `{suffix}`")))
+    }
+
+    /// Computes an aggregate that returns bytes of every log, in their order; a log with a row
+    /// that cannot be used is one that is bad.
+    ///
+    /// # Errors
+    /// What is no log's fault, and that the command was ended.
+    pub async fn over(
+        &self,
+        suffix: &str,
+        logs: &[Log],
+        going: &Going,
+        mut done: impl FnMut(&Log),
+    ) -> Result<Vec<Result<Vec<u8>, Bad>>, Error> {
+        let aggregate = self.aggregate(suffix)?;
+        let with_time = suffix == "_residuals";
+        // Of each partition a row group is in memory: as many at once as there is room for.
+        let largest = logs.iter().map(|log| log.group).max().unwrap_or(0);
+        let room = self.limits.memory / (2 * largest + PARTITION);
+        let at_once = match self.is_cluster {
+            true => self.limits.partitions,
+            false => (room as usize).clamp(1, self.limits.partitions),
+        };
+        let all = stream::iter(logs).map(|log| {
+            let partitions = match self.is_cluster {
+                true => self.limits.partitions,
+                // One large log is read in parts, many are read beside each other.
+                false => at_once.div_ceil(logs.len().max(1)),
+            };
+            let aggregate = aggregate.clone();
+            async move {
+                let found = self.one(&aggregate, with_time, log, partitions).await;
+                (log, found)
+            }
+        });
+        let mut all = std::pin::pin!(all.buffered(at_once));
+        let mut found = Vec::with_capacity(logs.len());
+        while let Some((log, bytes)) = going.unless_ended(async { Ok(all.next().await) }).await? {
+            done(log);
+            let own = log.clone();
+            found.push(match bytes {
+                Ok(bytes) => Ok(bytes),
+                Err(why) => match going.blocking(move |_| Ok(locate(&own))).await? {
+                    Some(bad) => Err(bad),
+                    None => return Err(why.at(log.name.display())),
+                },
+            });
+        }
+        Ok(found)
+    }
+
+    async fn one(
+        &self,
+        aggregate: &AggregateUDF,
+        with_time: bool,
+        log: &Log,
+        partitions: usize,
+    ) -> Result<Vec<u8>, Error> {
+        let mut state = self.context.state();
+        let options = state.config_mut().options_mut();
+        options.execution.target_partitions = partitions;
+        let context = SessionContext::new_with_state(state);
+        let extension = log.path.extension().unwrap_or_default().to_string_lossy();
+        let read = ParquetReadOptions::default().file_extension(&extension);
+        let table = context.read_parquet(location(&log.path)?, read).await?;
+        let schema = table.schema().as_arrow().clone();
+        let mut arguments = Vec::new();
+        if with_time {
+            let kind = schema
+                .field_with_name(&log.columns.time)?
+                .data_type()
+                .clone();
+            arguments.push(time(&log.columns.time, &kind, log.columns.time_factor));
+        }
+        for (source, factors) in log.layout.sources.iter().zip(&log.columns.factors) {
+            match source {
+                Some(Source::List(name)) => arguments.push(ident(name.clone())),
+                Some(Source::Columns(names)) => {
+                    let each = names.iter().zip(factors);
+                    arguments.extend(each.map(|(name, factor)| match *factor {
+                        1.0 => ident(name.clone()),
+                        factor => cast(ident(name.clone()), DataType::Float64) * lit(factor),
+                    }));
+                }
+                None => return Err(Error::new("its rates were not differentiated")),
+            }
+        }
+        let call = aggregate.call(arguments).alias("kept");
+        let batches = table.aggregate(Vec::new(), vec![call])?.collect().await?;
+        let columns = batches.iter().flat_map(|batch| batch.columns().first());
+        let mut values = columns.flat_map(|column| column.as_binary::<i32>().iter());
+        match values.next().flatten() {
+            Some(bytes) => Ok(bytes.to_vec()),
+            None => Err(Error::new("every row has a null")),
+        }
+    }
+}
+
+/// Finds the first row of a log that cannot be used.
+pub fn locate(log: &Log) -> Option<Bad> {
+    let whole = |why: Error| Some(Bad::whole(&log.name, why));
+    let blocks = match states(&log.path, &log.columns) {
+        Ok(blocks) => blocks,
+        Err(why) => return whole(why),
+    };
+    for block in blocks {
+        match block {
+            Err(why) => return whole(why),
+            Ok(block) => {
+                if let Some((row, what)) = block.not_finite() {
+                    return Some(Bad::row(&log.name, row, what));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Returns the address of a file, whatever characters it has.
+fn location(path: &Path) -> Result<String, Error> {
+    let path = std::path::absolute(path)?;
+    let url = Url::from_file_path(&path);
+    let url = url.map_err(|()| Error::new("no address").at(path.display()))?;
+    Ok(url.to_string())
+}
+
+fn time(name: &str, kind: &DataType, factor: f64) -> Expr {
+    use datafusion::arrow::datatypes::TimeUnit;
+    let (whole, factor) = match kind {
+        DataType::Timestamp(unit, _) => {
+            let per = match unit {
+                TimeUnit::Second => 1.0,
+                TimeUnit::Millisecond => 1e-3,
+                TimeUnit::Microsecond => 1e-6,
+                TimeUnit::Nanosecond => 1e-9,
+            };
+            (cast(ident(name), DataType::Int64), per)
+        }
+        _ => (ident(name), factor),
+    };
+    match factor {
+        1.0 => whole,
+        factor => cast(whole, DataType::Float64) * lit(factor),
+    }
+}

@@ -1,0 +1,60 @@
+//! What went wrong, in a sentence.
+
+use std::fmt;
+
+use datafusion::error::DataFusionError;
+
+/// What went wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error(String);
+
+impl Error {
+    /// Returns the error that says so.
+    pub fn new(text: impl fmt::Display) -> Error {
+        Error(text.to_string().trim_end().to_owned())
+    }
+
+    /// Returns the same error with where it happened before it.
+    #[must_use]
+    pub fn at(self, place: impl fmt::Display) -> Error {
+        Error(format!("{place}: {}", self.0))
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// Makes what other crates say one.
+macro_rules! from {
+    ($($other:ty),*) => {$(
+        impl From<$other> for Error {
+            fn from(other: $other) -> Error {
+                Error::new(other)
+            }
+        }
+    )*};
+}
+from!(
+    dalembert_fit::Error,
+    datafusion::arrow::error::ArrowError,
+    parquet::errors::ParquetError,
+    std::io::Error
+);
+
+impl From<DataFusionError> for Error {
+    fn from(other: DataFusionError) -> Error {
+        // Where in the engine it was found is of no use to whoever asked.
+        Error::new(other.strip_backtrace())
+    }
+}
+
+impl From<Error> for DataFusionError {
+    fn from(own: Error) -> DataFusionError {
+        DataFusionError::External(Box::new(own))
+    }
+}

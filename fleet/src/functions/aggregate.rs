@@ -1,0 +1,202 @@
+//! What the aggregates share: names, arguments, and states as bytes.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use datafusion::arrow::array::{ArrayRef, AsArray};
+use datafusion::arrow::datatypes::{DataType, Field, FieldRef};
+use datafusion::error::Result;
+use datafusion::logical_expr::function::{AccumulatorArgs, StateFieldsArgs};
+use datafusion::logical_expr::utils::format_state_name;
+use datafusion::logical_expr::{Accumulator, AggregateUDFImpl, Signature, Volatility};
+use datafusion::scalar::ScalarValue;
+
+use super::fit::Parameters;
+use super::residuals::Residuals;
+use super::rms::Rms;
+use crate::arguments::{Piece, Shape, list};
+use crate::dynamics::{Dynamics, States};
+use crate::error::Error;
+
+/// Which aggregate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
+    Rms,
+    Residuals,
+    Fit,
+}
+
+/// What an aggregate keeps of states.
+pub(super) trait Kept: fmt::Debug + Send + Sync {
+    /// Adds a piece of states.
+    fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error>;
+    /// Writes it.
+    fn to_bytes(&self) -> Vec<u8>;
+    /// Adds what another one wrote.
+    fn merge(&mut self, robot: &dyn Dynamics, bytes: &[u8]) -> Result<(), Error>;
+    /// Returns the value of the aggregate; null of no states.
+    fn value(&self) -> Result<ScalarValue>;
+    /// Returns how much memory it takes, in bytes.
+    fn size(&self) -> usize;
+}
+
+/// `NAME_rms`, `NAME_residuals` or `NAME_fit`.
+#[derive(Debug)]
+pub(super) struct Aggregate {
+    name: String,
+    robot: Arc<dyn Dynamics>,
+    kind: Kind,
+    shape: Shape,
+    signature: Signature,
+}
+
+impl Aggregate {
+    pub(super) fn new(name: &str, robot: &Arc<dyn Dynamics>, kind: Kind) -> Aggregate {
+        let suffix = match kind {
+            Kind::Rms => "rms",
+            Kind::Residuals => "residuals",
+            Kind::Fit => "fit",
+        };
+        Aggregate {
+            name: format!("{name}_{suffix}"),
+            robot: robot.clone(),
+            kind,
+            shape: Shape {
+                joints: robot.joints(),
+                time: kind == Kind::Residuals,
+                quantities: 4,
+            },
+            signature: Signature::user_defined(Volatility::Immutable),
+        }
+    }
+}
+
+impl PartialEq for Aggregate {
+    fn eq(&self, other: &Aggregate) -> bool {
+        self.name == other.name && Arc::ptr_eq(&self.robot, &other.robot)
+    }
+}
+
+impl Eq for Aggregate {}
+
+impl Hash for Aggregate {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+    }
+}
+
+impl AggregateUDFImpl for Aggregate {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn signature(&self) -> &Signature {
+        &self.signature
+    }
+
+    fn coerce_types(&self, types: &[DataType]) -> Result<Vec<DataType>> {
+        self.shape.coerce(&self.name, types)
+    }
+
+    fn return_type(&self, _: &[DataType]) -> Result<DataType> {
+        Ok(match self.kind {
+            Kind::Rms => list(self.shape.joints),
+            Kind::Residuals | Kind::Fit => DataType::Binary,
+        })
+    }
+
+    fn state_fields(&self, args: StateFieldsArgs) -> Result<Vec<FieldRef>> {
+        let name = format_state_name(args.name, "kept");
+        Ok(vec![Arc::new(Field::new(name, DataType::Binary, true))])
+    }
+
+    fn accumulator(&self, _: AccumulatorArgs) -> Result<Box<dyn Accumulator>> {
+        let joints = self.shape.joints;
+        let kept: Box<dyn Kept> = match self.kind {
+            Kind::Rms => Box::new(Rms::new(joints)),
+            Kind::Residuals => Box::new(Residuals::new(joints)),
+            Kind::Fit => Box::new(Parameters::new(self.robot.as_ref())?),
+        };
+        Ok(Box::new(Keeping {
+            robot: self.robot.clone(),
+            shape: self.shape,
+            kept,
+        }))
+    }
+}
+
+/// The engine's side of what is kept.
+#[derive(Debug)]
+struct Keeping {
+    robot: Arc<dyn Dynamics>,
+    shape: Shape,
+    kept: Box<dyn Kept>,
+}
+
+impl Accumulator for Keeping {
+    fn update_batch(&mut self, values: &[ArrayRef]) -> Result<()> {
+        let arguments = self.shape.read(values);
+        arguments.each_valid(|piece| Ok(self.kept.add(self.robot.as_ref(), piece)?))
+    }
+
+    fn evaluate(&mut self) -> Result<ScalarValue> {
+        self.kept.value()
+    }
+
+    fn size(&self) -> usize {
+        size_of_val(self) + self.kept.size()
+    }
+
+    fn state(&mut self) -> Result<Vec<ScalarValue>> {
+        Ok(vec![ScalarValue::Binary(Some(self.kept.to_bytes()))])
+    }
+
+    fn merge_batch(&mut self, states: &[ArrayRef]) -> Result<()> {
+        for bytes in states
+            .iter()
+            .flat_map(|array| array.as_binary::<i32>())
+            .flatten()
+        {
+            self.kept.merge(self.robot.as_ref(), bytes)?;
+        }
+        Ok(())
+    }
+}
+
+/// Computes residuals of a piece in columns: measured torques less the robot's.
+pub(super) fn residuals(
+    robot: &dyn Dynamics,
+    piece: &Piece,
+    into: &mut Vec<f64>,
+) -> Result<(), Error> {
+    let [q, qd, qdd, measured] = &piece.quantities;
+    into.resize(measured.len(), 0.0);
+    let count = piece.count;
+    robot.inverse_dynamics(States { count, q, qd, qdd }, into)?;
+    for (own, measured) in into.iter_mut().zip(measured) {
+        *own = measured - *own;
+    }
+    Ok(())
+}
+
+/// Reads numbers that were written one after the other.
+pub(super) struct Reader<'a>(pub(super) &'a [u8]);
+
+impl Reader<'_> {
+    /// Returns the next eight bytes.
+    pub(super) fn next(&mut self) -> Result<[u8; 8], Error> {
+        let damaged = || Error::new("what an executor sent is damaged, or of another version");
+        let (first, rest) = self.0.split_first_chunk().ok_or_else(damaged)?;
+        self.0 = rest;
+        Ok(*first)
+    }
+
+    pub(super) fn float(&mut self) -> Result<f64, Error> {
+        Ok(f64::from_le_bytes(self.next()?))
+    }
+
+    pub(super) fn count(&mut self) -> Result<u64, Error> {
+        Ok(u64::from_le_bytes(self.next()?))
+    }
+}

@@ -1,0 +1,258 @@
+//! A log's residuals in one pass: root mean squares, quantiles, and the worst with its time.
+
+use datafusion::error::Result;
+use datafusion::scalar::ScalarValue;
+
+use super::aggregate::{Kept, Reader, residuals};
+use super::rms::{Sum, squares};
+use crate::arguments::Piece;
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+
+/// The version of the bytes.
+const VERSION: u64 = 1;
+/// Bins of a factor of two: each is 1/64 wide of the values in it, and its middle within
+/// 0.8 % of them.
+const OCTAVE: usize = 64;
+/// From 2⁻²⁰ N·m on, with all below in the first bin.
+const LEAST: i32 = -20;
+/// To 2²⁰ N·m, with all above in the last bin.
+const BINS: usize = 40 * OCTAVE;
+
+/// What is kept of a joint's residuals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    squares: Sum,
+    worst: f64,
+    time: f64,
+    bins: Vec<u64>,
+}
+
+/// What is kept of the residuals of any number of states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residuals {
+    states: u64,
+    not_finite: u64,
+    joints: Vec<Joint>,
+    piece: Vec<f64>,
+}
+
+fn bin(size: f64) -> usize {
+    // Exponent and first six bits of what follows it; bins are of equal width within an octave.
+    let key = (size.to_bits() >> 46) as i64;
+    let first = (1023 + i64::from(LEAST)) * OCTAVE as i64;
+    (key - first).clamp(0, BINS as i64 - 1) as usize
+}
+
+fn middle(bin: usize) -> f64 {
+    let octave = libm::ldexp(1.0, LEAST + (bin / OCTAVE) as i32);
+    octave * (1.0 + ((bin % OCTAVE) as f64 + 0.5) / OCTAVE as f64)
+}
+
+impl Joint {
+    fn new() -> Joint {
+        Joint {
+            squares: Sum::default(),
+            worst: 0.0,
+            time: f64::NAN,
+            bins: vec![0; BINS],
+        }
+    }
+
+    /// Returns the largest |residual|, N·m or N.
+    pub fn worst(&self) -> f64 {
+        self.worst
+    }
+
+    /// Returns when it was, in the log's time.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn add(&mut self, residuals: &[f64], time: &[f64]) {
+        self.squares.add(squares(residuals));
+        let largest = residuals.iter().fold(0.0f64, |max, r| max.max(r.abs()));
+        if largest >= self.worst
+            && let Some(place) = residuals.iter().position(|r| r.abs() == largest)
+        {
+            self.see(largest, time[place]);
+        }
+        for residual in residuals {
+            self.bins[bin(residual.abs())] += 1;
+        }
+    }
+
+    /// Of equal ones the earliest, in whatever order they come.
+    fn see(&mut self, size: f64, time: f64) {
+        let is_earlier = size == self.worst && (self.time.is_nan() || time < self.time);
+        if size > self.worst || is_earlier {
+            (self.worst, self.time) = (size, time);
+        }
+    }
+}
+
+impl Residuals {
+    /// Returns what is kept of no states.
+    pub fn new(joints: usize) -> Residuals {
+        Residuals {
+            states: 0,
+            not_finite: 0,
+            joints: vec![Joint::new(); joints],
+            piece: Vec::new(),
+        }
+    }
+
+    /// Returns the number of states, without those that are not finite.
+    pub fn states(&self) -> u64 {
+        self.states
+    }
+
+    /// Returns the number of states that are left out, since they or their torques are not finite.
+    pub fn not_finite(&self) -> u64 {
+        self.not_finite
+    }
+
+    /// Returns what is kept of each joint.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Computes a joint's root mean square, N·m or N.
+    pub fn rms(&self, joint: usize) -> f64 {
+        libm::sqrt(self.joints[joint].squares.total() / self.states as f64)
+    }
+
+    /// Returns what so much of a joint's |residuals| are below, within 0.8 %.
+    pub fn quantile(&self, joint: usize, part: f64) -> f64 {
+        let joint = &self.joints[joint];
+        let wanted = part * self.states as f64;
+        let mut below = 0;
+        for (bin, count) in joint.bins.iter().enumerate() {
+            below += count;
+            if *count > 0 && below as f64 >= wanted {
+                return middle(bin).min(joint.worst);
+            }
+        }
+        f64::NAN
+    }
+
+    /// Adds the residuals of another log.
+    pub fn merge(&mut self, other: &Residuals) {
+        self.states += other.states;
+        self.not_finite += other.not_finite;
+        for (own, other) in self.joints.iter_mut().zip(&other.joints) {
+            own.squares.merge(other.squares);
+            own.see(other.worst, other.time);
+            for (own, other) in own.bins.iter_mut().zip(&other.bins) {
+                *own += other;
+            }
+        }
+    }
+
+    /// Reads what an aggregate returned.
+    ///
+    /// # Errors
+    /// Bytes that are something else.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Residuals, Error> {
+        let mut reader = Reader(bytes);
+        if reader.count()? != VERSION {
+            return Err(Error::new("residuals of another version"));
+        }
+        let joints = reader.count()?;
+        let mut read = Residuals {
+            states: reader.count()?,
+            not_finite: reader.count()?,
+            joints: Vec::new(),
+            piece: Vec::new(),
+        };
+        for _ in 0..joints {
+            let mut joint = Joint::new();
+            joint.squares.value = reader.float()?;
+            joint.squares.rest = reader.float()?;
+            joint.worst = reader.float()?;
+            joint.time = reader.float()?;
+            for _ in 0..reader.count()? {
+                let (bin, count) = (reader.count()? as usize, reader.count()?);
+                let place = joint.bins.get_mut(bin);
+                *place.ok_or_else(|| Error::new("residuals are damaged"))? = count;
+            }
+            read.joints.push(joint);
+        }
+        Ok(read)
+    }
+}
+
+impl Kept for Residuals {
+    fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error> {
+        let mut residuals_of = std::mem::take(&mut self.piece);
+        residuals(robot, piece, &mut residuals_of)?;
+        let count = piece.count;
+        // One that is not finite makes its sum so.
+        let is_finite = |column: &[f64]| squares(column).is_finite();
+        let is_fine = residuals_of.chunks_exact(count).all(is_finite) && is_finite(&piece.time);
+        if is_fine {
+            let columns = residuals_of.chunks_exact(count);
+            for (joint, column) in self.joints.iter_mut().zip(columns) {
+                joint.add(column, &piece.time);
+            }
+            self.states += count as u64;
+        } else {
+            let fine = |s: &usize| {
+                let mut own = residuals_of.iter().skip(*s).step_by(count);
+                own.all(|r| r.is_finite()) && piece.time[*s].is_finite()
+            };
+            let kept: Vec<usize> = (0..count).filter(fine).collect();
+            let time: Vec<f64> = kept.iter().map(|s| piece.time[*s]).collect();
+            for (joint, column) in self.joints.iter_mut().zip(residuals_of.chunks_exact(count)) {
+                let own: Vec<f64> = kept.iter().map(|s| column[*s]).collect();
+                joint.add(&own, &time);
+            }
+            self.states += kept.len() as u64;
+            self.not_finite += (count - kept.len()) as u64;
+        }
+        self.piece = residuals_of;
+        Ok(())
+    }
+
+    fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut put = |word: u64| bytes.extend(word.to_le_bytes());
+        put(VERSION);
+        put(self.joints.len() as u64);
+        put(self.states);
+        put(self.not_finite);
+        for joint in &self.joints {
+            put(joint.squares.value.to_bits());
+            put(joint.squares.rest.to_bits());
+            put(joint.worst.to_bits());
+            put(joint.time.to_bits());
+            let filled = || {
+                joint
+                    .bins
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, count)| **count > 0)
+            };
+            put(filled().count() as u64);
+            for (bin, count) in filled() {
+                put(bin as u64);
+                put(*count);
+            }
+        }
+        bytes
+    }
+
+    fn merge(&mut self, _: &dyn Dynamics, bytes: &[u8]) -> Result<(), Error> {
+        Residuals::merge(self, &Residuals::from_bytes(bytes)?);
+        Ok(())
+    }
+
+    fn value(&self) -> Result<ScalarValue> {
+        let any = self.states + self.not_finite > 0;
+        Ok(ScalarValue::Binary(any.then(|| self.to_bytes())))
+    }
+
+    fn size(&self) -> usize {
+        size_of_val(self) + self.joints.len() * (size_of::<Joint>() + 8 * BINS)
+    }
+}

@@ -1,0 +1,120 @@
+//! Root mean squares of residuals.
+
+use std::sync::Arc;
+
+use datafusion::arrow::array::{FixedSizeListArray, Float64Array};
+use datafusion::arrow::datatypes::{DataType, Field};
+use datafusion::error::Result;
+use datafusion::scalar::ScalarValue;
+
+use super::aggregate::{Kept, Reader, residuals};
+use crate::arguments::{Piece, list};
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+
+/// A sum of many terms, the rounding of each carried along (Neumaier 1974): the same to the
+/// last digits in whatever parts it is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Sum {
+    pub(super) value: f64,
+    pub(super) rest: f64,
+}
+
+impl Sum {
+    pub(super) fn add(&mut self, term: f64) {
+        let sum = self.value + term;
+        self.rest += match self.value.abs() >= term.abs() {
+            true => (self.value - sum) + term,
+            false => (term - sum) + self.value,
+        };
+        self.value = sum;
+    }
+
+    pub(super) fn merge(&mut self, other: Sum) {
+        self.add(other.value);
+        self.rest += other.rest;
+    }
+
+    pub(super) fn total(&self) -> f64 {
+        self.value + self.rest
+    }
+}
+
+/// Returns a sum of squares, in eight parts that take vectors.
+pub(super) fn squares(values: &[f64]) -> f64 {
+    let mut parts = [0.0; 8];
+    let (eights, rest) = values.as_chunks::<8>();
+    for eight in eights {
+        for (part, x) in parts.iter_mut().zip(eight) {
+            *part += x * x;
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = parts;
+    let rest: f64 = rest.iter().map(|x| x * x).sum();
+    ((a + e) + (c + g)) + ((b + f) + (d + h)) + rest
+}
+
+/// Sums of squares, an entry a joint.
+#[derive(Debug)]
+pub(super) struct Rms {
+    states: u64,
+    sums: Vec<Sum>,
+    residuals: Vec<f64>,
+}
+
+impl Rms {
+    pub(super) fn new(joints: usize) -> Rms {
+        Rms {
+            states: 0,
+            sums: vec![Sum::default(); joints],
+            residuals: Vec::new(),
+        }
+    }
+}
+
+impl Kept for Rms {
+    fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error> {
+        residuals(robot, piece, &mut self.residuals)?;
+        let columns = self.residuals.chunks_exact(piece.count);
+        for (sum, column) in self.sums.iter_mut().zip(columns) {
+            sum.add(squares(column));
+        }
+        self.states += piece.count as u64;
+        Ok(())
+    }
+
+    fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = self.states.to_le_bytes().to_vec();
+        for sum in &self.sums {
+            bytes.extend(sum.value.to_le_bytes());
+            bytes.extend(sum.rest.to_le_bytes());
+        }
+        bytes
+    }
+
+    fn merge(&mut self, _: &dyn Dynamics, bytes: &[u8]) -> Result<(), Error> {
+        let mut reader = Reader(bytes);
+        self.states += reader.count()?;
+        for sum in &mut self.sums {
+            let [value, rest] = [reader.float()?, reader.float()?];
+            sum.merge(Sum { value, rest });
+        }
+        Ok(())
+    }
+
+    fn value(&self) -> Result<ScalarValue> {
+        if self.states == 0 {
+            return ScalarValue::try_new_null(&list(self.sums.len()));
+        }
+        let mean = |sum: &Sum| libm::sqrt(sum.total() / self.states as f64);
+        let values: Vec<f64> = self.sums.iter().map(mean).collect();
+        let item = Arc::new(Field::new_list_field(DataType::Float64, true));
+        let (n, values) = (values.len() as i32, Arc::new(Float64Array::from(values)));
+        let lists = FixedSizeListArray::try_new(item, n, values, None)?;
+        Ok(ScalarValue::FixedSizeList(Arc::new(lists)))
+    }
+
+    fn size(&self) -> usize {
+        size_of_val(self) + size_of_val(&self.sums[..]) + 8 * self.residuals.capacity()
+    }
+}

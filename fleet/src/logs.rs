@@ -1,0 +1,77 @@
+//! Logs: which columns are what, states in order, and what is wrong with a file.
+//!
+//! - `mapping`: columns and units
+//! - `block`: states of a Parquet file; `mcap`: those of ROS 2's recordings
+//! - `rates`: velocities and accelerations that a log does not have
+//! - `check`: files that cannot be used, each with row and reason
+//! - `write`: Parquet files of our own; `convert`: logs that no query can read as they are
+
+pub(crate) mod block;
+mod check;
+mod convert;
+mod mapping;
+mod mcap;
+mod rates;
+mod write;
+
+use std::path::{Path, PathBuf};
+
+pub use block::{Block, Blocks};
+pub use check::{Bad, Clock, Log, inspect};
+pub use convert::convert;
+pub use mapping::{Columns, Layout, Mapping, Source, TimeUnit, Units};
+pub use mcap::Messages;
+pub use write::{Table, canonical_names};
+
+use crate::error::Error;
+
+/// Returns the files of patterns, in order and each once.
+///
+/// # Errors
+/// A pattern that is none, or that no file has.
+pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
+    let mut all = Vec::new();
+    for pattern in patterns {
+        let before = all.len();
+        // A file may be called what looks like a pattern.
+        if Path::new(pattern).is_file() {
+            all.push(PathBuf::from(pattern));
+            continue;
+        }
+        let found = glob::glob(pattern).map_err(|why| Error::new(why).at(pattern))?;
+        for path in found {
+            let path = path.map_err(Error::new)?;
+            if path.is_file() {
+                all.push(path);
+            }
+        }
+        if all.len() == before {
+            return Err(Error::new(format!(
+                "no file is called `{pattern}`: quote patterns as 'logs/**/*.parquet'"
+            )));
+        }
+    }
+    all.sort();
+    all.dedup();
+    Ok(all)
+}
+
+/// Returns whether a file is a recording of ROS 2, by its name.
+pub fn is_mcap(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
+}
+
+/// Opens a log of either kind.
+///
+/// # Errors
+/// A file that is neither, or has not the columns.
+pub fn states<'a>(
+    path: &Path,
+    columns: &'a Columns,
+) -> Result<Box<dyn Iterator<Item = Result<Block, Error>> + 'a>, Error> {
+    Ok(match is_mcap(path) {
+        true => Box::new(Messages::open(path, columns)?),
+        false => Box::new(Blocks::open(path, columns)?),
+    })
+}

@@ -1,0 +1,239 @@
+//! States of a log in the order of its rows, in SI units.
+
+use std::fs::File;
+use std::path::Path;
+
+use datafusion::arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
+use datafusion::arrow::compute::cast;
+use datafusion::arrow::datatypes::{DataType, Float64Type, Int64Type, TimeUnit};
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::{
+    ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder as Builder,
+};
+
+use super::mapping::{Columns, Layout, Source};
+use crate::error::Error;
+
+/// Rows that are read at once.
+pub(crate) const ROWS: usize = 8192;
+
+/// Some rows of a log; those with a null are left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Block {
+    /// Row of each state in its file, from 1.
+    pub rows: Vec<u64>,
+    /// Times, s.
+    pub time: Vec<f64>,
+    /// q, q̇, q̈ and τ, each column by column; empty where the log has none.
+    pub quantities: [Vec<f64>; 4],
+}
+
+impl Block {
+    /// Returns the number of states.
+    pub fn len(&self) -> usize {
+        self.time.len()
+    }
+
+    /// Returns whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty()
+    }
+
+    /// Returns a joint's values of a quantity.
+    pub fn column(&self, quantity: usize, joint: usize) -> &[f64] {
+        let count = self.len();
+        &self.quantities[quantity][joint * count..(joint + 1) * count]
+    }
+
+    /// Finds the first value that is not finite: its row, and what it is.
+    pub fn not_finite(&self) -> Option<(u64, String)> {
+        let mut first: Option<(usize, String)> = None;
+        let mut see = |place: usize, name: String, value: f64| {
+            if first.as_ref().is_none_or(|(other, _)| place < *other) {
+                first = Some((place, format!("{name} is {value}")));
+            }
+        };
+        if let Some(place) = self.time.iter().position(|x| !x.is_finite()) {
+            see(place, "the time".into(), self.time[place]);
+        }
+        for (quantity, name) in super::mapping::QUANTITIES.iter().enumerate() {
+            for (i, column) in self.quantities[quantity]
+                .chunks_exact(self.len().max(1))
+                .enumerate()
+            {
+                if let Some(place) = column.iter().position(|x| !x.is_finite()) {
+                    see(
+                        place,
+                        format!("the {name} of joint {}", i + 1),
+                        column[place],
+                    );
+                }
+            }
+        }
+        first.map(|(place, what)| (self.rows[place], what))
+    }
+}
+
+/// Reads blocks of a Parquet file.
+pub struct Blocks<'a> {
+    reader: ParquetRecordBatchReader,
+    columns: &'a Columns,
+    layout: Layout,
+    row: u64,
+}
+
+/// Opens a Parquet file.
+pub(crate) fn open(path: &Path) -> Result<Builder<File>, Error> {
+    Ok(Builder::try_new(File::open(path)?)?)
+}
+
+/// Returns the mask of some columns.
+pub(crate) fn projection(builder: &Builder<File>, names: &[&str]) -> ProjectionMask {
+    let fields = builder.schema().fields().iter().enumerate();
+    let wanted = fields.filter(|(_, field)| names.contains(&field.name().as_str()));
+    ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(place, _)| place))
+}
+
+impl<'a> Blocks<'a> {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// A file that is no Parquet file, or has not the columns.
+    pub fn open(path: &Path, columns: &'a Columns) -> Result<Blocks<'a>, Error> {
+        let builder = open(path)?;
+        let layout = columns.layout(builder.schema())?;
+        let mut names = vec![columns.time.as_str()];
+        for source in layout.sources.iter().flatten() {
+            names.extend(source.columns().iter().map(String::as_str));
+        }
+        let mask = projection(&builder, &names);
+        let reader = builder
+            .with_projection(mask)
+            .with_batch_size(ROWS)
+            .build()?;
+        Ok(Blocks {
+            reader,
+            columns,
+            layout,
+            row: 0,
+        })
+    }
+
+    fn block(&mut self, batch: &RecordBatch) -> Result<Block, Error> {
+        let named = |name: &String| {
+            let column = batch.column_by_name(name).cloned();
+            column.ok_or_else(|| Error::new(format!("there is no column `{name}`")))
+        };
+        let mut valid = vec![true; batch.num_rows()];
+        let time = seconds(&named(&self.columns.time)?, self.columns.time_factor)?;
+        without_nulls(&time, 1, &mut valid);
+        let mut arrays: [Vec<ArrayRef>; 4] = Default::default();
+        for (source, arrays) in self.layout.sources.iter().zip(&mut arrays) {
+            match source {
+                None => {}
+                Some(Source::Columns(names)) => {
+                    for name in names {
+                        let array = cast(&named(name)?, &DataType::Float64)?;
+                        without_nulls(&array, 1, &mut valid);
+                        arrays.push(array);
+                    }
+                }
+                Some(Source::List(name)) => {
+                    let array = named(name)?;
+                    without_nulls(&array, 1, &mut valid);
+                    let values = cast(array.as_fixed_size_list().values(), &DataType::Float64)?;
+                    without_nulls(&values, self.columns.joints, &mut valid);
+                    arrays.push(values);
+                }
+            }
+        }
+        let places: Vec<usize> = (0..valid.len()).filter(|place| valid[*place]).collect();
+        let mut block = Block {
+            rows: places
+                .iter()
+                .map(|place| self.row + 1 + *place as u64)
+                .collect(),
+            time: picked(&time, &places, 1, 0, 1.0).collect(),
+            ..Block::default()
+        };
+        for (quantity, arrays) in arrays.iter().enumerate() {
+            let factors = &self.columns.factors[quantity];
+            let values = &mut block.quantities[quantity];
+            match &self.layout.sources[quantity] {
+                Some(Source::List(_)) => {
+                    for (i, factor) in factors.iter().enumerate() {
+                        values.extend(picked(&arrays[0], &places, factors.len(), i, *factor));
+                    }
+                }
+                _ => {
+                    for (array, factor) in arrays.iter().zip(factors) {
+                        values.extend(picked(array, &places, 1, 0, *factor));
+                    }
+                }
+            }
+        }
+        self.row += batch.num_rows() as u64;
+        Ok(block)
+    }
+}
+
+impl Iterator for Blocks<'_> {
+    type Item = Result<Block, Error>;
+
+    fn next(&mut self) -> Option<Result<Block, Error>> {
+        let after = self.row;
+        let batch = match self.reader.next()? {
+            Ok(batch) => batch,
+            Err(why) => return Some(Err(Error::new(why).at(format!("after row {after}")))),
+        };
+        Some(self.block(&batch))
+    }
+}
+
+/// Returns times in seconds.
+pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> {
+    let (array, factor) = match array.data_type() {
+        DataType::Timestamp(unit, _) => {
+            let per = match unit {
+                TimeUnit::Second => 1.0,
+                TimeUnit::Millisecond => 1e-3,
+                TimeUnit::Microsecond => 1e-6,
+                TimeUnit::Nanosecond => 1e-9,
+            };
+            (cast(array, &DataType::Int64)?, per)
+        }
+        _ => (array.clone(), factor),
+    };
+    let array = match array.as_primitive_opt::<Int64Type>() {
+        Some(whole) => std::sync::Arc::new(whole.unary::<_, Float64Type>(|x| x as f64 * factor)),
+        None => {
+            let floats = cast(&array, &DataType::Float64)?;
+            let floats = floats.as_primitive::<Float64Type>();
+            std::sync::Arc::new(floats.unary::<_, Float64Type>(|x| x * factor))
+        }
+    };
+    Ok(array)
+}
+
+/// Marks rows that have a null among `width` entries.
+fn without_nulls(array: &ArrayRef, width: usize, valid: &mut [bool]) {
+    if let Some(nulls) = array.nulls().filter(|nulls| nulls.null_count() > 0) {
+        for (place, valid) in valid.iter_mut().enumerate() {
+            *valid &= (0..width).all(|k| nulls.is_valid(place * width + k));
+        }
+    }
+}
+
+/// Returns the i-th of `width` entries at some rows, times a factor.
+fn picked<'a>(
+    array: &'a ArrayRef,
+    places: &'a [usize],
+    width: usize,
+    i: usize,
+    factor: f64,
+) -> impl Iterator<Item = f64> + 'a {
+    let values = array.as_primitive::<Float64Type>().values();
+    places
+        .iter()
+        .map(move |place| values[place * width + i] * factor)
+}

@@ -1,0 +1,255 @@
+//! ROS 2's recordings: `sensor_msgs/JointState` in MCAP files, CDR decoded.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use ::mcap::io::MessageReader;
+
+use super::block::{Block, ROWS};
+use super::mapping::Columns;
+use crate::error::Error;
+
+const SCHEMAS: [&str; 2] = ["sensor_msgs/msg/JointState", "sensor_msgs/JointState"];
+
+/// Reads blocks of the joints' states.
+pub struct Messages<'a> {
+    messages: MessageReader<BufReader<File>>,
+    columns: &'a Columns,
+    topic: Option<String>,
+    row: u64,
+    ended: bool,
+}
+
+impl<'a> Messages<'a> {
+    /// Opens a recording.
+    ///
+    /// # Errors
+    /// A file that cannot be opened.
+    pub fn open(path: &Path, columns: &'a Columns) -> Result<Messages<'a>, Error> {
+        Ok(Messages {
+            messages: MessageReader::new(BufReader::new(File::open(path)?)),
+            columns,
+            topic: columns.topic.clone(),
+            row: 0,
+            ended: false,
+        })
+    }
+
+    /// Returns the next message of the topic.
+    fn next_state(&mut self) -> Result<Option<JointState>, Error> {
+        for message in self.messages.by_ref() {
+            let message = message.map_err(Error::new)?;
+            let channel = &message.channel;
+            let schema = channel
+                .schema
+                .as_ref()
+                .map_or("", |schema| schema.name.as_str());
+            if !SCHEMAS.contains(&schema) {
+                if self.columns.topic.as_deref() == Some(&channel.topic) {
+                    return Err(Error::new(format!(
+                        "topic `{}` has `{schema}`: {} was expected",
+                        channel.topic, SCHEMAS[0]
+                    )));
+                }
+                continue;
+            }
+            let topic = self.topic.get_or_insert_with(|| channel.topic.clone());
+            if *topic != channel.topic {
+                if self.columns.topic.is_some() {
+                    continue;
+                }
+                return Err(Error::new(format!(
+                    "`{topic}` and `{}` both have states of joints: say which by `--topic`",
+                    channel.topic
+                )));
+            }
+            if channel.message_encoding != "cdr" {
+                let encoding = &channel.message_encoding;
+                return Err(Error::new(format!(
+                    "messages are encoded as `{encoding}`, not as cdr"
+                )));
+            }
+            self.row += 1;
+            let place = || format!("message {}", self.row);
+            let mut state = decode(&message.data).map_err(|why| why.at(place()))?;
+            if state.time == 0.0 {
+                state.time = message.log_time as f64 * 1e-9;
+            }
+            return Ok(Some(state));
+        }
+        Ok(None)
+    }
+
+    fn block(&mut self) -> Result<Option<Block>, Error> {
+        let n = self.columns.joints;
+        let mut block = Block::default();
+        // State by state; columns at the end.
+        let mut states: [Vec<f64>; 4] = Default::default();
+        while block.len() < ROWS {
+            let Some(state) = self.next_state()? else {
+                self.ended = true;
+                break;
+            };
+            let place = |why: Error| why.at(format!("message {}", self.row));
+            let order = state.order(self.columns).map_err(place)?;
+            block.rows.push(self.row);
+            block.time.push(state.time);
+            let none = Vec::new();
+            let values = [&state.position, &state.velocity, &none, &state.effort];
+            for (quantity, (values, states)) in values.into_iter().zip(&mut states).enumerate() {
+                let is_rate = quantity == 1 || quantity == 2;
+                if values.is_empty() && is_rate && states.is_empty() {
+                    continue;
+                }
+                if values.len() != state.names.len() || states.len() != n * (block.len() - 1) {
+                    let name = super::mapping::QUANTITIES[quantity];
+                    let (count, joints) = (values.len(), state.names.len());
+                    let why = format!("{count} values of {name} for {joints} joints");
+                    return Err(place(Error::new(why)));
+                }
+                let factors = &self.columns.factors[quantity];
+                states.extend(
+                    order
+                        .iter()
+                        .zip(factors)
+                        .map(|(from, factor)| values[*from] * factor),
+                );
+            }
+        }
+        let count = block.len();
+        for (states, columns) in states.iter().zip(&mut block.quantities) {
+            if !states.is_empty() {
+                let entry = |place: usize| states[place % count * n + place / count];
+                *columns = (0..n * count).map(entry).collect();
+            }
+        }
+        Ok((count > 0).then_some(block))
+    }
+}
+
+impl Iterator for Messages<'_> {
+    type Item = Result<Block, Error>;
+
+    fn next(&mut self) -> Option<Result<Block, Error>> {
+        if self.ended {
+            return None;
+        }
+        let block = self.block().transpose();
+        self.ended |= !matches!(block, Some(Ok(_)));
+        if block.is_none() && self.row == 0 {
+            let schema = SCHEMAS[0];
+            return Some(Err(Error::new(format!("there is no message of {schema}"))));
+        }
+        block
+    }
+}
+
+/// What a message says.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct JointState {
+    time: f64,
+    names: Vec<String>,
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+    effort: Vec<f64>,
+}
+
+impl JointState {
+    /// Returns the place of each of the robot's joints in the message.
+    fn order(&self, columns: &Columns) -> Result<Vec<usize>, Error> {
+        let wanted = &columns.joint_names;
+        if wanted.is_empty() || wanted.iter().all(|name| !self.names.contains(name)) {
+            return match self.names.len() == columns.joints {
+                true => Ok((0..columns.joints).collect()),
+                false => Err(Error::new(format!(
+                    "it is of {} joints ({}), and the robot has {}: name those of the robot by \
+                     `--joint-names`",
+                    self.names.len(),
+                    self.names.join(", "),
+                    columns.joints
+                ))),
+            };
+        }
+        let each = wanted.iter().map(|name| {
+            let place = self.names.iter().position(|own| own == name);
+            place.ok_or_else(|| Error::new(format!("it has no joint `{name}`")))
+        });
+        each.collect()
+    }
+}
+
+/// Decodes a message: XCDR1, little or big endian.
+fn decode(bytes: &[u8]) -> Result<JointState, Error> {
+    let kind = bytes.get(1).copied();
+    let body = bytes.get(4..).ok_or_else(short)?;
+    let mut reader = Cdr {
+        body,
+        place: 0,
+        is_little: match kind {
+            Some(0) => false,
+            Some(1) => true,
+            _ => return Err(Error::new("it is not plain CDR")),
+        },
+    };
+    let seconds = reader.word()? as i32;
+    let nanoseconds = reader.word()?;
+    reader.text()?;
+    let count = reader.word()? as usize;
+    let mut names = Vec::new();
+    for _ in 0..count {
+        names.push(reader.text()?);
+    }
+    Ok(JointState {
+        time: f64::from(seconds) + f64::from(nanoseconds) * 1e-9,
+        names,
+        position: reader.floats()?,
+        velocity: reader.floats()?,
+        effort: reader.floats()?,
+    })
+}
+
+fn short() -> Error {
+    Error::new("it ends too early")
+}
+
+struct Cdr<'a> {
+    body: &'a [u8],
+    place: usize,
+    is_little: bool,
+}
+
+impl Cdr<'_> {
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], Error> {
+        self.place = self.place.next_multiple_of(N);
+        let rest = self.body.get(self.place..).ok_or_else(short)?;
+        let mut taken = *rest.first_chunk::<N>().ok_or_else(short)?;
+        if !self.is_little {
+            taken.reverse();
+        }
+        self.place += N;
+        Ok(taken)
+    }
+
+    fn word(&mut self) -> Result<u32, Error> {
+        Ok(u32::from_le_bytes(self.take()?))
+    }
+
+    fn text(&mut self) -> Result<String, Error> {
+        let length = self.word()? as usize;
+        let end = self.place.checked_add(length).ok_or_else(short)?;
+        let bytes = self.body.get(self.place..end).ok_or_else(short)?;
+        self.place = end;
+        let bytes = bytes.strip_suffix(b"\0").unwrap_or(bytes);
+        Ok(String::from_utf8_lossy(bytes).into_owned())
+    }
+
+    fn floats(&mut self) -> Result<Vec<f64>, Error> {
+        let count = self.word()? as usize;
+        let mut values = Vec::new();
+        for _ in 0..count {
+            values.push(f64::from_le_bytes(self.take()?));
+        }
+        Ok(values)
+    }
+}

@@ -1,0 +1,93 @@
+//! Parquet files of numbers.
+
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+
+use datafusion::arrow::array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use datafusion::arrow::datatypes::{DataType, Field, Schema};
+use parquet::arrow::ArrowWriter;
+use parquet::basic::Compression;
+use parquet::file::properties::WriterProperties;
+
+use crate::error::Error;
+
+/// Rows that are compressed together, and that a reader holds: 25 MB of a six-joint arm.
+const GROUP: usize = 1 << 17;
+
+/// A table that is being written.
+pub struct Table {
+    writer: ArrowWriter<File>,
+    schema: Arc<Schema>,
+    has_file: bool,
+}
+
+/// Returns the columns of a log as this program writes it.
+pub fn canonical_names(joints: usize) -> Vec<String> {
+    let quantities = ["q", "qd", "qdd", "tau"].iter();
+    let each = quantities.flat_map(|name| (1..=joints).map(move |i| format!("{name}{i}")));
+    std::iter::once("time".to_owned()).chain(each).collect()
+}
+
+impl Table {
+    /// Creates a table of columns of numbers; with `file`, the first is one of names.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn create(path: &Path, names: &[String], file: bool) -> Result<Table, Error> {
+        let mut fields = Vec::new();
+        if file {
+            fields.push(Field::new("file", DataType::Utf8, false));
+        }
+        fields.extend(
+            names
+                .iter()
+                .map(|name| Field::new(name, DataType::Float64, false)),
+        );
+        let schema = Arc::new(Schema::new(fields));
+        // Numbers of a log do not repeat, names of files do.
+        let properties = WriterProperties::builder()
+            .set_dictionary_enabled(false)
+            .set_column_dictionary_enabled("file".into(), true)
+            .set_max_row_group_row_count(Some(GROUP))
+            .set_compression(Compression::SNAPPY)
+            .build();
+        let out = File::create(path)?;
+        let writer = ArrowWriter::try_new(out, schema.clone(), Some(properties))?;
+        Ok(Table {
+            writer,
+            schema,
+            has_file: file,
+        })
+    }
+
+    /// Writes rows, given column by column.
+    ///
+    /// # Errors
+    /// No room, or columns of other lengths.
+    pub fn write(&mut self, file: &str, columns: &[&[f64]]) -> Result<(), Error> {
+        let rows = columns.first().map_or(0, |column| column.len());
+        let mut arrays: Vec<ArrayRef> = Vec::with_capacity(columns.len() + 1);
+        if self.has_file {
+            arrays.push(Arc::new(StringArray::from_iter_values(
+                std::iter::repeat_n(file, rows),
+            )));
+        }
+        for column in columns {
+            arrays.push(Arc::new(Float64Array::from(column.to_vec())));
+        }
+        self.writer
+            .write(&RecordBatch::try_new(self.schema.clone(), arrays)?)?;
+        Ok(())
+    }
+
+    /// Writes what stands at the end of the file.
+    ///
+    /// # Errors
+    /// No room.
+    pub fn close(self) -> Result<(), Error> {
+        let mut file = self.writer.into_inner()?;
+        std::io::Write::flush(&mut file)?;
+        Ok(())
+    }
+}

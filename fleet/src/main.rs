@@ -1,0 +1,59 @@
+//! The `dalembert-fleet` command.
+#![forbid(unsafe_code)]
+
+use std::io::{ErrorKind, Write};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Parser;
+use dalembert_fleet::commands::{Arguments, run};
+use dalembert_fleet::progress::{Going, INTERRUPTED};
+
+/// What a shell says of a program that Ctrl-C ended.
+const ENDED: u8 = 130;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let runtime = match tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+    {
+        Ok(runtime) => runtime,
+        Err(why) => return failed(&why.to_string()),
+    };
+    let (end, going) = Going::new();
+    let found = runtime.block_on(async {
+        tokio::spawn(async move {
+            if tokio::signal::ctrl_c().await.is_ok() {
+                // Whoever still waits hears of it.
+                let _ = end.send(true);
+            } else {
+                std::future::pending::<()>().await;
+            }
+        });
+        run(arguments, &going).await
+    });
+    // A search that nobody waits for any more is not waited for.
+    runtime.shutdown_timeout(Duration::from_millis(100));
+    match found {
+        Ok(text) => match std::io::stdout().write_all(text.as_bytes()) {
+            // Whoever reads has read enough.
+            Err(why) if why.kind() != ErrorKind::BrokenPipe => failed(&why.to_string()),
+            _ => ExitCode::SUCCESS,
+        },
+        Err(why) if why.to_string().ends_with(INTERRUPTED) => {
+            eprintln!("{why}");
+            ExitCode::from(ENDED)
+        }
+        Err(why) => failed(&why.to_string()),
+    }
+}
+
+fn failed(why: &str) -> ExitCode {
+    // What is wrong with a robot file says so itself, at each place.
+    match why.starts_with("error") {
+        true => eprintln!("{why}"),
+        false => eprintln!("error: {why}"),
+    }
+    ExitCode::FAILURE
+}

@@ -1,0 +1,104 @@
+//! What is written: whole or not at all.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use crate::error::Error;
+
+/// Numbers of what this process has not finished.
+static NEXT: AtomicU32 = AtomicU32::new(0);
+
+/// A file that has not got its name yet; without [`Unfinished::finish`] it goes again.
+#[derive(Debug)]
+pub struct Unfinished {
+    part: PathBuf,
+    name: PathBuf,
+}
+
+impl Unfinished {
+    /// Chooses a name in the same folder, so that the file can be renamed.
+    ///
+    /// # Errors
+    /// A name that is a folder's, or in a folder that does not exist.
+    pub fn beside(name: &Path) -> Result<Unfinished, Error> {
+        let file = name.file_name().filter(|_| !name.is_dir());
+        let file = file.ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
+        let folder = name
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            return Err(Error::new("there is no such folder").at(folder.display()));
+        }
+        let mut part = file.to_os_string();
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        part.push(format!(".{}.{number}.part", process::id()));
+        Ok(Unfinished {
+            part: name.with_file_name(part),
+            name: name.to_owned(),
+        })
+    }
+
+    /// Returns where to write.
+    pub fn path(&self) -> &Path {
+        &self.part
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn finish(self) -> Result<(), Error> {
+        fs::rename(&self.part, &self.name).map_err(|why| Error::new(why).at(self.name.display()))
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        // Renamed, never written, or there is an error to report already.
+        let _ = fs::remove_file(&self.part);
+    }
+}
+
+/// Writes a text, whole or not at all.
+///
+/// # Errors
+/// The system's, with the name.
+pub fn write(name: &Path, text: &str) -> Result<(), Error> {
+    let part = Unfinished::beside(name)?;
+    let written = fs::write(part.path(), text);
+    written.map_err(|why| Error::new(why).at(name.display()))?;
+    part.finish()
+}
+
+/// A folder for what is needed while a command runs; it goes with this.
+#[derive(Debug)]
+pub struct Scratch {
+    folder: PathBuf,
+}
+
+impl Scratch {
+    /// Creates a folder in another one.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn within(parent: &Path) -> Result<Scratch, Error> {
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let folder = parent.join(format!("dalembert-fleet.{}.{number}", process::id()));
+        fs::create_dir(&folder).map_err(|why| Error::new(why).at(folder.display()))?;
+        Ok(Scratch { folder })
+    }
+
+    /// Returns the path of a file in it.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // What cannot be removed is in the folder for such files.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}

@@ -1,0 +1,153 @@
+//! Residuals over time, as SVG.
+
+use std::fmt::Write;
+
+/// Columns of a picture: of each the least and the largest value is kept.
+const COLUMNS: usize = 600;
+const HEIGHT: f64 = 60.0;
+const LEFT: f64 = 70.0;
+const TOP: f64 = 24.0;
+
+/// The residuals of a log, as many as a picture can show.
+#[derive(Clone, Debug)]
+pub struct Curves {
+    name: String,
+    rows: u64,
+    seen: u64,
+    time: [f64; 2],
+    /// Of each joint, least and largest value of each column.
+    ranges: Vec<Vec<[f64; 2]>>,
+}
+
+impl Curves {
+    /// Returns the curves of a log of so many rows.
+    pub fn new(name: &str, joints: usize, rows: u64) -> Curves {
+        Curves {
+            name: name.to_owned(),
+            rows: rows.max(1),
+            seen: 0,
+            time: [f64::NAN; 2],
+            ranges: vec![vec![[f64::INFINITY, f64::NEG_INFINITY]; COLUMNS]; joints],
+        }
+    }
+
+    /// Adds residuals, column by column, in the order of time.
+    pub fn add(&mut self, time: &[f64], residuals: &[f64]) {
+        let (Some(first), Some(last)) = (time.first(), time.last()) else {
+            return;
+        };
+        if self.time[0].is_nan() {
+            self.time[0] = *first;
+        }
+        self.time[1] = *last;
+        for (ranges, own) in self
+            .ranges
+            .iter_mut()
+            .zip(residuals.chunks_exact(time.len()))
+        {
+            for (s, value) in own.iter().enumerate() {
+                let place = (self.seen + s as u64) * COLUMNS as u64 / self.rows;
+                let range = &mut ranges[(place as usize).min(COLUMNS - 1)];
+                *range = [range[0].min(*value), range[1].max(*value)];
+            }
+        }
+        self.seen += time.len() as u64;
+    }
+}
+
+/// Draws logs one below the other, a strip a joint.
+pub fn picture(logs: &[&Curves]) -> String {
+    let width = LEFT + COLUMNS as f64 + 20.0;
+    let strips: usize = logs.iter().map(|log| log.ranges.len()).sum();
+    let height = strips as f64 * HEIGHT + logs.len() as f64 * (TOP + 20.0);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+         font-family=\"sans-serif\" font-size=\"11\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+    );
+    let mut y = 0.0;
+    for log in logs {
+        y += TOP;
+        text(
+            &mut svg,
+            4.0,
+            y - 8.0,
+            "start",
+            &format!("{}: residuals, N·m or N", log.name),
+        );
+        for (i, ranges) in log.ranges.iter().enumerate() {
+            strip(&mut svg, y, i, ranges);
+            y += HEIGHT;
+        }
+        text(
+            &mut svg,
+            LEFT,
+            y + 12.0,
+            "start",
+            &format!("{:.2} s", log.time[0]),
+        );
+        let end = LEFT + COLUMNS as f64;
+        text(
+            &mut svg,
+            end,
+            y + 12.0,
+            "end",
+            &format!("{:.2} s", log.time[1]),
+        );
+        y += 20.0;
+    }
+    svg += "</svg>\n";
+    svg
+}
+
+fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
+    let filled = || {
+        ranges
+            .iter()
+            .enumerate()
+            .filter(|(_, range)| range[0] <= range[1])
+    };
+    let largest = filled().fold(0.0f64, |max, (_, [least, most])| max.max(most.max(-least)));
+    let middle = y + 0.5 * HEIGHT;
+    let scale = match largest {
+        0.0 => 0.0,
+        largest => 0.45 * HEIGHT / largest,
+    };
+    let at = |value: f64| middle - scale * value;
+    let mut points = String::new();
+    for (k, [_, most]) in filled() {
+        let _ = write!(points, "{:.1},{:.1} ", LEFT + k as f64, at(*most) - 0.3);
+    }
+    for (k, [least, _]) in filled().collect::<Vec<_>>().into_iter().rev() {
+        let _ = write!(points, "{:.1},{:.1} ", LEFT + k as f64, at(*least) + 0.3);
+    }
+    let end = LEFT + COLUMNS as f64;
+    let _ = writeln!(
+        svg,
+        "<path d=\"M{LEFT} {middle}H{end}\" stroke=\"#ccc\"/>\n\
+         <polygon points=\"{}\" fill=\"#1f77b4\"/>",
+        points.trim_end()
+    );
+    text(
+        svg,
+        LEFT - 6.0,
+        middle - 4.0,
+        "end",
+        &format!("joint {}", joint + 1),
+    );
+    text(
+        svg,
+        LEFT - 6.0,
+        middle + 10.0,
+        "end",
+        &format!("±{largest:.3}"),
+    );
+}
+
+fn text(svg: &mut String, x: f64, y: f64, anchor: &str, text: &str) {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    let _ = writeln!(
+        svg,
+        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
+    );
+}

@@ -1,0 +1,192 @@
+//! Files that cannot be used, outputs that cannot be written, and commands that are ended.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use dalembert_fleet::logs::Table;
+
+use crate::support::{Folder, Sample, fails, fleet, robot, robot_file, succeeds, text};
+
+fn log(folder: &Folder, name: &str, change: impl FnOnce(&mut Sample)) {
+    let mut sample = Sample::new(robot("planar2r", false).as_ref(), 20_000, 20);
+    change(&mut sample);
+    sample.write(&folder.file(name));
+}
+
+/// Each is named with its row and what is wrong; nothing is computed unless they are skipped,
+/// and then it is what the good ones alone give.
+#[test]
+fn bad_files_are_named_and_skipped_only_if_asked() {
+    let folder = Folder::new();
+    log(&folder, "good.parquet", |_| {});
+    log(&folder, "back.parquet", |of| of.time[12_344] = 1.0);
+    log(&folder, "double.parquet", |of| {
+        of.time[9_000] = of.time[8_999]
+    });
+    log(&folder, "clock.parquet", |of| of.time[17] = f64::NAN);
+    let bytes = fs::read(folder.file("good.parquet")).unwrap();
+    fs::write(folder.file("short.parquet"), &bytes[..bytes.len() / 2]).unwrap();
+    fs::write(folder.file("text.parquet"), "time,q1\n").unwrap();
+    let names = ["time", "q1", "q2"].map(str::to_owned);
+    let mut table = Table::create(&folder.file("schema.parquet"), &names, false).unwrap();
+    table.write("", &[&[0.0], &[0.0], &[0.0]]).unwrap();
+    table.close().unwrap();
+    let table = Table::create(&folder.file("empty.parquet"), &names, false).unwrap();
+    table.close().unwrap();
+    let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
+    let out = folder.file("out.parquet");
+    let base = ["residual", text(&all), "--robot", text(&arm)];
+    let said = fails(&[&base[..], &["-o", text(&out)]].concat());
+    for part in [
+        "back.parquet: row 12345: time goes back from 12.343 s to 1 s",
+        "double.parquet: row 9001: the time 8.999 s is that of the row before",
+        "clock.parquet: row 18: the time is NaN",
+        "schema.parquet: there is no column `tau1`",
+        "short.parquet: ",
+        "text.parquet: ",
+        "empty.parquet: ",
+        "7 of 8 files cannot be used",
+        "--skip-bad",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert!(!out.exists());
+    // What is wrong with numbers shows when they are used.
+    log(&folder, "number.parquet", |of| {
+        of.quantities[1][20_000 + 15_554] = f64::NAN
+    });
+    let one = folder.file("number.parquet");
+    for command in ["residual", "identify"] {
+        let said = fails(&[command, text(&one), "--robot", text(&arm)]);
+        let wanted = "number.parquet: row 15555: the velocity of joint 2 is NaN";
+        assert!(said.contains(wanted), "{said}");
+    }
+    let skipped = fleet(&[&base[..], &["--skip-bad"]].concat());
+    assert!(skipped.status.success());
+    let said = String::from_utf8_lossy(&skipped.stderr).into_owned();
+    assert_eq!(said.matches("left out: ").count(), 8, "{said}");
+    let good = succeeds(&[
+        "residual",
+        text(&folder.file("good.parquet")),
+        "--robot",
+        text(&arm),
+    ]);
+    assert_eq!(String::from_utf8(skipped.stdout).unwrap(), good);
+}
+
+/// A page that is damaged is found by whoever reads it, and named.
+#[test]
+fn damaged_pages_are_named() {
+    let folder = Folder::new();
+    log(&folder, "log.parquet", |_| {});
+    let path = folder.file("log.parquet");
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle..middle + 40_000].fill(0xff);
+    fs::write(&path, bytes).unwrap();
+    let said = fails(&[
+        "residual",
+        text(&path),
+        "--robot",
+        text(&robot_file("planar2r")),
+    ]);
+    assert!(said.contains("log.parquet: "), "{said}");
+}
+
+#[test]
+fn flags_that_cannot_be_are_refused() {
+    let folder = Folder::new();
+    log(&folder, "log.parquet", |_| {});
+    let (path, arm) = (folder.file("log.parquet"), robot_file("planar2r"));
+    let base = ["residual", text(&path), "--robot", text(&arm)];
+    let nowhere = folder.file("nowhere/out.parquet");
+    for (more, part) in [
+        (&["-o", text(&nowhere)][..], "there is no such folder"),
+        (&["-o", text(&folder.0)], "it is a folder"),
+        (&["--memory", "12Q"], "512M or 4G was expected"),
+        (&["--memory", "1K"], "64M is the least"),
+        (
+            &["--torque-constants", "1,2,3"],
+            "3 torque constants, and the robot has 2 joints",
+        ),
+        (&["--position", "q1"], "names 1 columns of position"),
+    ] {
+        let said = fails(&[&base[..], more].concat());
+        assert!(said.contains(part), "{more:?}: {said}");
+    }
+    let none = folder.file("*.csv");
+    let said = fails(&["residual", text(&none), "--robot", text(&arm)]);
+    assert!(said.contains("no file is called"), "{said}");
+    let said = fails(&["residual", text(&path), "--robot", "nobody.toml"]);
+    assert!(said.contains("nobody.toml"), "{said}");
+}
+
+/// Ctrl-C: nothing is left, whatever was being written.
+#[cfg(unix)]
+#[test]
+fn what_is_ended_leaves_nothing() {
+    let folder = Folder::new();
+    let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
+    let minutes = ["--files", "1", "--exact", "--seconds", "40000"];
+    let simulate = ["simulate", "--robot", text(&arm), "-o", text(&logs)];
+    ended(&[&simulate[..], &minutes].concat(), &folder.0);
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+
+    let many = [
+        "--files",
+        "1",
+        "--exact",
+        "--seconds",
+        "2000",
+        "--encoders-only",
+    ];
+    succeeds(&[&simulate[..], &many].concat());
+    let (all, out) = (folder.file("logs/*.parquet"), folder.file("out.parquet"));
+    let work = folder.file("work");
+    fs::create_dir(&work).unwrap();
+    let arguments = [
+        "residual",
+        text(&all),
+        "--robot",
+        text(&arm),
+        "-o",
+        text(&out),
+        "--work",
+        text(&work),
+    ];
+    ended(&arguments, &work);
+    assert_eq!(folder.names(), ["logs", "work"]);
+    assert_eq!(fs::read_dir(&work).unwrap().count(), 0);
+}
+
+/// Ends a command by Ctrl-C once there is something in a folder.
+#[cfg(unix)]
+fn ended(arguments: &[&str], folder: &Path) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
+    let mut child = command
+        .args(arguments)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let start = Instant::now();
+    while fs::read_dir(folder).unwrap().count() == 0 {
+        assert!(
+            start.elapsed() < Duration::from_secs(300),
+            "nothing was begun"
+        );
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("interrupted: nothing was written"), "{said}");
+}

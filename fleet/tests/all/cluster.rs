@@ -1,0 +1,310 @@
+//! A cluster on the loopback: what it returns is what this process returns; executors that are
+//! killed change nothing, or end in an error.
+
+use std::net::{TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU16, Ordering};
+use std::time::{Duration, Instant};
+
+use dalembert_fit::{Accumulator, Prior, fit};
+use dalembert_fleet::engine::{Engine, Limits};
+use dalembert_fleet::job::RobotArgs;
+use dalembert_fleet::logs::{Columns, Log, inspect};
+use dalembert_fleet::progress::Going;
+use dalembert_fleet::{Dynamics, Residuals};
+
+use crate::support::{Folder, Sample, fails, fleet, robot, robot_file, succeeds, text};
+
+/// A process that is killed at the end.
+struct Process(Child);
+
+impl Process {
+    fn start(arguments: &[&str]) -> Process {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
+        let command = command
+            .args(arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        Process(command.spawn().unwrap())
+    }
+
+    fn kill(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+static NEXT: AtomicU16 = AtomicU16::new(0);
+
+/// Two ports, one after the other, that nobody has.
+fn ports() -> u16 {
+    let first = 42_000 + (std::process::id() % 5_000) as u16;
+    loop {
+        let port = first + 2 * NEXT.fetch_add(1, Ordering::Relaxed);
+        let is_free = |port: u16| TcpListener::bind(("127.0.0.1", port)).is_ok();
+        if is_free(port) && is_free(port + 1) {
+            return port;
+        }
+    }
+}
+
+fn wait_for(port: u16) {
+    let start = Instant::now();
+    while TcpStream::connect(("127.0.0.1", port)).is_err() {
+        assert!(
+            start.elapsed() < Duration::from_secs(120),
+            "port {port} is not served"
+        );
+        std::thread::sleep(Duration::from_millis(100));
+    }
+}
+
+/// A scheduler and two executors, with the folders of what they pass on.
+struct Cluster {
+    address: String,
+    executors: Vec<(Process, PathBuf)>,
+    _scheduler: Process,
+}
+
+impl Cluster {
+    fn start(folder: &Folder) -> Cluster {
+        let arm = robot_file("planar2r");
+        let port = ports();
+        let address = format!("127.0.0.1:{port}");
+        let scheduler = Process::start(&["scheduler", "--robot", text(&arm), "--listen", &address]);
+        wait_for(port);
+        let executors = ["first", "second"].map(|name| {
+            let port = ports();
+            let work = folder.file(name);
+            std::fs::create_dir(&work).unwrap();
+            let own = format!("127.0.0.1:{port}");
+            let executor = Process::start(&[
+                "executor",
+                "--robot",
+                text(&arm),
+                "--scheduler",
+                &address,
+                "--listen",
+                &own,
+                "--threads",
+                "1",
+                "--work",
+                text(&work),
+            ]);
+            wait_for(port);
+            (executor, work)
+        });
+        Cluster {
+            address,
+            executors: executors.into(),
+            _scheduler: scheduler,
+        }
+    }
+}
+
+/// The number of files in a folder and those within it.
+fn files(folder: &Path) -> usize {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let each = entries.map(|entry| match entry.path() {
+        path if path.is_dir() => files(&path),
+        _ => 1,
+    });
+    each.sum()
+}
+
+/// Waits until an executor has passed something on that it had not before.
+fn has_worked(work: &Path, before: usize, client: &mut Child) {
+    let start = Instant::now();
+    while files(work) <= before {
+        assert!(
+            start.elapsed() < Duration::from_secs(120),
+            "it gets no work"
+        );
+        assert!(
+            client.try_wait().unwrap().is_none(),
+            "all was done without it"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Some logs in a folder, of so many states each.
+fn logs(folder: &Folder, files: u64, states: usize) {
+    let robot = robot("planar2r", true);
+    for seed in 0..files {
+        let path = folder.file(&format!("log{seed}.parquet"));
+        Sample::new(robot.as_ref(), states, 30 + seed).write(&path);
+    }
+}
+
+/// The same bits where sums are of integers, and to 1e-12 where they are not.
+#[test]
+fn a_cluster_returns_what_one_process_returns() {
+    let folder = Folder::new();
+    logs(&folder, 3, 40_000);
+    let cluster = Cluster::start(&folder);
+    let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
+    let loaded = robot("planar2r", true);
+    let name = RobotArgs {
+        robot: arm.clone(),
+        base: None,
+        tip: None,
+    }
+    .function_name(&loaded);
+    let own: Arc<dyn Dynamics> = loaded.clone();
+    let limits = Limits {
+        memory: 1 << 30,
+        partitions: 4,
+    };
+    let columns = Columns::canonical(2);
+    let logs: Vec<Log> = (0..3)
+        .map(|k| inspect(&folder.file(&format!("log{k}.parquet")), &columns, &|| true).unwrap())
+        .collect();
+    let runtime = tokio::runtime::Runtime::new().unwrap();
+    let (_end, going) = Going::new();
+    let [here, there] = runtime.block_on(async {
+        let here = Engine::embedded(&name, &own, limits).unwrap();
+        let there = Engine::cluster(&cluster.address, &name, &own, limits)
+            .await
+            .unwrap();
+        let mut found = Vec::new();
+        for engine in [here, there] {
+            let residuals = engine
+                .over("_residuals", &logs, &going, |_| ())
+                .await
+                .unwrap();
+            let fits = engine.over("_fit", &logs, &going, |_| ()).await.unwrap();
+            found.push((residuals, fits));
+        }
+        <[_; 2]>::try_from(found).unwrap()
+    });
+    let near = |x: f64, y: f64| (x - y).abs() <= 1e-12 * y.abs();
+    for (here, there) in here.0.iter().zip(&there.0) {
+        let read = |bytes: &Result<Vec<u8>, _>| Residuals::from_bytes(bytes.as_ref().unwrap());
+        let [here, there] = [here, there].map(|bytes| read(bytes).unwrap());
+        assert_eq!(here.states(), 40_000);
+        for i in 0..2 {
+            assert!(
+                near(there.rms(i), here.rms(i)),
+                "{} {}",
+                there.rms(i),
+                here.rms(i)
+            );
+            assert_eq!(there.quantile(i, 0.99), here.quantile(i, 0.99));
+            assert_eq!(there.joints()[i].worst(), here.joints()[i].worst());
+            assert_eq!(there.joints()[i].time(), here.joints()[i].time());
+        }
+    }
+    let model = loaded.model().unwrap();
+    for (here, there) in here.1.iter().zip(&there.1) {
+        let parameters = |bytes: &Result<Vec<u8>, _>| {
+            let kept = Accumulator::from_bytes(model, bytes.as_ref().unwrap()).unwrap();
+            fit(model, &kept, &Prior::None).unwrap().parameters
+        };
+        let [here, there] = [here, there].map(parameters);
+        let apart = here
+            .iter()
+            .zip(&there)
+            .map(|(x, y)| (x - y).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        let size = here.iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!(apart <= 1e-12 * size, "{apart} of {size}");
+    }
+    for command in ["residual", "identify"] {
+        let base = [command, text(&all), "--robot", text(&arm)];
+        let here = succeeds(&base);
+        let there = succeeds(&[&base[..], &["--scheduler", &cluster.address]].concat());
+        assert_eq!(here, there);
+    }
+    let out = folder.file("out.parquet");
+    let local = fleet(&[
+        "residual",
+        text(&all),
+        "--robot",
+        text(&arm),
+        "--scheduler",
+        &cluster.address,
+        "-o",
+        text(&out),
+    ]);
+    assert!(String::from_utf8_lossy(&local.stderr).contains("computed by this machine"));
+    assert!(out.exists());
+    // Another robot has other functions: there is an error, and no table of this one.
+    let other = robot_file("planar3r");
+    let three = folder.file("three.parquet");
+    Sample::new(robot("planar3r", false).as_ref(), 100, 1).write(&three);
+    let said = fails(&[
+        "residual",
+        text(&three),
+        "--robot",
+        text(&other),
+        "--scheduler",
+        &cluster.address,
+    ]);
+    assert!(said.contains("planar3r_"), "{said}");
+}
+
+/// Executors are killed while they work: with one left the table is the same, with none there
+/// is an error soon, and no table.
+#[test]
+fn executors_that_are_killed_change_no_table() {
+    let folder = Folder::new();
+    logs(&folder, 24, 40_000);
+    let mut cluster = Cluster::start(&folder);
+    let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
+    let base = ["identify", text(&all), "--robot", text(&arm)];
+    let here = succeeds(&base);
+    let there = [&base[..], &["--scheduler", &cluster.address]].concat();
+    let run = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
+        let command = command
+            .args(&there)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command.spawn().unwrap()
+    };
+    let mut client = run();
+    let (executor, work) = &mut cluster.executors[0];
+    has_worked(work, 0, &mut client);
+    executor.kill();
+    let output = client.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), here);
+
+    let (executor, work) = &mut cluster.executors[1];
+    let before = files(work);
+    let mut client = run();
+    has_worked(work, before, &mut client);
+    executor.kill();
+    let killed = Instant::now();
+    let output = client.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        !output.status.success() && output.stdout.is_empty(),
+        "{said}"
+    );
+    assert!(
+        said.contains("error: ") && !said.contains("panicked"),
+        "{said}"
+    );
+    println!(
+        "{:.1} s after the last executor: {said}",
+        killed.elapsed().as_secs_f64()
+    );
+    assert!(
+        killed.elapsed() < Duration::from_secs(30),
+        "{:?}",
+        killed.elapsed()
+    );
+}

@@ -1,0 +1,10 @@
+//! All tests, in one program: the engine is linked once.
+
+mod bad;
+#[cfg(feature = "cluster")]
+mod cluster;
+
+mod commands;
+mod functions;
+mod ros;
+mod support;

@@ -1,0 +1,129 @@
+//! ROS 2's recordings give what Parquet files of the same states give.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+use mcap::Writer;
+use mcap::records::MessageHeader;
+
+use crate::support::{Folder, fails, robot_file, rows, succeeds, text};
+use dalembert_fleet::logs::{Blocks, Columns};
+
+/// Bytes of a message: XCDR1, as ROS 2 writes them.
+struct Cdr {
+    bytes: Vec<u8>,
+    is_little: bool,
+}
+
+impl Cdr {
+    fn put<const N: usize>(&mut self, mut word: [u8; N]) {
+        while !(self.bytes.len() - 4).is_multiple_of(N) {
+            self.bytes.push(0);
+        }
+        if !self.is_little {
+            word.reverse();
+        }
+        self.bytes.extend(word);
+    }
+
+    fn text(&mut self, text: &str) {
+        self.put((text.len() as u32 + 1).to_le_bytes());
+        self.bytes.extend(text.as_bytes());
+        self.bytes.push(0);
+    }
+
+    fn floats(&mut self, values: &[f64]) {
+        self.put((values.len() as u32).to_le_bytes());
+        values.iter().for_each(|x| self.put(x.to_le_bytes()));
+    }
+}
+
+fn message(time: f64, names: &[&str], values: [&[f64]; 3], is_little: bool) -> Vec<u8> {
+    let mut cdr = Cdr {
+        bytes: vec![0, u8::from(is_little), 0, 0],
+        is_little,
+    };
+    let nanoseconds = (time * 1e9).round() as u64;
+    cdr.put(((nanoseconds / 1_000_000_000) as u32).to_le_bytes());
+    cdr.put(((nanoseconds % 1_000_000_000) as u32).to_le_bytes());
+    cdr.text("base_link");
+    cdr.put((names.len() as u32).to_le_bytes());
+    names.iter().for_each(|name| cdr.text(name));
+    values.iter().for_each(|values| cdr.floats(values));
+    cdr.bytes
+}
+
+/// Writes the states of a log as a recording of joints in another order, with a gripper.
+fn record(log: &Path, to: &Path, is_little: bool) {
+    let mut writer = Writer::new(BufWriter::new(File::create(to).unwrap())).unwrap();
+    let mut channel = |topic: &str, schema: &str| {
+        let schema = writer.add_schema(schema, "ros2msg", b"").unwrap();
+        writer
+            .add_channel(schema, topic, "cdr", &BTreeMap::new())
+            .unwrap()
+    };
+    let other = channel("/chatter", "std_msgs/msg/String");
+    let states = channel("/joint_states", "sensor_msgs/msg/JointState");
+    let mut put = |channel_id: u16, time: f64, data: &[u8]| {
+        let log_time = (time * 1e9) as u64;
+        let header = MessageHeader {
+            channel_id,
+            sequence: 0,
+            log_time,
+            publish_time: log_time,
+        };
+        writer.write_to_known_channel(&header, data).unwrap();
+    };
+    let names = ["b", "gripper", "a"];
+    let columns = Columns::canonical(2);
+    for block in Blocks::open(log, &columns).unwrap() {
+        let block = block.unwrap();
+        for (s, time) in block.time.iter().enumerate() {
+            let at = |of| [block.column(of, 1)[s], 0.5, block.column(of, 0)[s]];
+            let data = message(*time, &names, [&at(0), &[], &at(3)], is_little);
+            put(other, *time, b"\0\x01\0\0");
+            put(states, *time, &data);
+        }
+    }
+    writer.finish().unwrap();
+}
+
+#[test]
+fn recordings_give_what_parquet_files_give() {
+    let folder = Folder::new();
+    let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
+    let simulate = ["simulate", "--robot", text(&arm), "-o", text(&logs)];
+    let short = ["--files", "1", "--seconds", "5", "--encoders-only"];
+    succeeds(&[&simulate[..], &short].concat());
+    let log = folder.file("logs/log0000.parquet");
+    let table = succeeds(&["residual", text(&log), "--robot", text(&arm)]);
+    let wanted = rows(&table, "log0000.parquet");
+    for is_little in [true, false] {
+        let path = folder.file("log.mcap");
+        record(&log, &path, is_little);
+        let base = ["residual", text(&path), "--robot", text(&arm)];
+        let named = [&base[..], &["--joint-names", "a,b"]].concat();
+        let found = rows(&succeeds(&named), "log.mcap");
+        assert_eq!(found.len(), 2);
+        for (found, wanted) in found.iter().zip(&wanted) {
+            for (x, y) in found.iter().zip(wanted) {
+                assert!((x - y).abs() <= 2e-3 * y.abs(), "{found:?} {wanted:?}");
+            }
+        }
+        let why = fails(&base);
+        assert!(
+            why.contains("--joint-names") && why.contains("b, gripper, a"),
+            "{why}"
+        );
+        let why = fails(&[&named[..], &["--topic", "/chatter"]].concat());
+        assert!(why.contains("std_msgs/msg/String"), "{why}");
+        let why = fails(&[&base[..], &["--joint-names", "a,wrist"]].concat());
+        assert!(why.contains("message 1: it has no joint `wrist`"), "{why}");
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+        let why = fails(&named);
+        assert!(why.contains("log.mcap: "), "{why}");
+    }
+}

@@ -1,0 +1,167 @@
+//! Robots, logs, and the command.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use dalembert_fit::random::{Random, within};
+use dalembert_fleet::logs::{Table, canonical_names};
+use dalembert_fleet::{Dynamics, Loaded, States};
+
+/// A file of `generated/robots`.
+pub fn robot_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../generated/robots/{name}.toml"))
+}
+
+/// A robot of `generated/`, with what a fit needs if asked for.
+pub fn robot(name: &str, fit: bool) -> Arc<Loaded> {
+    Arc::new(Loaded::open(&robot_file(name), &Default::default(), fit).unwrap())
+}
+
+/// A folder that is removed at the end.
+pub struct Folder(pub PathBuf);
+
+static NEXT: AtomicU32 = AtomicU32::new(0);
+
+impl Folder {
+    pub fn new() -> Folder {
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("dalembert-fleet-test-{}-{number}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&path).unwrap();
+        Folder(path)
+    }
+
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// What is in it.
+    pub fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(&self.0).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// States in columns: times, q, q̇, q̈ and torques that are off by some noise.
+pub struct Sample {
+    pub count: usize,
+    pub time: Vec<f64>,
+    pub quantities: [Vec<f64>; 4],
+}
+
+impl Sample {
+    pub fn new(robot: &dyn Dynamics, count: usize, seed: u64) -> Sample {
+        let n = robot.joints();
+        let mut random = Random::new(seed);
+        let mut draw = |largest: f64| -> Vec<f64> {
+            (0..n * count)
+                .map(|_| within(&mut random, largest))
+                .collect()
+        };
+        let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(&mut draw);
+        let mut tau = vec![0.0; n * count];
+        let states = States {
+            count,
+            q: &q,
+            qd: &qd,
+            qdd: &qdd,
+        };
+        robot.inverse_dynamics(states, &mut tau).unwrap();
+        noise
+            .iter_mut()
+            .zip(&tau)
+            .for_each(|(noise, tau)| *noise += tau);
+        Sample {
+            count,
+            time: (0..count).map(|k| k as f64 * 1e-3).collect(),
+            quantities: [q, qd, qdd, noise],
+        }
+    }
+
+    pub fn column(&self, quantity: usize, joint: usize) -> &[f64] {
+        &self.quantities[quantity][joint * self.count..(joint + 1) * self.count]
+    }
+
+    /// Residuals of a joint, by the robot itself.
+    pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
+        let [q, qd, qdd, _] = &self.quantities;
+        let mut tau = vec![0.0; q.len()];
+        let states = States {
+            count: self.count,
+            q,
+            qd,
+            qdd,
+        };
+        robot.inverse_dynamics(states, &mut tau).unwrap();
+        let own = &tau[joint * self.count..(joint + 1) * self.count];
+        self.column(3, joint)
+            .iter()
+            .zip(own)
+            .map(|(x, y)| x - y)
+            .collect()
+    }
+
+    /// Writes a log with the columns that this program writes.
+    pub fn write(&self, path: &Path) {
+        let n = self.quantities[0].len() / self.count;
+        let mut table = Table::create(path, &canonical_names(n), false).unwrap();
+        let each = (0..4).flat_map(|of| (0..n).map(move |i| (of, i)));
+        let each = each.map(|(of, i)| self.column(of, i));
+        let all: Vec<&[f64]> = std::iter::once(&self.time[..]).chain(each).collect();
+        table.write("", &all).unwrap();
+        table.close().unwrap();
+    }
+}
+
+/// Runs the command.
+pub fn fleet(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// Runs the command, which is to succeed; returns its standard output.
+pub fn succeeds(arguments: &[&str]) -> String {
+    let output = fleet(arguments);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {said}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs the command, which is to fail; returns its standard error.
+pub fn fails(arguments: &[&str]) -> String {
+    let output = fleet(arguments);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(!output.status.success(), "{arguments:?} succeeded: {said}");
+    assert!(output.stdout.is_empty(), "{arguments:?} printed something");
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}
+
+pub fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// A table's rows of a file, or of `all`: joint, rms, 99 %, worst, and time.
+pub fn rows(table: &str, name: &str) -> Vec<Vec<f64>> {
+    let lines = table.lines().filter_map(|line| {
+        let mut words = line.split_whitespace();
+        let own = words.next()?.ends_with(name);
+        let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
+        own.then_some(numbers.ok()).flatten()
+    });
+    lines.collect()
+}
