@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::plan;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use rounds::Rounds;

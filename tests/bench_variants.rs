@@ -16,13 +16,13 @@ use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity}
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::language::function::write;
 use dalembert_codegen::workspace::language::{Entries, MathPath, Printed};
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::{Library, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::sincos::{self, SinCos};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::trace::trace;
 use dalembert_model::equations::Formulation;
 use dalembert_model::read;

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::{GeneratedFunction, generate};
-use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::plan::{self, Entry};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from model import Arm
-from peers import FLAGS, HERE, ROBOTS, ROOT, TIMED, TURNS, error, expected, lines, said
+from peers import FLAGS, HERE, ROBOTS, ROOT, TIMED, TURNS, error, expected, lines, machine, said
 from symbolic import Chain
 
 OUTPUTS = ",".join(TIMED)
@@ -33,7 +33,7 @@ def header(work, dalembert, robot, fma):
         options = ["--language", "c", "--scalar", "f64", "--sincos", "together", "--outputs", OUTPUTS]
         command = [dalembert, "generate", work / f"{robot}.toml", *options, "-o", file]
         subprocess.run([*command, *(["--fma"] if fma else [])], check=True, capture_output=True)
-    found = re.findall(r"^static inline void (\w+)\(", file.read_text(), re.M)
+    found = re.findall(r"^static inline void (\w+dyn\w*)\(", file.read_text(), re.M)
     kind = lambda name: ("deriv" in name, "inv" in name)  # Of shortened names too.
     return file.name, {f: next(own for own in found if kind(own) == kind(f)) for f in TIMED}
 
@@ -72,7 +72,10 @@ def compiled(work, program, source, name, arm, results, more):
     sections = subprocess.run(["size", "-A", "alone.o"], capture_output=True, text=True, cwd=work)
     sizes = [line.split()[:2] for line in sections.stdout.splitlines()]
     code = sum(int(s[1]) for s in sizes if s and s[0].startswith((".text", ".rodata")))
-    stack = max(int(line.split("\t")[1]) for line in (work / "alone.su").read_text().splitlines())
+    # A function that gives sines is called by the other one.
+    frames = [line.split("\t") for line in (work / "alone.su").read_text().splitlines()]
+    sines = [int(size) for name, size, _ in frames if "_sines_" in name]
+    stack = max(int(size) for name, size, _ in frames if "_sines_" not in name) + max(sines, default=0)
     return min(seconds), code, stack
 
 
@@ -123,10 +126,10 @@ def write(rows):
     text = [
         "# C beside the peers' C",
         "",
-        f"Made by `benches/peers.sh` with {gcc.splitlines()[0]}, {' '.join(FLAGS)}. In brackets how many",
+        f"Made by `benches/peers.sh` with {gcc.splitlines()[0]}, {' '.join(FLAGS)}, {machine()}. In brackets how many",
         "times *dalembert, fma* that is, the median over programs that took turns; gcc fuses products",
         "of the others as it likes, of *dalembert* none. Code is the function's own with its constants, stack its",
-        "own frame's, and seconds are gcc's for it, at the least of three.",
+        "frame's and that of the function that gives its sines, and seconds are gcc's for it, at the least of three.",
         "",
         "| function | robot | C of | ns a call | bytes of code | bytes of stack | seconds |",
         "|---|---|---|---|---|---|---|",

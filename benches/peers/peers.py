@@ -74,6 +74,13 @@ def error(found, truth):
     return max(np.abs(f - t).max() / np.abs(t).max() for f, t in zip(found, truth))
 
 
+def machine():
+    """The processor."""
+    cpus = Path("/proc/cpuinfo").read_text().splitlines()
+    names = (line.split(":")[1].strip() for line in cpus if line.startswith("model name"))
+    return next(names, platform.processor())
+
+
 def compilers():
     for name in ("gcc", "clang"):
         try:
@@ -148,20 +155,12 @@ def run(work, binary):
                 row["ratio"][library] = statistics.median(ratios)
             rows.append(row)
             print(json.dumps(row), file=sys.stderr, flush=True)
-    machine = next(
-        (
-            line.split(":")[1].strip()
-            for line in Path("/proc/cpuinfo").read_text().splitlines()
-            if line.startswith("model name")
-        ),
-        platform.processor(),
-    )
     import casadi
     import pinocchio
 
     rustc = subprocess.run(["rustc", "--version"], capture_output=True, text=True).stdout.strip()
     about = [
-        machine,
+        machine(),
         rustc + ", release, target-cpu=native",
         *(f"{v}, {' '.join(FLAGS)}" for v in said_by.values()),
         f"CasADi {casadi.__version__}, Pinocchio {pinocchio.__version__}",

@@ -4,6 +4,7 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
+use crate::file::Found;
 use crate::quantity::{FUNCTIONS, Function};
 use crate::scene::Setting;
 
@@ -45,22 +46,16 @@ pub struct Claim {
 
 impl Claim {
     /// The claim that nothing was left out of a text; E is for the checker to find.
-    pub(crate) fn exact(
-        name: &str,
-        is_single: bool,
-        rows: Vec<usize>,
-        setting: &Setting,
-        text: &str,
-    ) -> Claim {
+    pub(crate) fn exact(found: &Found, is_single: bool, setting: &Setting) -> Claim {
         let [position, velocity, acceleration] = setting.ranges.clone();
         Claim {
-            function: name.to_owned(),
-            rows,
+            function: found.name.to_owned(),
+            rows: setting.rows.iter().map(|row| row + 1).collect(),
             scalar: if is_single { "f32" } else { "f64" }.to_owned(),
             position,
             velocity,
             acceleration,
-            text: text.to_owned(),
+            text: found.text.clone(),
             ..Claim::default()
         }
     }
@@ -69,10 +64,10 @@ impl Claim {
     ///
     /// # Errors
     /// It is none of those that are checked.
-    pub fn function(&self) -> Result<&'static Function, Fault> {
-        let names = FUNCTIONS.each_ref().map(|function| function.name);
-        let missing = || format!("`function`: expected one of {}", names.join(", "));
-        Function::named(&self.function).ok_or_else(|| Fault::certificate(missing()))
+    pub fn function(&self) -> Result<Function, Fault> {
+        let names = FUNCTIONS.map(|function| function.name).join(", ");
+        let missing = || Fault::certificate(format!("`function`: expected one of {names}"));
+        Function::named(&self.function).ok_or_else(missing)
     }
 
     /// The rows, from zero.
@@ -89,27 +84,20 @@ impl Claim {
         let outputs = self.function()?.places(count.min(64)).len();
         let is_bound = |total: &Option<f64>| total.is_some_and(|e| e.is_finite() && e >= 0.0);
         let known = ["f64", "f32"].contains(&self.scalar.as_str());
-        for (good, why) in [
-            (self.certificate == 2, "`certificate`: expected format 2"),
-            (known, "`scalar`: expected f64 or f32"),
-            (
-                count < 64 && !self.rows.contains(&0),
-                "`rows`: expected joints, from 1",
-            ),
-            (
-                self.scale.len() == outputs,
-                "`scale`: expected one an output",
-            ),
-            (
-                self.total.len() == outputs && self.total.iter().all(is_bound),
-                "`total`: expected E, zero or above, one an output",
-            ),
-        ] {
-            if !good {
-                return Err(Fault::certificate(why));
-            }
-        }
-        Ok(())
+        let has_rows = count < 64 && !self.rows.contains(&0);
+        let has_total = self.total.len() == outputs && self.total.iter().all(is_bound);
+        let needed = |good: bool, why| good.then_some(()).ok_or_else(|| Fault::certificate(why));
+        needed(self.certificate == 2, "`certificate`: expected format 2")?;
+        needed(known, "`scalar`: expected f64 or f32")?;
+        needed(has_rows, "`rows`: expected joints, from 1")?;
+        needed(
+            self.scale.len() == outputs,
+            "`scale`: expected one an output",
+        )?;
+        needed(
+            has_total,
+            "`total`: expected E, zero or above, one an output",
+        )
     }
 }
 

@@ -31,6 +31,10 @@ fn sum<N: Number>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
     [0, 1, 2].map(|i| a[i].plus(&b[i]))
 }
 
+fn each<N>(mut entry: impl FnMut(usize) -> Result<N, Fault>) -> Result<Vector<N>, Fault> {
+    Ok([entry(0)?, entry(1)?, entry(2)?])
+}
+
 fn zeros<N: Number>() -> Vector<N> {
     Default::default()
 }
@@ -56,19 +60,11 @@ impl Products<'_> {
     }
 
     fn scaled<N: Number>(&mut self, a: &N, b: &Vector<N>) -> Result<Vector<N>, Fault> {
-        Ok([
-            a.times(&b[0], self.0)?,
-            a.times(&b[1], self.0)?,
-            a.times(&b[2], self.0)?,
-        ])
+        each(|i| a.times(&b[i], self.0))
     }
 
     fn apply<N: Number>(&mut self, m: &[Vector<N>; 3], v: &Vector<N>) -> Result<Vector<N>, Fault> {
-        Ok([
-            self.dot(&m[0], v)?,
-            self.dot(&m[1], v)?,
-            self.dot(&m[2], v)?,
-        ])
+        each(|i| self.dot(&m[i], v))
     }
 
     /// v turned about the axis before two others, from the first of them to the second.
@@ -262,12 +258,9 @@ pub fn torques<N: Number>(
     let (mut f, mut n, mut torques) = (zeros(), zeros(), Vec::new());
     for ((link, joint), state) in links.iter().zip(&setting.joints).zip(states).rev() {
         (f, n) = (sum(&f, &link.force), sum(&n, &link.moment));
-        let mut torque = if joint.turns {
-            n[2].clone()
-        } else {
-            f[2].clone()
-        };
-        torque = torque.plus(&N::constant(joint.armature).times(&state.acceleration, products.0)?);
+        let torque = if joint.turns { &n[2] } else { &f[2] };
+        let mut torque =
+            torque.plus(&N::constant(joint.armature).times(&state.acceleration, products.0)?);
         if friction {
             if joint.rubs {
                 let why = "no bound is known of torques with Coulomb friction";

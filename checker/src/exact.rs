@@ -5,8 +5,6 @@ use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::file::{self, Found};
-
-use crate::quantity::Function;
 use crate::scene::{self, Setting};
 use crate::sines::Scalar;
 use crate::verdict::measure;
@@ -103,17 +101,11 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
 }
 
 fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
-    let Some(function) = Function::named(found.name) else {
-        return Err(Fault::Text(
-            found.line,
-            format!("`{}` is not checked", found.name),
-        ));
-    };
     let head = found.text.lines().next().unwrap_or("");
     let is_single = head.contains("[f32; ") || head.contains("const float ");
-    let rows: Vec<usize> = setting.rows.iter().map(|row| row + 1).collect();
-    let claim = Claim::exact(function.name, is_single, rows, setting, &found.text);
-    let places = function.places(claim.rows.len());
+    let claim = Claim::exact(found, is_single, setting);
+    let unknown = |_| Fault::Text(found.line, format!("`{}` is not checked", found.name));
+    let places = claim.function().map_err(unknown)?.places(claim.rows.len());
     let all = measure(&claim, setting, |_| f64::INFINITY).map_err(|fault| match fault {
         Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
         other => other,

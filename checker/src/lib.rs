@@ -43,10 +43,11 @@ mod sample;
 pub mod scene;
 mod sines;
 pub mod text;
+mod together;
 mod values;
 mod verdict;
 mod witness;
 
 pub use certificate::{Claim, read};
 pub use fault::Fault;
-pub use verdict::{Found, Output, Verdict, audit, audit_within, measure};
+pub use verdict::{Found, Output, Verdict, audit, measure};

@@ -115,11 +115,8 @@ impl Literal {
                 let ulp = turn.radians.abs().next_up() - turn.radians.abs();
                 let near = (turn.radians - value).abs() <= (4.0 * ulp).min(2e-15);
                 let is_turn = self.is_zero() || near && (1.0..=4.0).contains(&count.abs());
-                if is_turn {
-                    Some(turn)
-                } else {
-                    Angle::near(value, radius)
-                }
+                let turn = is_turn.then_some(turn);
+                turn.or_else(|| Angle::near(value, radius))
             }),
         };
         read.ok_or_else(|| Fault::robot(key, "expected an angle: rad, \"pi/2\" or \"90deg\""))

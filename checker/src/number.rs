@@ -1,7 +1,7 @@
 //! The numbers of the recursion: polynomials for bounds, doubles to look for states.
 
 use crate::fault::Fault;
-use crate::polynomial::{Polynomial, Work};
+use crate::polynomial::Work;
 
 /// A number of the robot file: within `radius` of a double.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,24 +40,6 @@ pub trait Number: Clone + Default {
     /// One.
     fn one() -> Self {
         Self::constant(1.0.into())
-    }
-}
-
-impl Number for Polynomial {
-    fn constant(real: Real) -> Polynomial {
-        Polynomial::constant(real.value, real.radius)
-    }
-
-    fn plus(&self, other: &Polynomial) -> Polynomial {
-        Polynomial::plus(self, other)
-    }
-
-    fn negated(&self) -> Polynomial {
-        Polynomial::negated(self)
-    }
-
-    fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
-        Polynomial::times(self, other, work)
     }
 }
 

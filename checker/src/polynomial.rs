@@ -9,6 +9,7 @@
 
 use crate::fault::Fault;
 use crate::interval::UNIT;
+use crate::number::{Number, Real};
 
 /// The exponents of a monomial: `WIDTH` bits a joint.
 pub type Key = u128;
@@ -24,7 +25,7 @@ const MOST_TERMS: usize = 1 << 18;
 pub const MOST_WORK: u64 = 400_000_000;
 /// What summing up `rest` in floating point may cost, as a factor: far fewer than 2³⁰
 /// additions, each rounded by at most one part in 2⁵³.
-const SLACK: f64 = 1.000_001;
+pub const SLACK: f64 = 1.000_001;
 /// The least double, at least what a product is off where it underflows.
 const LEAST: f64 = f64::from_bits(1);
 const SMALL: f64 = 1e-290;
@@ -94,19 +95,6 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// A number known to be at most so far from a double.
-    pub fn constant(value: f64, radius: f64) -> Polynomial {
-        let terms = if value == 0.0 {
-            vec![]
-        } else {
-            vec![(0, value)]
-        };
-        Polynomial {
-            terms,
-            rest: radius,
-        }
-    }
-
     /// A variable times a power of two, or any double.
     pub fn variable(variable: Variable, joint: usize, factor: f64) -> Polynomial {
         let terms = match factor == 0.0 {
@@ -121,10 +109,21 @@ impl Polynomial {
         let sum: f64 = self.terms.iter().map(|(_, c)| c.abs()).sum();
         (sum + self.rest) * SLACK
     }
+}
 
-    /// With the opposite sign.
-    #[must_use]
-    pub fn negated(&self) -> Polynomial {
+impl Number for Polynomial {
+    fn constant(real: Real) -> Polynomial {
+        let terms = match real.value == 0.0 {
+            true => vec![],
+            false => vec![(0, real.value)],
+        };
+        Polynomial {
+            terms,
+            rest: real.radius,
+        }
+    }
+
+    fn negated(&self) -> Polynomial {
         let terms = self.terms.iter().map(|&(key, c)| (key, -c)).collect();
         Polynomial {
             terms,
@@ -132,9 +131,7 @@ impl Polynomial {
         }
     }
 
-    /// The sum of two.
-    #[must_use]
-    pub fn plus(&self, other: &Polynomial) -> Polynomial {
+    fn plus(&self, other: &Polynomial) -> Polynomial {
         let (mut a, mut b) = (self.terms.as_slice(), other.terms.as_slice());
         let mut terms = Vec::with_capacity(a.len() + b.len());
         while let (Some(x), Some(y)) = (a.first(), b.first()) {
@@ -151,11 +148,7 @@ impl Polynomial {
         merged(terms, self.rest + other.rest)
     }
 
-    /// The product of two.
-    ///
-    /// # Errors
-    /// Too high a power, too many terms or too much work.
-    pub fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+    fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
         let zero = Polynomial::default();
         if *self == zero || *other == zero {
             return Ok(zero);
@@ -220,12 +213,6 @@ fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(),
 
 /// Sums up terms of the same key; what all but cancelled goes into the rest.
 fn merged(terms: Vec<(Key, f64)>, mut rest: f64) -> Polynomial {
-    if terms.len() < 2 {
-        return Polynomial {
-            terms,
-            rest: rest * SLACK,
-        };
-    }
     let mut sums: Vec<(Key, f64)> = Vec::with_capacity(terms.len());
     let mut largest = 0.0f64;
     for (key, coefficient) in terms {

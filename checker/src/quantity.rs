@@ -4,6 +4,8 @@
 //! velocities give together, C(v) w. So the Christoffel symbols, the Coriolis matrix and
 //! what follows from them are loads at sums of velocities.
 
+use Quantity::*;
+
 use crate::dynamics::{State, torques};
 use crate::fault::Fault;
 use crate::number::Number;
@@ -55,65 +57,45 @@ impl Quantity {
     }
 }
 
+/// The name of a result, and what it is.
+pub type Field = (&'static str, Quantity);
+
 /// A generated function.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Function {
     /// Its name.
     pub name: &'static str,
-    /// The struct that it returns, if it does.
-    pub structure: Option<&'static str>,
-    /// The quantities of the results, by the names of fields.
-    pub fields: &'static [(&'static str, Quantity)],
+    /// Its results; of several there is a struct.
+    pub fields: &'static [Field],
 }
 
-const fn alone(name: &'static str, fields: &'static [(&'static str, Quantity)]) -> Function {
-    Function {
-        name,
-        structure: None,
-        fields,
-    }
+const fn of(name: &'static str, fields: &'static [Field]) -> Function {
+    Function { name, fields }
 }
 
 /// The functions that are checked.
 pub const FUNCTIONS: [Function; 9] = [
-    alone("inverse_dynamics", &[("tau", Quantity::Torque)]),
-    alone("gravity", &[("c", Quantity::Gravity)]),
-    alone("inertia", &[("d", Quantity::Inertia)]),
-    alone("coriolis", &[("h", Quantity::Coriolis)]),
-    Function {
-        name: "manipulator_equation",
-        structure: Some("ManipulatorEquation"),
-        fields: &[
-            ("d", Quantity::Inertia),
-            ("h", Quantity::Coriolis),
-            ("c", Quantity::Gravity),
-        ],
-    },
-    Function {
-        name: "dynamic_coefficients",
-        structure: Some("DynamicCoefficients"),
-        fields: &[
-            ("d", Quantity::Inertia),
-            ("h", Quantity::Christoffel),
-            ("c", Quantity::Gravity),
-        ],
-    },
-    alone("kinetic_energy", &[("kinetic", Quantity::KineticEnergy)]),
-    Function {
-        name: "momentum",
-        structure: Some("Momentum"),
-        fields: &[
-            ("p", Quantity::Momentum),
-            ("ct_qd", Quantity::MomentumSlope),
-        ],
-    },
-    alone("coriolis_matrix", &[("c_matrix", Quantity::CoriolisMatrix)]),
+    of("inverse_dynamics", &[("tau", Torque)]),
+    of("gravity", &[("c", Gravity)]),
+    of("inertia", &[("d", Inertia)]),
+    of("coriolis", &[("h", Coriolis)]),
+    of(
+        "manipulator_equation",
+        &[("d", Inertia), ("h", Coriolis), ("c", Gravity)],
+    ),
+    of(
+        "dynamic_coefficients",
+        &[("d", Inertia), ("h", Christoffel), ("c", Gravity)],
+    ),
+    of("kinetic_energy", &[("kinetic", KineticEnergy)]),
+    of("momentum", &[("p", Momentum), ("ct_qd", MomentumSlope)]),
+    of("coriolis_matrix", &[("c_matrix", CoriolisMatrix)]),
 ];
 
 impl Function {
     /// The function of a name.
-    pub fn named(name: &str) -> Option<&'static Function> {
-        FUNCTIONS.iter().find(|function| function.name == name)
+    pub fn named(name: &str) -> Option<Function> {
+        FUNCTIONS.into_iter().find(|function| function.name == name)
     }
 
     /// Returns the number of arguments among q, q̇ and q̈, in this order.
@@ -282,12 +264,10 @@ impl<N: Number> At<'_, N> {
         let mut symbols = vec![N::default(); count.pow(3)];
         for k in 0..count {
             for m in 0..=k {
+                let unit = self.unit(rows[k]);
                 let loads = match k == m {
                     true => own[k].clone(),
-                    false => {
-                        let unit = self.unit(rows[k]);
-                        self.together(&unit, &own[k], rows[m])?
-                    }
+                    false => self.together(&unit, &own[k], rows[m])?,
                 };
                 for (i, &row) in rows.iter().enumerate() {
                     symbols[(i * count + k) * count + m] = loads[row].clone();

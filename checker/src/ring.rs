@@ -30,14 +30,9 @@ pub struct Ring {
 
 /// The least power of two that is not below a size, which is not zero.
 fn unit(size: f64) -> f64 {
-    let mut unit = 1.0;
-    while unit < size {
-        unit *= 2.0;
-    }
-    while 0.5 * unit >= size {
-        unit *= 0.5;
-    }
-    unit
+    // To the next exponent, unless nothing is behind the point.
+    let behind = (1 << 52) - 1;
+    f64::from_bits((size.to_bits() + behind) & !behind)
 }
 
 impl Ring {
@@ -108,13 +103,13 @@ impl Ring {
             let middle = 0.5 * range[0] + 0.5 * range[1];
             let half = (range[1] - middle).max(middle - range[0]).next_up();
             let share = Polynomial::variable(Variable::Cos, joint, half);
-            state.position = Polynomial::constant(middle, 0.0).plus(&share);
+            state.position = Polynomial::constant(middle.into()).plus(&share);
         } else {
             [state.sin, state.cos] = own(joint);
             if let Some(sign) = Ring::parallel(setting, joint, work)?.filter(|_| is_whole) {
                 // sin(φ ∓ ψ), cos(φ ∓ ψ), ψ being the variable of the joint before.
                 let ([sin, cos], [sin_b, cos_b]) = (own(joint), own(joint - 1));
-                let sin_b = sin_b.times(&Polynomial::constant(sign, 0.0), work)?;
+                let sin_b = sin_b.times(&Polynomial::constant(sign.into()), work)?;
                 let across = cos.times(&sin_b, work)?.negated();
                 state.sin = sin.times(&cos_b, work)?.plus(&across);
                 state.cos = cos.times(&cos_b, work)?.plus(&sin.times(&sin_b, work)?);
@@ -131,7 +126,7 @@ impl Ring {
             return Ok(None);
         }
         let [_, _, along]: [Polynomial; 3] = axis(setting, joint, work)?;
-        let sign = |sign: f64| along == Polynomial::constant(sign, 0.0);
+        let sign = |sign: f64| along == Polynomial::constant(sign.into());
         Ok([1.0, -1.0].into_iter().find(|one| sign(*one)))
     }
 

@@ -196,10 +196,9 @@ impl Row {
                     Step::Turn(axis, [sin, cos].map(|value| Real { value, radius }))
                 };
                 let (is_flat, is_along) = (x == 0.0 || y == 0.0, across == 0.0 || z == 0.0);
-                let (sin, cos) = if across == 0.0 {
-                    (0.0, 1.0)
-                } else {
-                    (y / across, x / across)
+                let (sin, cos) = match across == 0.0 {
+                    true => (0.0, 1.0),
+                    false => (y / across, x / across),
                 };
                 let (tilt, up) = (across / length, z / length);
                 let mut before = placement.steps()?;
@@ -219,10 +218,9 @@ impl Row {
     pub(crate) fn joint(&self, convention: Option<Convention>) -> Result<Joint, Fault> {
         let [before, behind] = self.ways(convention)?;
         let turns = self.turns()?;
-        let (theta, d) = if turns {
-            (&self.offset, &self.d)
-        } else {
-            (&self.theta, &self.offset)
+        let (theta, d) = match turns {
+            true => (&self.offset, &self.d),
+            false => (&self.theta, &self.offset),
         };
         if !(if turns { &self.theta } else { &self.d }).is_zero() {
             return Err(Fault::robot(
@@ -285,10 +283,9 @@ impl Row {
 
     /// An angle or a length, as the joint has it.
     pub(crate) fn position(&self, at: &Literal) -> Result<f64, Fault> {
-        if self.turns()? {
-            Ok(at.angle("position")?.radians)
-        } else {
-            at.double("position")
+        match self.turns()? {
+            true => Ok(at.angle("position")?.radians),
+            false => at.double("position"),
         }
     }
 }

@@ -55,24 +55,16 @@ pub fn worst(
     let mut worst = vec![Seen::default(); program.outputs.len()];
     for index in 0..count {
         let mut draw = |which: usize, &[low, high]: &[f64; 2]| {
-            let share = if which > 0 && index % 2 == 1 {
-                random.next().round()
-            } else {
-                random.next()
-            };
-            let value = low + (high - low) * share;
+            let (share, is_end) = (random.next(), which > 0 && index % 2 == 1);
+            let value = low + (high - low) * if is_end { share.round() } else { share };
             held(value, [low, high], claim.scalar == "f32")
         };
         let state = [0, 1, 2].map(|which| {
-            lists[which]
-                .iter()
-                .map(|range| draw(which, range))
-                .collect::<Vec<f64>>()
+            let drawn = lists[which].iter().map(|range| draw(which, range));
+            drawn.collect::<Vec<f64>>()
         });
-        for (worst, own) in worst
-            .iter_mut()
-            .zip(at(claim, setting, program, &state, work)?)
-        {
+        let seen = at(claim, setting, program, &state, work)?;
+        for (worst, own) in worst.iter_mut().zip(seen) {
             // So that a result that is no number counts.
             if own.off > worst.off || own.off.is_nan() {
                 worst.off = own.off;

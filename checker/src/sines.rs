@@ -2,12 +2,11 @@
 //! of its angle.
 
 use crate::interval::{Interval, SINE_ERROR, UNIT, sin_cos};
+use crate::polynomial::SLACK;
 use crate::program::Node;
 
 /// Half an ulp of f32, relative.
 const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
-/// For sums of positive doubles that are rounded themselves.
-const SLACK: f64 = 1.000_001;
 /// Into how many cells the range of an angle is cut.
 const CELLS: usize = 1 << 14;
 
@@ -96,69 +95,55 @@ struct Enclosed {
 
 fn last(values: &[Enclosed], result: usize) -> Enclosed {
     let nothing = Interval::new(f64::NAN, f64::NAN);
-    let (value, slope, error) = (nothing, nothing, f64::INFINITY);
-    let found = values.get(result).copied();
-    found.unwrap_or(Enclosed {
-        value,
-        slope,
-        error,
+    values.get(result).copied().unwrap_or(Enclosed {
+        value: nothing,
+        slope: nothing,
+        error: f64::INFINITY,
     })
 }
 
 fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
-    let one = Interval::point(1.0);
     let mut values = vec![Enclosed {
         value: angle,
-        slope: one,
+        slope: Interval::point(1.0),
         error: 0.0,
     }];
     for &node in block.iter().skip(1) {
-        let rounded = |value: Interval, slope: Interval, inherited: f64| {
-            let error = scalar.rounded(value.magnitude(), inherited);
-            Enclosed {
-                value,
-                slope,
-                error,
-            }
-        };
         let get = |node: usize| last(&values, node);
-        let next = match node {
-            Node::Constant(value) => Enclosed {
-                value: Interval::point(value),
-                slope: Interval::point(0.0),
-                error: 0.0,
-            },
+        // What is neither a literal nor an opposite is rounded.
+        let (value, slope, inherited) = match node {
+            Node::Constant(value) => (Interval::point(value), Interval::point(0.0), 0.0),
+            Node::Neg(a) => (-get(a).value, -get(a).slope, get(a).error),
             Node::Add(a, b) | Node::Sub(a, b) => {
-                let (a, b) = (get(a), get(b));
-                let sign = Interval::point(if matches!(node, Node::Sub(..)) {
-                    -1.0
-                } else {
-                    1.0
-                });
-                let (value, slope) = (a.value + sign * b.value, a.slope + sign * b.slope);
-                rounded(value, slope, a.error + b.error)
+                let (a, b, sum) = (get(a), get(b), matches!(node, Node::Add(..)));
+                let signed = |x: Interval| if sum { x } else { -x };
+                let (value, slope) = (a.value + signed(b.value), a.slope + signed(b.slope));
+                (value, slope, a.error + b.error)
             }
             Node::Mul(a, b) => {
                 let (a, b) = (get(a), get(b));
-                let inherited =
-                    a.error * (b.value.magnitude() + b.error) + b.error * a.value.magnitude();
-                rounded(
+                let slope = a.slope * b.value + a.value * b.slope;
+                let own = a.error * (b.value.magnitude() + b.error);
+                (
                     a.value * b.value,
-                    a.slope * b.value + a.value * b.slope,
-                    inherited,
+                    slope,
+                    own + b.error * a.value.magnitude(),
                 )
             }
-            Node::Neg(a) => {
-                let a = get(a);
-                Enclosed {
-                    value: -a.value,
-                    slope: -a.slope,
-                    error: a.error,
-                }
+            Node::Input(..) | Node::Sine(..) | Node::Fused(..) => {
+                let nothing = last(&[], 0);
+                (nothing.value, nothing.slope, nothing.error)
             }
-            Node::Input(..) | Node::Sine(..) | Node::Fused(..) => last(&[], 0),
         };
-        values.push(next);
+        let error = match node {
+            Node::Constant(_) | Node::Neg(_) => inherited,
+            _ => scalar.rounded(value.magnitude(), inherited),
+        };
+        values.push(Enclosed {
+            value,
+            slope,
+            error,
+        });
     }
     values
 }

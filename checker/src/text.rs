@@ -14,6 +14,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::certificate::Claim;
 use crate::fault::Fault;
+use crate::file::between;
 use crate::program::{Node, Program, Source};
 use crate::quantity::Function;
 
@@ -21,17 +22,19 @@ use crate::quantity::Function;
 const MOST_NODES: usize = 20_000;
 
 /// A function that is being read.
+#[derive(Default)]
 pub(crate) struct Parser<'t> {
-    pub(crate) function: &'static Function,
+    pub(crate) function: Function,
     pub(crate) scalar: &'t str,
     pub(crate) joints: usize,
     pub(crate) rows: usize,
-    pub(crate) lines: std::iter::Enumerate<std::str::Split<'t, char>>,
+    lines: Vec<&'t str>,
+    /// How many lines are read.
     line: usize,
     pub(crate) program: Program,
     names: HashMap<&'t str, usize>,
     /// Which of q, qd and qdd the head names.
-    arguments: HashMap<&'t str, usize>,
+    pub(crate) arguments: HashMap<&'t str, usize>,
     /// Whether a block is read, and how it spells its angle, once it has.
     pub(crate) is_inside: bool,
     /// `true` while a part of a long function is read.
@@ -40,6 +43,9 @@ pub(crate) struct Parser<'t> {
     /// What is around the block that is read, and what it results in: names and values.
     outside: (HashMap<&'t str, usize>, Vec<Node>),
     pub(crate) results: Vec<(&'t str, usize)>,
+    /// Of what a call in a header gives the sines: values, or joints.
+    pub(crate) angles: Vec<Result<usize, usize>>,
+    pub(crate) is_called: bool,
     /// The angle in the names of a block of a header.
     pub(crate) block: Option<&'t str>,
     /// What literals end with.
@@ -57,18 +63,8 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
         scalar: &claim.scalar,
         joints,
         rows: claim.rows.len(),
-        lines: text.split('\n').enumerate(),
-        line: 0,
-        program: Program::default(),
-        names: HashMap::new(),
-        arguments: HashMap::new(),
-        is_inside: false,
-        is_part: false,
-        angle: None,
-        outside: Default::default(),
-        results: Vec::new(),
-        block: None,
-        suffix: "",
+        lines: text.split('\n').collect(),
+        ..Parser::default()
     };
     let read = match text.starts_with("static inline ") {
         true => parser.c_function(),
@@ -77,17 +73,18 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
     if read.is_some() {
         return Ok(parser.program);
     }
-    let line = text.split('\n').nth(parser.line).unwrap_or("").trim();
+    let line = parser.lines.get(parser.line.saturating_sub(1));
+    let line = line.unwrap_or(&"").trim();
     Err(Fault::Text(
-        parser.line + 1,
+        parser.line.max(1),
         format!("not of the grammar or the claim: `{line}`"),
     ))
 }
 
 impl<'t> Parser<'t> {
     pub(crate) fn next(&mut self) -> Option<&'t str> {
-        let (number, line) = self.lines.next()?;
-        self.line = number;
+        let line = *self.lines.get(self.line)?;
+        self.line += 1;
         let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
         is_plain.then(|| line.trim_matches(' '))
     }
@@ -102,26 +99,22 @@ impl<'t> Parser<'t> {
         let fields = function.fields;
         let array =
             |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
-        let returned = match function.structure {
-            Some(name) => name.to_owned(),
-            None => array(fields.first()?.1.axes()),
+        let is_struct = fields.len() > 1;
+        let returned = match is_struct {
+            true => structure(function.name),
+            false => array(fields.first()?.1.axes()),
         };
-        let list = line
-            .strip_prefix("pub fn ")?
-            .strip_prefix(function.name)?
-            .strip_prefix('(')?;
-        for part in list
-            .strip_suffix(&format!(") -> {returned} {{"))?
-            .split(", ")
-        {
+        let head = format!("pub fn {}(", function.name);
+        let list = between(line, &head, &format!(") -> {returned} {{"))?;
+        for part in list.split(", ") {
             let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
             self.argument(argument)?;
         }
         line = self.statements()?;
-        match function.structure {
-            None => self.array(line, fields.first()?.1.axes(), "")?,
-            Some(name) => {
-                (line.strip_suffix(" {")? == name).then_some(())?;
+        match is_struct {
+            false => self.array(line, fields.first()?.1.axes(), "")?,
+            true => {
+                (line.strip_suffix(" {")? == returned).then_some(())?;
                 for (field, quantity) in fields {
                     let line = self.next()?.strip_prefix(field)?.strip_prefix(": ")?;
                     self.array(line, quantity.axes(), ",")?;
@@ -129,8 +122,12 @@ impl<'t> Parser<'t> {
                 (self.next()? == "}").then_some(())?;
             }
         }
-        let is_end = self.next()? == "}" && self.lines.all(|(_, line)| line.is_empty());
-        is_end.then_some(())
+        (self.next()? == "}" && self.is_done()).then_some(())
+    }
+
+    /// Whether no text is left.
+    pub(crate) fn is_done(&self) -> bool {
+        self.lines[self.line..].iter().all(|line| line.is_empty())
     }
 
     /// Adds an argument of the head.
@@ -150,10 +147,7 @@ impl<'t> Parser<'t> {
                 self.program.outputs.push(value);
             }
             1 => {
-                let list = line
-                    .strip_prefix('[')?
-                    .strip_suffix(end)?
-                    .strip_suffix(']')?;
+                let list = between(line.strip_suffix(end)?, "[", "]")?;
                 let mut count = 0;
                 for word in list.split(", ") {
                     let value = self.operand(word)?;
@@ -195,20 +189,16 @@ impl<'t> Parser<'t> {
             && !value.contains("::")
         {
             let (left, right) = (self.operand(left)?, self.operand(right)?);
-            return self.name(
-                names,
-                match operation {
-                    "+" => Node::Add(left, right),
-                    "-" => Node::Sub(left, right),
-                    "*" => Node::Mul(left, right),
-                    _ => return None,
-                },
-            );
+            let node = match operation {
+                "+" => Node::Add(left, right),
+                "-" => Node::Sub(left, right),
+                "*" => Node::Mul(left, right),
+                _ => return None,
+            };
+            return self.name(names, node);
         }
         if let Some((left, rest)) = value.split_once(".mul_add(") {
-            let left = left
-                .strip_prefix('(')
-                .map_or(Some(left), |left| left.strip_suffix(')'))?;
+            let left = between(left, "(", ")").unwrap_or(left);
             let (right, addend) = rest.strip_suffix(')')?.split_once(", ")?;
             let [left, right] = [self.operand(left)?, self.operand(right)?];
             let addend = self.operand(addend)?;
@@ -218,17 +208,11 @@ impl<'t> Parser<'t> {
         let suffix = if self.scalar == "f32" { "f" } else { "" };
         let call = call.strip_suffix(suffix)?;
         // Of one angle, or the lists of all.
-        let lists = names
-            .strip_prefix("([")
-            .and_then(|names| names.strip_suffix("])"));
+        let lists = between(names, "([", "])");
         let (sines, cosines, angles) = match (call, lists, pair(names)) {
             ("dalembert_sines::sincos", Some(lists), _) => {
                 let (sines, cosines) = lists.split_once("], [")?;
-                (
-                    sines,
-                    cosines,
-                    angles.strip_prefix("&[")?.strip_suffix(']')?,
-                )
+                (sines, cosines, between(angles, "&[", "]")?)
             }
             ("libm::sincos", None, Some([sin, cos])) => (sin, cos, angles),
             ("libm::sin", None, None) => (names, "_", angles),
@@ -251,7 +235,7 @@ impl<'t> Parser<'t> {
             .then_some(())
     }
 
-    fn push(&mut self, node: Node) -> Option<usize> {
+    pub(crate) fn push(&mut self, node: Node) -> Option<usize> {
         self.program.nodes.push(node);
         let count = self.program.nodes.len();
         (count <= MOST_NODES && !(self.is_inside && matches!(node, Node::Sine(..))))
@@ -315,11 +299,7 @@ impl<'t> Parser<'t> {
         }
         let before: HashSet<&str> = self.names.keys().copied().collect();
         (self.statements()? == names && self.next()? == "};").then_some(())?;
-        let handed: HashSet<&str> = names
-            .strip_prefix('(')?
-            .strip_suffix(",)")?
-            .split(", ")
-            .collect();
+        let handed: HashSet<&str> = between(names, "(", ",)")?.split(", ").collect();
         let is_new = |name: &&str| self.names.contains_key(name) && !before.contains(name);
         handed.iter().all(is_new).then_some(())?;
         self.names
@@ -368,11 +348,16 @@ impl<'t> Parser<'t> {
     }
 }
 
+/// The name of the struct that a function returns.
+fn structure(name: &str) -> String {
+    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
+    words
+        .map(|(first, rest)| first.to_ascii_uppercase() + rest)
+        .collect()
+}
+
 /// Both parts of `(one, other)`.
 fn pair(text: &str) -> Option<[&str; 2]> {
-    let (one, other) = text
-        .strip_prefix('(')?
-        .strip_suffix(')')?
-        .split_once(", ")?;
+    let (one, other) = between(text, "(", ")")?.split_once(", ")?;
     Some([one, other])
 }

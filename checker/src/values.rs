@@ -2,17 +2,14 @@
 //! the floating-point values are from that.
 
 use crate::certificate::Claim;
-use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::Interval;
-use crate::polynomial::{MAX_JOINTS, Polynomial, Variable, Work};
+use crate::number::Number;
+use crate::polynomial::{MAX_JOINTS, Polynomial, SLACK, Variable, Work};
 use crate::program::{Node, Program, Source};
 use crate::ring::Ring;
 use crate::scene::Setting;
 use crate::sines::{self, Scalar};
-
-/// For sums of positive doubles that are rounded themselves.
-const SLACK: f64 = 1.000_001;
 
 /// A value of the text.
 #[derive(Clone, Debug)]
@@ -91,7 +88,7 @@ impl Values<'_> {
             Meaning::Number(_) => None,
         };
         let value = match node {
-            Node::Constant(value) => exact(Polynomial::constant(value, 0.0), value.abs()),
+            Node::Constant(value) => exact(Polynomial::constant(value.into()), value.abs()),
             Node::Input(argument, joint) => match self.input(argument, joint)? {
                 None => return Ok(Meaning::Angle(vec![(joint, false)])),
                 Some(value) => exact(value.clone(), self.ring.size(value)),
@@ -187,14 +184,11 @@ impl Values<'_> {
         source: Source,
         work: &mut Work,
     ) -> Result<Value, Fault> {
-        let (mut sin, mut cos) = (Polynomial::default(), Polynomial::constant(1.0, 0.0));
+        let (mut sin, mut cos) = (Polynomial::default(), Polynomial::one());
         let mut range = Interval::point(0.0);
         for &(joint, negative) in joints {
-            let State {
-                sin: own,
-                cos: own_cos,
-                ..
-            } = &self.ring.states[joint];
+            let state = &self.ring.states[joint];
+            let (own, own_cos) = (&state.sin, &state.cos);
             let [low, high] = self.claim.position[joint];
             let own_range = Interval::new(low, high);
             range = range + if negative { -own_range } else { own_range };

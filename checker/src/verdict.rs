@@ -3,6 +3,7 @@
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::maximum;
+use crate::number::Number;
 use crate::polynomial::Work;
 use crate::quantity::Quantity;
 use crate::ring::Ring;
@@ -77,19 +78,12 @@ impl Verdict {
 
 /// Audits one claim about a robot of which the file is given. Nothing but the claim's
 /// text, box, T and E is taken from it.
+/// `tolerance` is another than the scene's, if there is one.
 ///
 /// # Errors
 /// A file or text that this checker does not know, a claim that is not about this robot
 /// or is contradicted, or more work than it does.
-pub fn audit(claim: &Claim, robot: &str) -> Result<Verdict, Fault> {
-    audit_within(claim, robot, None)
-}
-
-/// The same with another tolerance than the scene's.
-///
-/// # Errors
-/// As of [`audit`].
-pub fn audit_within(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdict, Fault> {
+pub fn audit(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdict, Fault> {
     let mut setting = scene::read(robot, claim.scene.as_deref())?;
     if let Some(tolerance) = tolerance {
         setting.tolerance = Some(vec![tolerance; setting.joints.len()]);
@@ -200,12 +194,7 @@ pub fn measure(
 /// Whether a claim is about this robot in its scene: the same rows, a box that has all
 /// states of the file's, a scale of the same kind.
 fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
-    if !setting
-        .rows
-        .iter()
-        .map(|row| row + 1)
-        .eq(claim.rows.iter().copied())
-    {
+    if setting.rows != claim.rows() {
         return Err(Fault::certificate("`rows` are not those of the scene"));
     }
     if setting.tolerance.is_some() && claim.relative_to != setting.relative_to {

@@ -13,7 +13,7 @@ fn data(name: &str) -> String {
 fn refused(certificate: &str, robot: &str, scene: Option<&str>) -> String {
     let mut claim = claim(&data(certificate));
     claim.scene = scene.map(String::from).or(claim.scene);
-    match audit(&claim, &file(&data(robot))) {
+    match audit(&claim, &file(&data(robot)), None) {
         Ok(verdict) => {
             assert!(!verdict.is_shown(), "{certificate}: {verdict:?}");
             String::new()
@@ -73,15 +73,15 @@ fn robots_of_attacks() {
     let mut claim = claim("checker/tests/data/planar2r-pick.json");
     claim.scene = None;
     // It has no limits of velocity, so that no box has all its states.
-    let fault = audit(&claim, &file(&data("pe.toml"))).unwrap_err();
+    let fault = audit(&claim, &file(&data("pe.toml")), None).unwrap_err();
     assert!(fault.to_string().contains("the box lacks"), "{fault}");
-    let fault = audit(&claim, &file(&data("h.toml"))).unwrap_err();
+    let fault = audit(&claim, &file(&data("h.toml")), None).unwrap_err();
     assert!(
         matches!(fault, Fault::Robot(ref key, _) if key == "alpha"),
         "{fault}"
     );
     claim.scene = Some("d".into());
-    let fault = audit(&claim, &file(&data("indefinite.toml"))).unwrap_err();
+    let fault = audit(&claim, &file(&data("indefinite.toml")), None).unwrap_err();
     assert!(
         fault.to_string().contains("relative_to") || fault.to_string().contains("box"),
         "{fault}"

@@ -123,7 +123,9 @@ fn with_polynomials(added: &str) -> f64 {
         1,
     );
     claim.position[0] = [-1.0, 1.0];
-    audit(&claim, &robot).unwrap().outputs[1].found.bound()
+    audit(&claim, &robot, None).unwrap().outputs[1]
+        .found
+        .bound()
 }
 
 /// However many sines are polynomials, their errors count in either direction.

@@ -116,12 +116,12 @@ fn generated_files_are_read() {
 fn a_scale_that_is_not_reached() {
     let robot = read(&attack("user.toml"));
     let forged = claim(&attack("forged.json"));
-    let fault = audit(&forged, &robot).unwrap_err().to_string();
+    let fault = audit(&forged, &robot, None).unwrap_err().to_string();
     assert!(fault.contains("the largest that is reached"), "{fault}");
     let mut stretched = claim("generated/certificates/puma560-range-1e-2.json");
     stretched.scale[3] *= 1.2;
     let robot = read("generated/robots/puma560.toml");
-    let fault = audit(&stretched, &robot).unwrap_err().to_string();
+    let fault = audit(&stretched, &robot, None).unwrap_err().to_string();
     assert!(fault.contains("the largest that is reached"), "{fault}");
 }
 
@@ -131,6 +131,7 @@ fn limits_that_void_the_box() {
     let fault = audit(
         &claim(&attack("ra.certificate.json")),
         &read(&attack("ru.toml")),
+        None,
     );
     assert!(
         fault
@@ -162,7 +163,7 @@ fn limits_that_void_the_box() {
         ("torque = 50", "torque = -50", "torque is negative"),
     ] {
         let with = robot.replacen(limits, &limits.replace(from, to), 1);
-        let fault = audit(&claim(PICK), &with).unwrap_err();
+        let fault = audit(&claim(PICK), &with, None).unwrap_err();
         assert!(
             matches!(&fault, Fault::Robot(_, said) if said == why),
             "{fault}"
@@ -187,7 +188,7 @@ fn limits_that_void_the_box() {
             "[scene.pick]\n",
             &format!("[scene.pick]\nbox = {{ {list} }}\n"),
         );
-        let fault = audit(&claim(PICK), &with).unwrap_err();
+        let fault = audit(&claim(PICK), &with, None).unwrap_err();
         assert!(
             matches!(&fault, Fault::Robot(_, said) if said == why),
             "{fault}"
@@ -201,19 +202,19 @@ fn claims_of_no_error() {
     for total in [None, Some(-1e-3), Some(f64::NAN), Some(f64::INFINITY)] {
         let mut claim = claim(PICK);
         claim.total[1] = total;
-        let fault = audit(&claim, &robot).unwrap_err().to_string();
+        let fault = audit(&claim, &robot, None).unwrap_err().to_string();
         assert!(fault.contains("`total`"), "{fault}");
     }
     let mut claim = claim(PICK);
     claim.total[1] = Some(0.0);
-    assert!(!audit(&claim, &robot).unwrap().is_shown());
+    assert!(!audit(&claim, &robot, None).unwrap().is_shown());
 }
 
 /// An arm whose outputs are all zero is a true claim: T is zero, and so is the error.
 #[test]
 fn nothing_of_nothing() {
     let claim = claim(&attack("zero.certificate.json"));
-    let verdict = audit(&claim, &read(&attack("zero.toml"))).unwrap();
+    let verdict = audit(&claim, &read(&attack("zero.toml")), None).unwrap();
     assert!(verdict.is_shown(), "{verdict:?}");
 }
 
@@ -221,7 +222,7 @@ fn nothing_of_nothing() {
 fn texts_that_are_not_printed() {
     let robot = read(ROBOT);
     let original = claim(PICK);
-    assert!(audit(&original, &robot).unwrap().is_shown());
+    assert!(audit(&original, &robot, None).unwrap().is_shown());
     for (from, to) in [
         ("q[1]", "q[01]"),
         ("9.81", "9.81E0"),
@@ -234,7 +235,7 @@ fn texts_that_are_not_printed() {
         let mut claim = original.clone();
         claim.text = claim.text.replacen(from, to, 1);
         assert_ne!(claim.text, original.text, "{from}");
-        let fault = audit(&claim, &robot).unwrap_err();
+        let fault = audit(&claim, &robot, None).unwrap_err();
         assert!(matches!(fault, Fault::Text(..)), "{to:?}: {fault}");
     }
     for name in ["fn", "q", "if", "t", "tt1"] {
@@ -244,7 +245,7 @@ fn texts_that_are_not_printed() {
             .replace("t1 ", &format!("{name} "))
             .replace("t1;", &format!("{name};"));
         assert!(
-            matches!(audit(&claim, &robot), Err(Fault::Text(..))),
+            matches!(audit(&claim, &robot, None), Err(Fault::Text(..))),
             "{name}"
         );
     }
@@ -257,13 +258,13 @@ fn terms_that_a_prime_divides() {
     let robot = read("cli/tests/data/attacks/r2.toml");
     for name in ["A", "B"] {
         let mut claim = claim(&format!("cli/tests/data/attacks/{name}.json"));
-        let verdict = audit(&claim, &robot).unwrap();
+        let verdict = audit(&claim, &robot, None).unwrap();
         assert!(
             !verdict.is_shown() && verdict.outputs[0].found.bound() > 230.0,
             "{verdict:?}"
         );
         claim.text = claim.text.replace("t23 + 230.5843009213694", "t23 + 0.0");
-        let verdict = audit(&claim, &robot).unwrap();
+        let verdict = audit(&claim, &robot, None).unwrap();
         assert!(verdict.is_shown(), "{verdict:?}");
     }
 }
@@ -273,7 +274,7 @@ fn terms_that_a_prime_divides() {
 #[test]
 fn a_result_of_no_joint_is_held_to_a_tolerance() {
     let robot = read(&attack("energy.toml"));
-    let forged = audit(&claim(&attack("energy.json")), &robot).unwrap();
+    let forged = audit(&claim(&attack("energy.json")), &robot, None).unwrap();
     assert!(!forged.is_shown(), "{forged:?}");
     let [output] = &forged.outputs[..] else {
         panic!("{forged:?}");

@@ -1,6 +1,7 @@
 //! The recursion against the torques of another library.
 
 use dalembert_checker::dynamics::{State, torques};
+use dalembert_checker::number::Number;
 use dalembert_checker::polynomial::{Polynomial, Work};
 use dalembert_checker::scene;
 use serde_json::Value;
@@ -54,7 +55,7 @@ fn toml(robot: &Value) -> String {
 }
 
 fn number(value: f64) -> Polynomial {
-    Polynomial::constant(value, 0.0)
+    Polynomial::constant(value.into())
 }
 
 #[test]

@@ -55,6 +55,88 @@ fn polynomials_and_fused_products() {
     is_same(&header, &rust);
 }
 
+/// Sines of all angles by one call of a function of the header.
+#[test]
+fn sines_of_the_headers_own() {
+    let [header, rust] =
+        ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-together.{kind}"));
+    is_same(&header, &rust);
+    let source = file(&header);
+    let listed = "    const double angles[2] = {q[0], q[1]};\n    double sines[2];\n";
+    let listed = source.replace("    double sines[2];\n", listed);
+    let listed = listed.replace("_sines_2(&q[0], ", "_sines_2(angles, ");
+    let is_double = |line: &&dalembert_checker::exact::Line| line.module == "planar2r";
+    let shown = |source: &str| {
+        let found = report(source).lines;
+        let found = found.iter().filter(is_double);
+        let found = found.filter(|line| line.result.as_ref().is_ok_and(|own| own.is_shown()));
+        found.count()
+    };
+    assert_eq!((shown(&source), shown(&listed)), (6, 6));
+    for (text, from, to) in [
+        (&source, "s1 = sines[0]", "s1 = sines[1]"),
+        (&source, "s1 = sines[0]", "s1 = cosines[0]"),
+        (&source, "s1 = sines[0]", "s1 = sines[2]"),
+        (&source, "sines_2(&q[0]", "sines_2(&q[1]"),
+        (&source, "sines_2(&q[0]", "sines_1(&q[0]"),
+        (&source, "sines_2(&q[0]", "f32_sines_2(&q[0]"),
+        (&source, "sines_2(&q[0]", "sines_2(&qd[0]"),
+        (
+            &source,
+            "sines_2(&q[0], sines, cosines)",
+            "sines_2(&q[0], cosines, sines)",
+        ),
+        (&source, "    double sines[2];\n", ""),
+        (&source, "    double sines[2];", "    double sines[1];"),
+        (&source, "    double sines[2];", "    float sines[2];"),
+        (&source, "    double cosines[2];", "    double cosines[1];"),
+        (&listed, "{q[0], q[1]}", "{q[1], q[0]}"),
+        (&listed, "{q[0], q[1]}", "{q[0], qd[1]}"),
+        (&listed, "angles[2] = {q[0], q[1]}", "angles[1] = {q[0]}"),
+    ] {
+        let start = text.find("void planar2r_gravity(").unwrap();
+        assert!(text[start..].contains(from), "{from}");
+        let changed = text[start..].replacen(from, to, 1);
+        let changed = format!("{}{changed}", &text[..start]);
+        assert_eq!(shown(&changed), 5, "{to}");
+    }
+}
+
+/// No line of the function that gives sines can go or say something else.
+#[test]
+fn sines_that_are_something_else() {
+    let source = file("checker/tests/data/generated/planar2r-together.h");
+    let lines: Vec<&str> = source.lines().collect();
+    for head in [" planar2r_sines_2(", " planar2r_f32_sines_1("] {
+        let first = lines.iter().position(|line| line.contains(head)).unwrap();
+        let last = first + lines[first..].iter().position(|line| *line == "}").unwrap();
+        for index in first - 3..=last {
+            let line = lines[index];
+            let mut others = vec![String::new(), line.replacen(' ', " 1 + ", 5)];
+            for (from, to) in [
+                ("* ", "+ "),
+                ("x", "x1"),
+                ("1", "2"),
+                (";", "F;"),
+                ("sin", "cos"),
+            ] {
+                others.push(line.replacen(from, to, 1));
+            }
+            let is_other = |other: &&String| other.trim() != line.trim();
+            for other in others
+                .iter()
+                .filter(is_other)
+                .filter(|_| !line.contains("/*"))
+            {
+                let mut changed = lines.clone();
+                changed[index] = other;
+                let found = check(&changed.join("\n"), &robot(), None);
+                assert!(found.is_err(), "{line} -> {other}");
+            }
+        }
+    }
+}
+
 /// One literal, operator, operand or result changed: what it was is shown no more.
 #[test]
 fn functions_that_are_something_else() {

@@ -96,7 +96,7 @@ fn is_true(claim: &Claim, allowed: &[f64]) -> bool {
 
 /// Audits a mutant; whether it was shown, after judging that it then is true.
 fn judged(mutant: &Claim, robot: &str) -> bool {
-    let Ok(verdict) = audit(mutant, robot) else {
+    let Ok(verdict) = audit(mutant, robot, None) else {
         return false;
     };
     if verdict.is_shown() {

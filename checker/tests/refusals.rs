@@ -8,7 +8,7 @@ const CLAIM: &str = "checker/tests/data/planar2r-pick.json";
 const ROBOT: &str = "cli/tests/data/attacks/r2_conf.toml";
 
 fn fault_of_robot(robot: &str) -> String {
-    audit(&claim(CLAIM), robot).unwrap_err().to_string()
+    audit(&claim(CLAIM), robot, None).unwrap_err().to_string()
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn claims_about_other_states_rows_and_scales() {
     let refused = |change: &dyn Fn(&mut dalembert_checker::Claim)| {
         let mut claim = claim(CLAIM);
         change(&mut claim);
-        audit(&claim, &robot).unwrap_err().to_string()
+        audit(&claim, &robot, None).unwrap_err().to_string()
     };
     assert!(refused(&|c| c.velocity[0] = [-1.0, 1.0]).contains("the box lacks"));
     assert!(refused(&|c| c.position[1] = [0.0, 1.0]).contains("the box lacks"));
@@ -85,13 +85,13 @@ fn files_that_are_cut_or_garbled() {
     }
     for cut in (0..robot.len()).step_by(11) {
         // Cut behind the scene, what is left may be whole.
-        let _ = audit(&claim(CLAIM), &robot[..cut]);
+        let _ = audit(&claim(CLAIM), &robot[..cut], None);
     }
     let text = claim(CLAIM).text;
     for cut in (0..text.trim_end().len() - 1).step_by(5) {
         let mut claim = claim(CLAIM);
         claim.text.truncate(cut);
-        assert!(audit(&claim, &robot).is_err(), "{cut}");
+        assert!(audit(&claim, &robot, None).is_err(), "{cut}");
     }
     assert!(read(&"[".repeat(100_000)).is_err());
     assert!(fault_of_robot(&"a = [".repeat(20_000)).starts_with("robot file"));
@@ -101,7 +101,7 @@ fn files_that_are_cut_or_garbled() {
 #[test]
 fn functions_that_are_not_audited() {
     let other = file(CLAIM).replace("\"inverse_dynamics\"", "\"forward_dynamics\"");
-    let fault = audit(&read(&other).unwrap()[0], &file(ROBOT)).unwrap_err();
+    let fault = audit(&read(&other).unwrap()[0], &file(ROBOT), None).unwrap_err();
     assert!(
         fault
             .to_string()
@@ -120,6 +120,6 @@ fn texts_that_grow_without_end() {
     }
     let head = claim.text.find("    let t1").unwrap();
     claim.text.insert_str(head, &(lines.join("\n") + "\n"));
-    let fault = audit(&claim, &file(ROBOT)).unwrap_err().to_string();
+    let fault = audit(&claim, &file(ROBOT), None).unwrap_err().to_string();
     assert!(fault.contains("power"), "{fault}");
 }

@@ -19,5 +19,5 @@ pub fn claim(certificate: &str) -> Claim {
 
 /// The audit of a certificate's claim.
 pub fn audited(certificate: &str, robot: &str) -> Result<Verdict, Fault> {
-    audit(&claim(certificate), &file(robot))
+    audit(&claim(certificate), &file(robot), None)
 }

@@ -37,6 +37,7 @@ mod scene_ways_in;
 mod shallow;
 mod shown;
 mod sincos;
+mod straight;
 mod support;
 mod text;
 mod together;

@@ -254,7 +254,7 @@ fn judge(texts: impl Iterator<Item = String>, source: &str) -> usize {
         };
         for mut claim in claims {
             claim.scene = Some("pick".into());
-            match audit(&claim, source) {
+            match audit(&claim, source, None) {
                 Ok(verdict) if verdict.is_shown() => assert!(
                     is_true(&claim, &verdict, &scene_robot),
                     "accepted, and false:\n{text}"
@@ -325,7 +325,7 @@ fn honest_certificates_hold_and_the_judge_can_tell() {
     let scene_robot = SceneRobot::new(&reading.robot, &reading.scenes[0]).unwrap();
     for honest in honest() {
         let claim = claims(&honest.to_json()).unwrap().remove(0);
-        let verdict = audit(&claim, ROBOT).unwrap();
+        let verdict = audit(&claim, ROBOT, None).unwrap();
         assert!(verdict.is_shown(), "{verdict:?}");
         assert!(is_true(&claim, &verdict, &scene_robot));
         // The judge is no rubber stamp.

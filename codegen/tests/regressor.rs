@@ -6,6 +6,7 @@ use std::path::Path;
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Function, Quantity};
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, ToleranceError, Unbounded};
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::scene::base::{BaseParameters, Parameter};
@@ -72,6 +73,49 @@ fn printed(linear: Linear, text: &str) -> Vec<Vec<f64>> {
         values.map(|value| value.parse().unwrap()).collect()
     });
     constants.collect()
+}
+
+/// The values of π that functions of a header write, a scalar each.
+fn printed_in_c(text: &str) -> Vec<Vec<f64>> {
+    let functions = text.lines().enumerate();
+    let functions =
+        functions.filter(|(_, line)| line.starts_with("static ") && line.contains(" pi["));
+    let values = functions.map(|(head, _)| {
+        let body = text.lines().skip(head + 2).take_while(|line| *line != "}");
+        let values = body.enumerate().map(|(index, line)| {
+            let value = line
+                .trim()
+                .strip_prefix(&format!("pi[{index}] = "))
+                .unwrap();
+            let value = value.strip_suffix(';').unwrap();
+            value.trim_end_matches('F').parse().unwrap()
+        });
+        values.collect()
+    });
+    values.collect()
+}
+
+/// A header has the values that a module has, in both scalars, by a name that its text says.
+#[test]
+fn headers_have_the_same_parameters() {
+    for linear in [TORQUES, PASSIVITY] {
+        for name in ["planar2r", "stanford"] {
+            let robot = support::robot(name);
+            let expected = printed(linear, &generate(linear, &robot, None).text);
+            assert_eq!(expected.len(), 2);
+            for language in [Language::C, Language::Cuda] {
+                let request = Request {
+                    functions: vec![linear.regressor],
+                    language,
+                    ..Request::default()
+                };
+                let text = dalembert_codegen::generate(&robot, &request).unwrap().text;
+                assert_eq!(printed_in_c(&text), expected, "{name}");
+                let said = format!("and `{name}_{}` is", linear.constant.to_lowercase());
+                assert!(text.contains(&said) && !text.contains(linear.constant));
+            }
+        }
+    }
 }
 
 /// The rank of Y over all links' parameters, in f64 from the runtime: elimination

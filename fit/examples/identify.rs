@@ -96,7 +96,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         Some(output) => {
             // Whole or not at all: it gets its name when all of it is written.
             let part = format!("{output}.{}.part", std::process::id());
-            let written = std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, &output));
+            let written =
+                std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, &output));
             if let Err(why) = written {
                 let _ = std::fs::remove_file(&part);
                 return Err(format!("{output}: {why}").into());

@@ -226,13 +226,18 @@ fn columns_give_what_rows_give() {
             let y = each(&|state, e| state.y[e / base * width + e % base], n * base);
             let qd = each(&|state, i| state.qd[i], n);
             let tau = each(&|state, i| state.qdd[i], n);
-            columns.add_columns(&model, &y, &qd, &tau, part.len()).unwrap();
+            columns
+                .add_columns(&model, &y, &qd, &tau, part.len())
+                .unwrap();
         }
         assert_eq!(columns, rows, "{count} at once");
     }
     let mut columns = Accumulator::new(&model);
     let (y, one) = (vec![0.0; n * base], vec![0.0; n]);
     let short = columns.add_columns(&model, &y[1..], &one, &one, 1);
-    assert!(matches!(short, Err(Error::Length { argument: "y", .. })), "{short:?}");
+    assert!(
+        matches!(short, Err(Error::Length { argument: "y", .. })),
+        "{short:?}"
+    );
     assert_eq!(columns.states(), 0);
 }

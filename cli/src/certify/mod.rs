@@ -9,7 +9,7 @@ mod whole_file;
 use std::path::Path;
 
 use dalembert_checker::file::MOST_BYTES;
-use dalembert_checker::{Fault, Output, Verdict, audit_within, read};
+use dalembert_checker::{Fault, Output, Verdict, audit, read};
 use serde_json::{Value, json};
 
 use crate::args::CertifyArgs;
@@ -34,7 +34,7 @@ fn certificates(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
     let (mut verdicts, mut refused) = (Vec::new(), Vec::new());
     for mut claim in claims {
         claim.scene = args.scene.clone().or(claim.scene);
-        let found = audit_within(&claim, robot, args.tolerance).map_err(|fault| match fault {
+        let found = audit(&claim, robot, args.tolerance).map_err(|fault| match fault {
             Fault::Robot(..) => Failure::Input(format!("error: {fault}")),
             _ => Failure::Check(format!("error: {name}: `{}`: {fault}", claim.function)),
         })?;

@@ -316,12 +316,13 @@ impl<'a> ErrorBudget<'a> {
                 // Of equals the edited exact program.
                 found.sort_by_key(|pruned| prune::cost(&pruned.program));
                 if let Some(best) = found.first().map(|pruned| pruned.program.clone()) {
+                    let best = &best;
                     let seeds: Vec<u64> = (1..=settings.restarts).collect();
                     found.extend(parallel::each(&seeds, |&seed| {
                         let settings = PruneSettings { seed, ..*settings };
                         // In turn the best so far and what others were edited from.
                         let other = starts.get(seed as usize / 2 % starts.len().max(1));
-                        let start = other.filter(|_| seed % 2 == 0).unwrap_or(&&best);
+                        let start = other.filter(|_| seed % 2 == 0).unwrap_or(&best);
                         prune::watched(exact, Some(start), limits, &allowances, &settings, watch)
                     }));
                 }

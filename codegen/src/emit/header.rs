@@ -4,13 +4,11 @@ use std::fmt::Write;
 
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
-use super::{GeneratedFunction, acsl, fused};
+use super::{GeneratedFunction, acsl, c_sines, fused, parameters};
 use crate::function::Function;
-use crate::language::c99::{self, LONGEST, Names, float};
+use crate::language::c99::{self, LONGEST, Names};
 use crate::language::{Entries, Language, Printed, columns, cuda};
-use crate::program::kernel::{Kernel, Term};
-use crate::program::{Library, Literal, Lowered, ScalarType};
-use crate::sincos::library_error::trace::trace;
+use crate::program::{Library, Lowered, ScalarType};
 use crate::task::Task;
 
 /// Where gcc fuses products and sums by itself.
@@ -38,6 +36,7 @@ pub(crate) fn misnamed(
         if c99::is_bundle(*function) {
             words.push(format!("{}_t", function.name()));
         }
+        words.extend(parameters::name(*function).map(str::to_lowercase));
     }
     let names = scalars
         .iter()
@@ -70,7 +69,10 @@ pub(crate) fn write(
         plain(&robot.name),
         robot.short_hash(),
     );
-    let guard = names.constant("H");
+    let guard = names.constant(match request.language {
+        Language::Cuda => "CUH",
+        Language::C | Language::Rust => "H",
+    });
     let (restrict, unfused) = (names.constant("RESTRICT"), names.constant("UNFUSED"));
     let codes_of = || codes.iter().flat_map(|(_, codes)| codes);
     let calls = |code: &&Lowered| code.trig.iter().any(|trig| trig.kernel.is_none());
@@ -127,9 +129,10 @@ pub(crate) fn write(
         let scalar = *scalar;
         let names = Names::new(&name, request.language, scalar);
         comment(&mut text, &header(robot, scene_robot, functions, scalar));
-        if codes.iter().any(|code| code.library == Library::Together) {
-            sines(&mut text, &names, scalar);
-        }
+        let is_batch = request.entries == Entries::Batch;
+        let printed = functions.iter().zip(codes);
+        let printed = printed.map(|(own, code)| Printed::of(&own.program, code));
+        c_sines::write(&mut text, printed, &names, is_batch);
         if let Some(state_box) = StateBox::of(functions, scene_robot, scalar) {
             if request.acsl {
                 text.push('\n');
@@ -137,7 +140,12 @@ pub(crate) fn write(
             }
             state_box.write_c(&mut text, scalar, &names);
         }
-        for (generated, code) in functions.iter().zip(codes) {
+        for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
+            // One π for all that are over the same columns.
+            let (function, mut earlier) = (generated.function, functions[..index].iter());
+            if !earlier.any(|other| other.function.columns() == function.columns()) {
+                text.push_str(&parameters::write_c(function, scene_robot, &names));
+            }
             let printed = Printed::of(&generated.program, code);
             if let Some(structure) = c99::structure(&printed, &names) {
                 text.push('\n');
@@ -153,12 +161,18 @@ pub(crate) fn write(
                         .to_owned(),
                 );
             }
+            if let Some(constant) = parameters::name(function) {
+                let own = names.of(&constant.to_lowercase());
+                for line in &mut doc {
+                    *line = line.replace(constant, &own);
+                }
+            }
             doc.push(String::new());
             for argument in printed.arguments {
                 let (name, length) = (argument.name(), argument.length(printed.sizes));
                 doc.push(format!("{name}[{length}]: {}", argument.meaning()));
             }
-            for quantity in generated.function.quantities() {
+            for quantity in function.quantities() {
                 let rows = scene_robot.rows();
                 let count = quantity.len(printed.sizes);
                 let units = (0..count).map(|i| quantity.unit(i, rows, printed.sizes, robot));
@@ -175,7 +189,6 @@ pub(crate) fn write(
             if request.acsl {
                 text.push_str(&acsl::contract(generated, &printed, scene_robot, &names));
             }
-            let is_batch = request.entries == Entries::Batch;
             let is_told = is_batch && c99::is_told(code, &names);
             text.push_str(&c99::write(&printed, &names, is_told));
             if is_told {
@@ -215,50 +228,4 @@ fn plain(line: &str) -> String {
     line.replace("*/", "* /")
         .replace("/*", "/ *")
         .replace("??", "? ?")
-}
-
-/// Sine and cosine by the operations of the crate `dalembert-sines`.
-fn sines(text: &mut String, names: &Names, scalar: ScalarType) {
-    let (dialect, float) = (names.dialect(), float(scalar));
-    let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
-    let f = scalar.math_suffix();
-    let largest = dialect.literal(Literal(c99::largest(scalar)));
-    let zero = dialect.literal(Literal(0.0));
-    let kernel: Kernel = trace(scalar);
-    let term = |term: Term| match term {
-        Term::Input(_) => "x0".to_owned(),
-        Term::Constant(value) => dialect.literal(value),
-        Term::Step(step) => format!("x{}", step + 1),
-    };
-    let steps = kernel.steps.iter().enumerate().map(|(index, step)| {
-        let (left, right) = (term(step.left), term(step.right));
-        let value = dialect.operation(step.operation, &left, &right);
-        format!(
-            "    {}\n",
-            dialect.declare(&format!("x{}", index + 1), &value)
-        )
-    });
-    let steps: String = steps.collect();
-    let [sin, cos] =
-        [kernel.sin, kernel.cos].map(|value| value.map_or_else(String::new, |v| term(v.value)));
-    let (unfused, inline) = (names.constant("UNFUSED"), dialect.function);
-    let _ = write!(
-        text,
-        "\n/* The sine and the cosine of an angle. */\n\
-         typedef struct {{\n    {float} sin;\n    {float} cos;\n}} {kind};\n\n\
-         /*\n * Sine and cosine, each within one ulp: to {largest} rad the operations of the Rust crate\n \
-         * dalembert-sines, to the same bits; beyond, and for what is no\n * number, the C library's, where angles may be far.\n */\n\
-         {inline} {kind} {function}(const int far, const {float} angle)\n{{\n    {unfused}\n    \
-         const {float} x0 = (fabs{f}(angle) <= {largest}) ? angle : {zero};\n{steps}    \
-         /* x3 counts the quarter turns: an odd one exchanges sine and cosine. */\n    \
-         const unsigned int turns = (unsigned int)(int)x3;\n    \
-         const {float} one = ((turns & 1U) == 0U) ? {sin} : {cos};\n    \
-         const {float} other = ((turns & 1U) == 0U) ? {cos} : {sin};\n    \
-         {kind} pair;\n    \
-         pair.sin = ((turns & 2U) == 0U) ? one : -one;\n    \
-         pair.cos = (((turns + 1U) & 2U) == 0U) ? other : -other;\n    \
-         if ((far != 0) && !(fabs{f}(angle) <= {largest})) {{\n        \
-         pair.sin = sin{f}(angle);\n        pair.cos = cos{f}(angle);\n    }}\n    \
-         return pair;\n}}\n"
-    );
 }

@@ -2,7 +2,7 @@
 //!
 //! - [`module`]: the module of a robot with its header, and of its `scene`;
 //!   `escape`: names that users chose
-//! - [`header`]: the header of a robot in C
+//! - [`header`]: the header of a robot in C; `c_sines`: the sines that its functions call
 //! - `state_box`: where functions hold that do not hold everywhere
 //! - `generated`: a function with what was found and proved of it
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
@@ -15,6 +15,7 @@
 
 mod acsl;
 pub(crate) mod arguments;
+mod c_sines;
 mod escape;
 pub(crate) mod figures;
 mod friction;

@@ -9,6 +9,7 @@ use num_traits::{One, Signed};
 
 use super::figures::decimal;
 use crate::function::{Columns, Function};
+use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};
 use crate::scene::SceneRobot;
 use crate::scene::base::{BaseParameters, Parameter};
@@ -63,11 +64,9 @@ pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
 /// The constant π; nothing of functions that are over no base parameters.
 pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: ScalarType) -> String {
     let mut text = String::new();
-    let Some(((_, name), base)) = over_base(function, scene_robot) else {
+    let Some((name, values)) = values(function, scene_robot, scalar) else {
         return text;
     };
-    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
-    let values = base.values(&arm);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
@@ -76,10 +75,56 @@ pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: Sca
         values.len()
     );
     for value in &values {
-        let _ = writeln!(text, "    {},", Literal(scalar.round(value)).text(scalar));
+        let _ = writeln!(text, "    {},", value.text(scalar));
     }
     text.push_str("];\n\n");
     text
+}
+
+/// The function that writes π in C; nothing of functions that are over no base parameters.
+pub(super) fn write_c(function: Function, scene_robot: &SceneRobot, names: &Names) -> String {
+    let mut text = String::new();
+    let dialect = names.dialect();
+    let Some((name, values)) = values(function, scene_robot, dialect.scalar) else {
+        return text;
+    };
+    let (float, restrict) = (float(dialect.scalar), names.constant("RESTRICT"));
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "\n/*\n * π of this robot: the values of the base parameters, a column of\n * `{}` each.\n */\n\
+         {} void {}({float} pi[{restrict} {}])\n{{",
+        names.of(function.name()),
+        dialect.function,
+        names.of(&name.to_lowercase()),
+        values.len()
+    );
+    for (index, value) in values.iter().enumerate() {
+        let _ = writeln!(text, "    pi[{index}] = {};", dialect.literal(*value));
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// π of a function that is over base parameters, and its name.
+fn values(
+    function: Function,
+    scene_robot: &SceneRobot,
+    scalar: ScalarType,
+) -> Option<(&'static str, Vec<Literal>)> {
+    let ((_, name), base) = over_base(function, scene_robot)?;
+    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
+    let values = base.values(&arm).into_iter();
+    let values = values.map(|value| Literal(scalar.round(&value)));
+    Some((name, values.collect()))
+}
+
+/// Returns the name of the constant π, if a function is over base parameters.
+pub(super) fn name(function: Function) -> Option<&'static str> {
+    match function.columns() {
+        Columns::Base(quantity) => Some(quantity.linear()?.1),
+        Columns::Links | Columns::None => None,
+    }
 }
 
 /// If a function is over base parameters: what its columns sum up to, the constant

@@ -5,8 +5,10 @@
 //! static inline void arm_gravity(const double q[ARM_RESTRICT 2], double c[ARM_RESTRICT 2])
 //! {
 //!     ARM_UNFUSED
-//!     const arm_sincos_t p1 = arm_sincos(q[0]);
-//!     const double s1 = p1.sin;
+//!     double sines[1];
+//!     double cosines[1];
+//!     arm_sines_1(&q[0], sines, cosines);
+//!     const double s1 = sines[0];
 //!     const double t1 = s1 * 0.5;
 //!     c[0] = t1;
 //!     c[1] = -t1;
@@ -17,19 +19,20 @@ use std::fmt::Write;
 
 use dalembert_sines::{LARGEST, LARGEST_F32};
 
+use super::called::Called;
 use super::dialect::Dialect;
 use super::function::reads;
 use super::scope::Scope;
 use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::kernel::{Kernel, Term, Value};
-use crate::program::{AngleSum, Library, Lowered, ScalarType};
+use crate::program::{AngleSum, Library, Lowered, LoweredTrig, ScalarType};
 
 /// The most characters of a name: compilers need not tell longer ones apart.
 pub(crate) const LONGEST: usize = 31;
 
 /// Words that are shortened in names that would be too long.
-const SHORT: [(&str, &str); 14] = [
+const SHORT: [(&str, &str); 15] = [
     ("inverse", "inv"),
     ("forward", "fwd"),
     ("dynamics", "dyn"),
@@ -44,6 +47,7 @@ const SHORT: [(&str, &str); 14] = [
     ("potential", "pot"),
     ("energy", "en"),
     ("momentum", "mom"),
+    ("parameters", "param"),
 ];
 
 /// The names of one scalar's functions in a header of a language.
@@ -289,10 +293,14 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
         let _ = writeln!(text, "    {line}");
     };
     line(&names.constant("UNFUSED"));
+    let called = Called::of(code, printed.sizes.joints, names, is_told);
     for trig in &code.trig {
         let (angle, state) = (trig.angle, Scope::STATE);
         if angle.additions() > 0 {
             line(&dialect.declare(&format!("a{angle}"), &state.sum(angle)));
+        }
+        if called.is_some() && Called::is_of(trig) {
+            continue;
         }
         let (argument, pair) = (state.angle(angle), format!("p{angle}"));
         if let (None, Library::Together) = (&trig.kernel, code.library) {
@@ -306,13 +314,11 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
                 line(&statement);
             }
         }
-        for (taken, name, function) in [(trig.sin, 's', "sin"), (trig.cos, 'c', "cos")] {
-            if !taken {
-                continue;
-            }
+        for (name, is_sine) in taken(trig) {
+            let function = if is_sine { "sin" } else { "cos" };
             let value = match (&trig.kernel, code.library) {
                 (Some(kernel), _) => {
-                    let value = if name == 's' { kernel.sin } else { kernel.cos };
+                    let value = if is_sine { kernel.sin } else { kernel.cos };
                     value.map_or_else(String::new, |value| {
                         kernel_value(value, angle, &argument, dialect)
                     })
@@ -320,7 +326,18 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
                 (None, Library::Together) => format!("{pair}.{function}"),
                 (None, Library::Libm) => dialect.call("", function, &argument),
             };
-            line(&dialect.declare(&format!("{name}{angle}"), &value));
+            line(&dialect.declare(&name, &value));
+        }
+    }
+    if let Some(called) = &called {
+        for statement in called.lines(names) {
+            line(&statement);
+        }
+        for trig in code.trig.iter().filter(|trig| Called::is_of(trig)) {
+            for (name, is_sine) in taken(trig) {
+                let value = called.value(trig.angle, is_sine).unwrap_or_default();
+                line(&dialect.declare(&name, &value));
+            }
         }
     }
     speed::write(&mut text, dialect, code, "");
@@ -346,6 +363,16 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     }
     text.push_str("}\n");
     text
+}
+
+/// The names of what is taken of an angle, and whether each is its sine.
+fn taken(trig: &LoweredTrig) -> impl Iterator<Item = (String, bool)> {
+    let both = [
+        (trig.sin, format!("s{}", trig.angle), true),
+        (trig.cos, format!("c{}", trig.angle), false),
+    ];
+    let taken = both.into_iter().filter(|(is_taken, ..)| *is_taken);
+    taken.map(|(_, name, is_sine)| (name, is_sine))
 }
 
 fn kernel_lines<'k>(

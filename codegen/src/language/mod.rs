@@ -2,6 +2,7 @@
 //!
 //! - [`dialect`]: how a language writes a line, one table for printing and reading
 //! - [`c99`]: functions in C, and [`mod@cuda`] what CUDA has besides
+//! - [`called`]: sines in C that one call gives
 //! - [`columns`]: functions of any number of states in both
 //! - [`function`]: one program as one function
 //! - [`entries`]: more ways to call it, which share its arithmetic
@@ -14,6 +15,7 @@
 //! - [`read`]: the printed text, and whether it is the program
 
 pub(crate) mod c99;
+pub(crate) mod called;
 pub(crate) mod columns;
 pub(crate) mod cuda;
 pub(crate) mod dialect;

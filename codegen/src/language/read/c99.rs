@@ -4,8 +4,9 @@
 use super::block::{Block, output, trig};
 use super::entries::same;
 use super::reader::Reader;
-use super::{TextError, at, expect};
-use crate::language::c99::{FAR, Names, head, single, targets};
+use super::{TextError, at, expect, index_of};
+use crate::language::c99::{FAR, Names, float, head, single, targets};
+use crate::language::called::Called;
 use crate::language::columns::batch;
 use crate::language::dialect::holes;
 use crate::language::scope::Scope;
@@ -45,8 +46,11 @@ impl Lowered {
         let mut reader = CReader {
             reader: Reader::new(names.dialect()),
             names,
+            joints: printed.sizes.joints,
             far: FAR[usize::from(is_told)],
             block: None,
+            call: Vec::new(),
+            called: None,
         };
         let targets = targets(printed);
         let mut items = Vec::new();
@@ -68,6 +72,9 @@ impl Lowered {
                     same(&all, place, &text[start..])?;
                 }
                 return Ok(read);
+            }
+            if items.is_empty() && reader.call(line).map_err(at(number))? {
+                continue;
             }
             let mut unread = printed.arguments.iter();
             if items.is_empty() && unread.any(|a| line == format!("(void){};", a.name())) {
@@ -99,13 +106,74 @@ impl Lowered {
 struct CReader<'n> {
     reader: Reader<'n>,
     names: &'n Names,
+    /// How long `q` is.
+    joints: usize,
     /// The text about angles that are far.
     far: &'static str,
     /// The polynomials of the angle before.
     block: Option<Block>,
+    /// Lines of a call that gives all sines, and whose sines it gives once it is read.
+    call: Vec<String>,
+    called: Option<Called>,
 }
 
 impl CReader<'_> {
+    /// Takes a line of the call that gives all sines; whether it is one.
+    fn call(&mut self, line: &str) -> Result<bool, String> {
+        let float = float(self.reader.dialect.scalar);
+        let list = holes::<2>(&format!("const {float} angles[{{}}] = {{{{}}}};"), line);
+        let called = holes::<2>("{}({}, sines, cosines);", line);
+        if list.is_none() && called.is_none() && !line.starts_with(&format!("{float} ")) {
+            return Ok(false);
+        }
+        self.close();
+        self.call.push(line.to_owned());
+        if self.called.is_some() {
+            return Err(format!("`{line}` after the call"));
+        }
+        let Some([name, given]) = called else {
+            return Ok(true);
+        };
+        let count = name.strip_prefix(&self.names.of("sines_"));
+        let count = count.and_then(|count| count.parse::<usize>().ok());
+        let first = index_of(given, "&q").zip(count);
+        let first = first.filter(|(first, count)| first.saturating_add(*count) <= self.joints);
+        let called = match first {
+            Some((first, count)) => Called::from(first, count),
+            None => Called {
+                first: None,
+                angles: self.listed()?,
+            },
+        };
+        if self.call != called.lines(self.names) {
+            return Err(format!(
+                "`{line}` gives no sines of angles that stand there"
+            ));
+        }
+        self.reader.program.library = Library::Together;
+        self.called = Some(called);
+        Ok(true)
+    }
+
+    /// The angles of the list in the first line of the call: joints, and sums that lines before
+    /// formed.
+    fn listed(&mut self) -> Result<Vec<AngleSum>, String> {
+        let list = self.call.first().and_then(|line| line.split_once(" = {"));
+        let list = list.and_then(|(_, list)| list.strip_suffix("};"));
+        let words = list.unwrap_or_default().split(", ");
+        let (sums, joints) = (&mut self.reader.sums, self.joints);
+        let angles = words.map(|word| match index_of(word, "q") {
+            Some(joint) if joint < joints => Ok(AngleSum::joint(joint)),
+            _ => {
+                let angle = angle(word, 'a')?;
+                let place = sums.iter().position(|sum| *sum == angle);
+                let place = place.ok_or_else(|| format!("`{word}` is no angle"))?;
+                Ok(sums.remove(place))
+            }
+        });
+        angles.collect()
+    }
+
     fn declaration(&mut self, line: &str, declaration: &str) -> Result<(), String> {
         let [kind, function] = ["sincos_t", "sincos"].map(|word| self.names.of(word));
         if let Some(rest) = declaration.strip_prefix(&format!("{kind} ")) {
@@ -180,6 +248,16 @@ impl CReader<'_> {
         let last = self.reader.program.trig.last();
         let is_new = last.is_none_or(|last| last.angle != angle || last.kernel.is_some());
         match self.reader.program.library {
+            Library::Together if self.called.is_some() => {
+                let called = self.called.as_ref();
+                let expected = called.and_then(|called| called.value(angle, letter == 's'));
+                let expected = expected.ok_or_else(|| format!("`{value}` is of no call"))?;
+                expect(value, &expected)?;
+                if is_new {
+                    self.once(angle)?;
+                    self.reader.program.trig.push(trig(angle, false, false));
+                }
+            }
             Library::Together if is_new => return Err(format!("`{value}` is of no call")),
             Library::Together => expect(value, &format!("p{angle}.{function}"))?,
             Library::Libm => {
@@ -211,9 +289,14 @@ impl CReader<'_> {
         if angle.additions() > 0 && self.reader.sums.pop_if(|sum| *sum == angle).is_none() {
             return Err(format!("`{argument}` is no angle"));
         }
+        self.once(angle)
+    }
+
+    /// Refuses sines of an angle that has some.
+    fn once(&self, angle: AngleSum) -> Result<(), String> {
         let mut all = self.reader.program.trig.iter();
         match all.any(|trig| trig.angle == angle) {
-            true => Err(format!("sines of `{argument}` a second time")),
+            true => Err(format!("sines of `{angle}` a second time")),
             false => Ok(()),
         }
     }
@@ -226,6 +309,9 @@ impl CReader<'_> {
 
     fn finish(mut self, items: &[&str], targets: &[String]) -> Result<Lowered, String> {
         self.close();
+        if self.called.is_none() && !self.call.is_empty() {
+            return Err("the call that gives sines is missing".into());
+        }
         if items.len() != targets.len().max(1) {
             return Err(format!("{} results expected", targets.len().max(1)));
         }

@@ -1,0 +1,165 @@
+//! Sines and cosines in a header of C or CUDA, by the operations of the crate `dalembert-sines`.
+
+use std::collections::BTreeSet;
+
+use dalembert_sines::text::Angle;
+
+use crate::language::Printed;
+use crate::language::c99::{Names, float, largest};
+use crate::language::called::Called;
+use crate::program::kernel::{Kernel, Term};
+use crate::program::{Library, Literal, ScalarType};
+use crate::sincos::library_error::trace::trace;
+
+/// Writes what the functions call: of a number of angles each, a loop that compilers make vectors
+/// of; of one angle for functions that are called at many states.
+pub(super) fn write<'p>(
+    text: &mut String,
+    functions: impl Iterator<Item = Printed<'p>>,
+    names: &Names,
+    is_batch: bool,
+) {
+    let (mut counts, mut is_alone) = (BTreeSet::new(), false);
+    for printed in functions {
+        match Called::of(printed.code, printed.sizes.joints, names, is_batch) {
+            Some(called) => _ = counts.insert(called.angles.len()),
+            None => is_alone |= printed.code.library == Library::Together,
+        }
+    }
+    let words = Words::of(names);
+    if is_alone {
+        text.push_str(&words.one(names));
+    }
+    for count in counts {
+        text.push_str(&words.several(names, count));
+    }
+}
+
+/// The parts of both texts.
+struct Words {
+    float: &'static str,
+    /// What a function begins with.
+    inline: &'static str,
+    /// How the C library's functions end.
+    f: &'static str,
+    /// Up to there the C library is not needed.
+    largest: String,
+    /// The operations from `x0` on, and their results.
+    steps: Vec<String>,
+    sine: String,
+    cosine: String,
+}
+
+impl Words {
+    fn of(names: &Names) -> Words {
+        let dialect = names.dialect();
+        let kernel: Kernel = trace(dialect.scalar);
+        let term = |term: Term| match term {
+            Term::Input(_) => "x0".to_owned(),
+            Term::Constant(value) => dialect.literal(value),
+            Term::Step(step) => format!("x{}", step + 1),
+        };
+        let steps = kernel.steps.iter().enumerate().map(|(index, step)| {
+            let (left, right) = (term(step.left), term(step.right));
+            let value = dialect.operation(step.operation, &left, &right);
+            dialect.declare(&format!("x{}", index + 1), &value)
+        });
+        let [sine, cosine] =
+            [kernel.sin, kernel.cos].map(|value| value.map_or_else(String::new, |v| term(v.value)));
+        Words {
+            float: float(dialect.scalar),
+            inline: dialect.function,
+            f: dialect.scalar.math_suffix(),
+            largest: dialect.literal(Literal(largest(dialect.scalar))),
+            steps: steps.collect(),
+            sine,
+            cosine,
+        }
+    }
+
+    /// The operations, so far from the margin.
+    fn steps(&self, margin: &str) -> String {
+        let lines = self.steps.iter().map(|line| format!("{margin}{line}\n"));
+        lines.collect()
+    }
+
+    /// The function of several angles. Its loop has no branch and no integer, of which gcc makes
+    /// vectors for every processor; clang keeps results in memory if it is not inlined, which is
+    /// shorter than taking vectors apart.
+    fn several(&self, names: &Names, count: usize) -> String {
+        let Words {
+            float,
+            inline,
+            f,
+            largest,
+            sine,
+            cosine,
+            ..
+        } = self;
+        let dialect = names.dialect();
+        let [one, four, fourth] = [1.0, 4.0, 0.25].map(|value| dialect.literal(Literal(value)));
+        let shift = dialect.literal(Literal(match dialect.scalar {
+            ScalarType::F64 => f64::SHIFT,
+            ScalarType::F32 => f64::from(f32::SHIFT),
+        }));
+        let (restrict, unfused) = (names.constant("RESTRICT"), names.constant("UNFUSED"));
+        let (name, steps) = (Called::name(count, names), self.steps("        "));
+        let angles = if count == 1 { "angle" } else { "angles" };
+        format!(
+            "\n/*\n * Sines and cosines of {count} {angles}, each within one ulp: to {largest} rad the operations of the\n \
+             * Rust crate dalembert-sines, to the same bits; beyond, and for what is no number, the C\n \
+             * library's.\n */\n\
+             #if defined(__clang__)\n__attribute__((noinline))\n#endif\n\
+             {inline} void {name}(const {float} angle[{restrict} {count}], \
+             {float} sine[{restrict} {count}], {float} cosine[{restrict} {count}])\n{{\n    {unfused}\n    \
+             int i;\n    for (i = 0; i < {count}; ++i) {{\n        \
+             const {float} x0 = angle[i];\n{steps}        \
+             /* x3 counts the quarter turns: turns is what a multiple of four leaves, -2 to 2. */\n        \
+             const {float} whole = ((x3 * {fourth}) + {shift}) - {shift};\n        \
+             const {float} turns = x3 - (whole * {four});\n        \
+             const {float} square = turns * turns;\n        \
+             /* An odd one exchanges sine and cosine. */\n        \
+             const {float} one = (square == {one}) ? {cosine} : {sine};\n        \
+             const {float} other = (square == {one}) ? {sine} : {cosine};\n        \
+             sine[i] = (turns >= square) ? one : -one;\n        \
+             cosine[i] = (-turns >= square) ? other : -other;\n    }}\n    \
+             for (i = 0; i < {count}; ++i) {{\n        \
+             if (!(fabs{f}(angle[i]) <= {largest})) {{\n            \
+             sine[i] = sin{f}(angle[i]);\n            cosine[i] = cos{f}(angle[i]);\n        }}\n    }}\n}}\n"
+        )
+    }
+
+    /// The function of one angle, which is told whether it may be far.
+    fn one(&self, names: &Names) -> String {
+        let Words {
+            float,
+            inline,
+            f,
+            largest,
+            sine,
+            cosine,
+            ..
+        } = self;
+        let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
+        let zero = names.dialect().literal(Literal(0.0));
+        let (unfused, steps) = (names.constant("UNFUSED"), self.steps("    "));
+        format!(
+            "\n/* The sine and the cosine of an angle. */\n\
+             typedef struct {{\n    {float} sin;\n    {float} cos;\n}} {kind};\n\n\
+             /*\n * Sine and cosine, each within one ulp: to {largest} rad the operations of the Rust crate\n \
+             * dalembert-sines, to the same bits; beyond, and for what is no\n * number, the C library's, where angles may be far.\n */\n\
+             {inline} {kind} {function}(const int far, const {float} angle)\n{{\n    {unfused}\n    \
+             const {float} x0 = (fabs{f}(angle) <= {largest}) ? angle : {zero};\n{steps}    \
+             /* x3 counts the quarter turns: an odd one exchanges sine and cosine. */\n    \
+             const unsigned int turns = (unsigned int)(int)x3;\n    \
+             const {float} one = ((turns & 1U) == 0U) ? {sine} : {cosine};\n    \
+             const {float} other = ((turns & 1U) == 0U) ? {cosine} : {sine};\n    \
+             {kind} pair;\n    \
+             pair.sin = ((turns & 2U) == 0U) ? one : -one;\n    \
+             pair.cos = (((turns + 1U) & 2U) == 0U) ? other : -other;\n    \
+             if ((far != 0) && !(fabs{f}(angle) <= {largest})) {{\n        \
+             pair.sin = sin{f}(angle);\n        pair.cos = cos{f}(angle);\n    }}\n    \
+             return pair;\n}}\n"
+        )
+    }
+}

@@ -1,0 +1,115 @@
+//! Sines by the crate's algorithm in C: one call gives those of all angles, by a loop that
+//! compilers make vectors of.
+//!
+//! ```text
+//! const double a2p3 = q[1] + q[2];
+//! const double angles[2] = {q[0], a2p3};
+//! double sines[2];
+//! double cosines[2];
+//! arm_sines_2(angles, sines, cosines);
+//! const double s1 = sines[0];
+//! ```
+
+use super::Language;
+use super::c99::{Names, float};
+use super::scope::Scope;
+use crate::program::{AngleSum, Library, Lowered, LoweredTrig};
+
+/// The angles of a call, in the order of their sines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Called {
+    /// The first, where they are positions of neighbouring joints, as they stand in `q`.
+    pub(super) first: Option<usize>,
+    pub(crate) angles: Vec<AngleSum>,
+}
+
+impl Called {
+    /// Returns the call of a function, if it has one. In CUDA, and in a function that batches
+    /// call, vectors are made of states, and each angle has a call of its own.
+    pub(crate) fn of(
+        code: &Lowered,
+        joints: usize,
+        names: &Names,
+        is_told: bool,
+    ) -> Option<Called> {
+        let has_call = code.library == Library::Together && names.language() == Language::C;
+        let called = code.trig.iter().filter(|trig| Called::is_of(trig));
+        let angles: Vec<AngleSum> = called.map(|trig| trig.angle).collect();
+        if is_told || !has_call || angles.is_empty() {
+            return None;
+        }
+        Some(Called::neighbours(&angles, joints).unwrap_or(Called {
+            first: None,
+            angles,
+        }))
+    }
+
+    /// Returns whether an angle's sines are not polynomials of its own.
+    pub(super) fn is_of(trig: &LoweredTrig) -> bool {
+        trig.kernel.is_none()
+    }
+
+    /// The angles of neighbouring joints: an even number, if that takes one joint more at the most,
+    /// since vectors hold two or four.
+    fn neighbours(angles: &[AngleSum], joints: usize) -> Option<Called> {
+        let joint = |angle: &AngleSum| match angle.additions() {
+            0 => Some(angle.terms().next()?.0),
+            _ => None,
+        };
+        let own: Option<Vec<usize>> = angles.iter().map(joint).collect();
+        let own = own?;
+        let (mut first, mut last) = (*own.iter().min()?, *own.iter().max()?);
+        let is_odd = |count: usize| count > 1 && count % 2 == 1;
+        if own.len() == last + 1 - first && is_odd(own.len()) {
+            match first {
+                0 => last = (last + 1).min(joints - 1),
+                _ => first -= 1,
+            }
+        }
+        let count = last + 1 - first;
+        let is_near = count == own.len() || count == own.len() + 1 && is_odd(own.len());
+        is_near.then(|| Called::from(first, count))
+    }
+
+    /// So many joints from one on.
+    pub(super) fn from(first: usize, count: usize) -> Called {
+        Called {
+            first: Some(first),
+            angles: (first..first + count).map(AngleSum::joint).collect(),
+        }
+    }
+
+    /// Returns the name of the function that is called.
+    pub(crate) fn name(count: usize, names: &Names) -> String {
+        names.of(&format!("sines_{count}"))
+    }
+
+    /// The lines of the call.
+    pub(super) fn lines(&self, names: &Names) -> Vec<String> {
+        let (float, count) = (float(names.dialect().scalar), self.angles.len());
+        let mut lines = Vec::new();
+        let given = match self.first {
+            Some(joint) => format!("&q[{joint}]"),
+            None => {
+                let angles = self.angles.iter().map(|&angle| Scope::STATE.angle(angle));
+                let angles: Vec<String> = angles.collect();
+                lines.push(format!(
+                    "const {float} angles[{count}] = {{{}}};",
+                    angles.join(", ")
+                ));
+                "angles".to_owned()
+            }
+        };
+        lines.extend(["sines", "cosines"].map(|array| format!("{float} {array}[{count}];")));
+        let name = Called::name(count, names);
+        lines.push(format!("{name}({given}, sines, cosines);"));
+        lines
+    }
+
+    /// Returns what stands for the sine, or else the cosine, of one of the angles.
+    pub(super) fn value(&self, angle: AngleSum, is_sine: bool) -> Option<String> {
+        let place = self.angles.iter().position(|own| *own == angle)?;
+        let array = if is_sine { "sines" } else { "cosines" };
+        Some(format!("{array}[{place}]"))
+    }
+}
