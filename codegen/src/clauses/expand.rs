@@ -240,6 +240,7 @@ fn functions(
                 ) => Some(*function),
                 GenerateError::Parameter(_) => None,
                 GenerateError::Constant { function, .. }
+                | GenerateError::Frame { function, .. }
                 | GenerateError::Contradicted { function, .. }
                 | GenerateError::Singular { function, .. }
                 | GenerateError::TooLarge { function, .. }

@@ -1,5 +1,5 @@
-//! Lists of words, and of outputs, where a bundle is an item too:
-//! `gravity, servo = inverse_dynamics + jacobian`.
+//! Lists of words, and of outputs, where one at a frame and a bundle are items too:
+//! `gravity, jacobian @ camera : local, servo = inverse_dynamics + jacobian`.
 
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens;
@@ -35,7 +35,7 @@ pub(super) fn outputs(value: &[TokenTree], errors: &mut Errors) -> Vec<(Function
     read::<Function, Function>(value, errors, |item, before, errors| {
         match item.iter().any(sign) {
             true => bundle(item, before, errors),
-            false => meant(item, errors),
+            false => output(item, errors),
         }
     })
 }
@@ -99,6 +99,22 @@ fn meant<W: Word>(item: &[TokenTree], errors: &mut Errors) -> Option<W> {
     }
 }
 
+/// An output by its word, or one at a frame.
+fn output(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
+    let sign = |tree: &TokenTree| is_punct(tree, '@') || is_punct(tree, ':');
+    if !item.iter().any(sign) {
+        return meant(item, errors);
+    }
+    let text: String = item.iter().map(TokenTree::to_string).collect();
+    match Function::parse(&text) {
+        Ok(output) => Some(output),
+        Err(error) => {
+            errors.say(tokens(item), &error.message(), &for_bundle(&error));
+            None
+        }
+    }
+}
+
 /// `name = output + output`
 fn bundle(
     item: &[TokenTree],
@@ -128,6 +144,9 @@ fn bundle(
                 }
             }
             [TokenTree::Ident(_)] => read.extend(meant(part, errors).map(|output| (output, part))),
+            [TokenTree::Ident(_), at, ..] if is_punct(at, '@') || is_punct(at, ':') => {
+                read.extend(output(part, errors).map(|output| (output, part)));
+            }
             [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_PLUS),
             [] => errors.push(tokens(item), &m::NO_PART),
             _ => errors.push(tokens(part), &m::NO_PART),

@@ -7,7 +7,7 @@
 //! - [`early`]: a search that was ended early, and what programs are compared by
 //! - `anew`: plans of a robot or a scene that was edited since
 //! - `contradiction`: what was proved, tried
-//! - [`parameters`]: which parameters can be arguments
+//! - [`parameters`]: which parameters can be arguments; `frames`: which frames there are
 //! - [`language`]: what a language lacks
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated; [`reason`]: what it says of that
@@ -16,6 +16,7 @@ mod anew;
 mod contradiction;
 pub(crate) mod early;
 pub(crate) mod error;
+mod frames;
 pub(crate) mod in_scene;
 pub(crate) mod keep;
 pub(crate) mod language;
@@ -94,6 +95,9 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         if let Some(&other) = others.find(|other| function.is_namesake(**other)) {
             return Err(GenerateError::Namesakes(other, function));
         }
+    }
+    for &function in &functions {
+        frames::check(robot, function)?;
     }
     language::check(robot, request, &functions)
         .map_err(|why| GenerateError::Language(request.language, why))?;
