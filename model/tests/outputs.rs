@@ -45,7 +45,7 @@ const GOLDEN: [&str; 33] = [
     "contact_wrench(q, tau, damping) -> contact_wrench[6]",
     "operational_inertia_inverse(q) -> operational_inertia_inverse[6][6]",
     "operational_inertia(q, damping) -> operational_inertia[6][6]",
-    "dynamically_consistent_inverse(q, damping) -> consistent_inverse[6][6]",
+    "consistent_inverse(q, damping) -> consistent_inverse[6][6]",
     "operational_bias(q, qd, damping) -> operational_bias[6]",
     "null_space_projector(q, damping) -> null_space[6][6]",
 ];
@@ -563,7 +563,7 @@ fn operational_space_fits_together() {
             let (j, rate) = (of("jacobian"), of("jacobian_rate"));
             let mobility = of("operational_inertia_inverse");
             let inertia = of("operational_inertia");
-            let inverse = of("dynamically_consistent_inverse");
+            let inverse = of("consistent_inverse");
             let d_inv = at_frame("inertia_inverse", &arm, &case, &motion);
             let transposed: Vec<Field> = (0..n * m).map(|at| j[at % m * n + at / m]).collect();
             let reached = matrix_product(&d_inv, &transposed, n);

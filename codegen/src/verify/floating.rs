@@ -69,8 +69,9 @@ impl Measure {
 }
 
 /// The factors by which the results at a state may err more than others: for what inverts D, the
-/// condition of D over the joints that move, and for what inverts another matrix that of this,
-/// each with a unit diagonal. Units and sizes of the joints are taken out and excuse nothing.
+/// condition of D over the joints that move, with a unit diagonal, so that units and sizes of the
+/// joints are taken out and excuse nothing; for what inverts a matrix over components of the hand's
+/// velocity, the condition of this as it stands, since its entries are added to one λ².
 #[derive(Clone, Debug)]
 pub struct Granted(Vec<(Quantity, f64)>);
 
@@ -145,16 +146,17 @@ impl Runtime {
         let mut conditions = lengths.iter().map(|length| {
             let (own, others) = rest.split_at((*length).min(rest.len()));
             rest = others;
-            match own {
-                [] => 1.0,
-                own => Condition::of(own, f64::EPSILON / 2.0).scaled.max(1.0),
-            }
+            (!own.is_empty()).then(|| Condition::of(own, f64::EPSILON / 2.0))
         });
-        let of_inertia = conditions.next().unwrap_or(1.0);
+        let of_inertia = conditions.next().flatten();
+        let of_inertia = of_inertia.map_or(1.0, |condition| condition.scaled.max(1.0));
         let quantities = function.quantities().iter().zip(conditions);
-        let factors = quantities.map(|(quantity, own)| match quantity.inverts_inertia() {
-            true => (*quantity, of_inertia * own),
-            false => (*quantity, own),
+        let factors = quantities.map(|(quantity, own)| {
+            let own = own.map_or(1.0, |condition| condition.raw.max(1.0));
+            match quantity.inverts_inertia() {
+                true => (*quantity, of_inertia * own),
+                false => (*quantity, own),
+            }
         });
         Granted(factors.collect())
     }

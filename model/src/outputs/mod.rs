@@ -27,12 +27,12 @@ mod registry;
 mod runtime;
 mod shape;
 
+mod consistent_inverse;
 mod contact_wrench;
 mod coriolis;
 mod coriolis_matrix;
 mod dalembert_terms;
 mod dynamic_coefficients;
-mod dynamically_consistent_inverse;
 mod forward_dynamics;
 mod forward_dynamics_derivatives;
 mod forward_dynamics_with_wrench;
@@ -139,7 +139,7 @@ registry! {
     /// Λ: the inertia of the hand.
     operational_inertia: OperationalInertia { OperationalInertia }
     /// J̄ = D⁻¹ Jᵀ Λ.
-    dynamically_consistent_inverse: DynamicallyConsistentInverse { ConsistentInverse }
+    consistent_inverse: ConsistentInverse { ConsistentInverse }
     /// μ = Λ (J D⁻¹ (h + c) − J̇ q̇).
     operational_bias: OperationalBias { OperationalBias }
     /// N = 1 − J̄ J.

@@ -40,7 +40,7 @@ pub use placement::Placement;
 pub use warning::RobotWarning;
 
 pub use validate::suggested_name;
-pub use write::write;
+pub use write::{write, write_frame};
 
 /// Which of the two DH conventions the table is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -12,7 +12,7 @@ use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
-    name: "dynamically_consistent_inverse",
+    name: "consistent_inverse",
     summary: "Dynamically consistent inverse of the Jacobian: J̄ = D⁻¹ Jᵀ Λ, n×6.",
     results: &[Quantity::ConsistentInverse],
     structure: None,
@@ -36,7 +36,7 @@ impl Formula for ConsistentInverse {
             [Index::Sliding, Index::Fixed(3..)] => "m",
             _ => "1",
         },
-        given: Some("dynamically_consistent_inverse"),
+        given: Some("consistent_inverse"),
         choices: Some(OF_FACTORS),
         depends_on_base: true,
         payload_dependence: PayloadDependence::Torque,
