@@ -198,12 +198,12 @@ fn frames_that_cannot_be_are_refused_where_they_stand() {
     for (more, message, help) in [
         (
             frame("\"camera\"", "3"),
-            "there is no link \"3\"",
+            "there is no link `3`",
             "joints are counted from 1 to 2",
         ),
         (
             frame("\"camera\"", "\"wrist\""),
-            "there is no link \"wrist\"",
+            "there is no link `wrist`",
             "count them from 1 to 2",
         ),
         (
@@ -243,7 +243,7 @@ fn frames_that_cannot_be_are_refused_where_they_stand() {
         ),
         (
             frame("\"a\"", "1") + "xzy = [0, 0, 0]\n",
-            "unknown key \"xzy\"",
+            "unknown key `xzy`",
             "did you mean `xyz`?",
         ),
         (

@@ -4,7 +4,7 @@ use collision::{Push, THRESHOLD, simulate};
 
 const PUSH: Push = Push {
     during: [1.0, 2.0],
-    wrench: [20.0, -15.0, 10.0, 1.0, 0.5, -2.0],
+    wrench: [20.0, -15.0, 10.0, 0.1, 0.05, -0.02],
 };
 
 #[test]
