@@ -159,7 +159,7 @@ fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> Stri
             [function] => f.function == *function,
             parts => f.function.parts() == parts,
         };
-        let counts = all[*robot].iter().find(is_it).unwrap().counts;
+        let counts = all[*robot].iter().find(is_it).unwrap().counts();
         row += &match counts.div {
             0 => format!(" **{}/{}** |", counts.mul, counts.add),
             div => format!(" **{}/{}**, {div} |", counts.mul, counts.add),

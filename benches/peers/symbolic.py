@@ -263,3 +263,86 @@ class Chain:
             tries.append(made(name, given, *(-(inverse @ s) for s in slopes), inverse))
         result[name] = best(*tries)
         return result
+
+    def hand(self):
+        """The last frame: its Jacobian in base axes, linear over angular, by axes and levers."""
+        r, origin, axes = ca.SX.eye(3), ca.SX(3, 1), []
+        for i in range(self.n):
+            origin = origin + r @ self.offset[i]
+            r = r @ self.rotation[i]
+            axes.append((r[:, 2], origin))
+        column = [
+            ca.vertcat(z, ca.SX(3, 1))
+            if self.arm.prismatic[i]
+            else ca.vertcat(cross(z, origin - p), z)
+            for i, (z, p) in enumerate(axes)
+        ]
+        return ca.horzcat(*column)
+
+    def solved(self, matrix, *columns):
+        """matrix X = columns, by LDLᵀ without exchanges, which is positive definite."""
+        n = matrix.shape[0]
+        a = [[matrix[i, j] for j in range(n)] for i in range(n)]
+        low, inverse = [[0] * n for _ in range(n)], [None] * n
+        for k in range(n):
+            inverse[k] = 1 / a[k][k]
+            for i in range(k + 1, n):
+                low[i][k] = a[i][k] * inverse[k]
+            for i in range(k + 1, n):
+                for j in range(k + 1, i + 1):
+                    a[i][j] = a[i][j] - low[i][k] * a[j][k]
+                    a[j][i] = a[i][j]
+        result = []
+        for b in columns:
+            x = [b[i] for i in range(n)]
+            for k in range(n):
+                for i in range(k):
+                    x[k] = x[k] - low[k][i] * x[i]
+            for k in reversed(range(n)):
+                x[k] = x[k] * inverse[k]
+                for i in range(k + 1, n):
+                    x[k] = x[k] - low[i][k] * x[i]
+            result.append(ca.vertcat(*x))
+        return ca.horzcat(*result)
+
+    def operational(self):
+        """name → function of the hand's dynamics, from D of fewest operations."""
+        q, qd, damping = self.q, self.qd, ca.SX.sym("damping")
+        zero, g = ca.SX(self.n, 1), self.arm.gravity
+        ways = (None, self.arm.about_origins(), self.arm.regrouped())
+        d = self.composite(ways[2])
+        j = self.hand()
+        rate = ca.jtimes(j @ qd, q, qd)
+        loads = [self.newton_euler(qd, zero, g, way) for way in ways]
+        driven = ca.horzcat(*(self.factored(d, j[k, :].T) for k in range(6)))
+        mobility = j @ driven
+        damped = mobility + damping * ca.SX.eye(6)
+        unit = ca.SX.eye(6)
+        inertia = self.solved(damped, *(unit[:, k] for k in range(6)))
+        by_inertia = driven @ inertia
+        by_solving = self.solved(damped, *(driven[k, :].T for k in range(self.n))).T
+        with_damping, still = [q, damping], [q, qd, damping]
+        one = ca.SX.eye(self.n)
+        bias = []
+        for load in loads:
+            for falling in (driven.T @ load, j @ self.factored(d, load)):
+                bias.append(self.solved(damped, falling - rate))
+                bias.append(inertia @ (falling - rate))
+        return {
+            "operational_inertia_inverse": made("a", [q], mobility),
+            "operational_inertia": made("a", with_damping, inertia),
+            "consistent_inverse": best(
+                *(made("a", with_damping, x) for x in (by_inertia, by_solving))
+            ),
+            "operational_bias": best(*(made("a", still, x) for x in bias)),
+            "null_space_projector": best(
+                *(made("a", with_damping, one - x @ j) for x in (by_inertia, by_solving))
+            ),
+            "task": best(
+                *(
+                    made("a", still, inertia, x, y, one - x @ j)
+                    for x in (by_inertia, by_solving)
+                    for y in bias
+                )
+            ),
+        }

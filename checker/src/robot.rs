@@ -20,7 +20,7 @@ pub(crate) struct File<S> {
     pub(crate) payload_frame: Option<Placement>,
     #[serde(default = "BTreeMap::new")]
     pub(crate) scene: BTreeMap<String, S>,
-    /// These, and the frame of the hand, move nothing.
+    /// These, and the frames that are fixed to links, move nothing.
     #[serde(rename = "name")]
     _name: IgnoredAny,
     #[serde(rename = "allow")]
@@ -29,6 +29,8 @@ pub(crate) struct File<S> {
     _outputs: Option<IgnoredAny>,
     #[serde(rename = "tool")]
     _tool: Option<IgnoredAny>,
+    #[serde(rename = "frame")]
+    _frames: Option<IgnoredAny>,
 }
 
 #[derive(Clone, Copy, PartialEq, Deserialize)]
@@ -105,6 +107,8 @@ pub(crate) struct Row {
     #[serde(rename = "coulomb_width")]
     _width: IgnoredAny,
     armature: Literal,
+    #[serde(rename = "frame")]
+    _frame: IgnoredAny,
     pub(crate) limits: Limits,
 }
 

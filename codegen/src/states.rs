@@ -1,12 +1,12 @@
 //! Seeded joint states inside a robot's limits.
 
 use dalembert_model::number::Rounded;
-use dalembert_model::outputs::Argument;
+use dalembert_model::outputs::{Argument, Sizes};
 use dalembert_model::robot::{Field, Joint, JointKind, Position, Robot};
 
 use crate::random::Random;
 
-/// One value a joint, but for the last three.
+/// One value a joint, but for the last five.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct JointState {
     /// Positions, rad or m.
@@ -21,6 +21,10 @@ pub struct JointState {
     pub v: Vec<f64>,
     /// Accelerations wished for.
     pub a: Vec<f64>,
+    /// Force over moment that act on the hand.
+    pub wrench: Vec<f64>,
+    /// λ², one number.
+    pub damping: Vec<f64>,
     /// The acceleration of gravity in base axes, where it is an argument.
     pub g: Vec<f64>,
     /// The load that the payload is, where it is an argument.
@@ -48,6 +52,8 @@ impl JointState {
             Argument::Torque => &self.tau,
             Argument::ReferenceVelocity => &self.v,
             Argument::ReferenceAcceleration => &self.a,
+            Argument::Wrench => &self.wrench,
+            Argument::Damping => &self.damping,
             Argument::Gravity => &self.g,
             Argument::Load => &self.load,
             Argument::Payload => &self.payload,
@@ -76,6 +82,8 @@ impl JointState {
             Argument::Torque => &mut self.tau,
             Argument::ReferenceVelocity => &mut self.v,
             Argument::ReferenceAcceleration => &mut self.a,
+            Argument::Wrench => &mut self.wrench,
+            Argument::Damping => &mut self.damping,
             Argument::Gravity => &mut self.g,
             Argument::Load => &mut self.load,
             Argument::Payload => &mut self.payload,
@@ -112,6 +120,15 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
                     state.of_mut(argument).push(entry);
                 }
             }
+        }
+    }
+    for argument in [Argument::Wrench, Argument::Damping] {
+        let mut random = Random::new(seed ^ OTHERS ^ argument.index() as u64);
+        let (low, high) = (argument.least(), argument.reach());
+        for state in &mut states {
+            let length = argument.length(Sizes::whole(ranges.len()));
+            let entries = (0..length).map(|_| low + (high - low) * random.unit());
+            *state.of_mut(argument) = entries.collect();
         }
     }
     states

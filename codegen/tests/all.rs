@@ -19,6 +19,7 @@ mod cuda;
 mod entries;
 mod extremes;
 mod floating;
+mod frames;
 mod fused;
 mod fuzz_tokens;
 mod fuzz_verified;

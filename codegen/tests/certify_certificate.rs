@@ -83,7 +83,7 @@ fn case(tolerance: f64) -> Case {
         edits: Vec::new(),
     };
     let graph = whole.edited(Folding::Syntactic);
-    let scales = magnitudes(&graph, &limits, &[1.0; 3], 0.0, BoxEffort::QUICK);
+    let scales = magnitudes(&graph, &limits, &[1.0; 3], BoxEffort::QUICK);
     let allowances: Vec<f64> = scales.iter().map(|t| t * tolerance).collect();
     let pruned = prune(&program, &limits, &allowances, &settings());
     Case {
@@ -240,7 +240,7 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
             boxes: 40_000,
             points,
         };
-        magnitudes(&graph, limits, &case.scales, 0.0, budget)
+        magnitudes(&graph, limits, &case.scales, budget)
     };
     let seen = falsify(&case.certificate(ScalarType::F64), 2000, 3, 5).unwrap();
     // The whole circle, and a part of it.

@@ -33,6 +33,10 @@
 //! hangs on the base, which feels nothing of it. Joints that mimic others, planar and
 //! floating ones are refused where they would move.
 //!
+//! Every link that moves is a frame of the robot file by its name, so outputs can be had
+//! at any of them (`jacobian@tool0`). A name that cannot be a function's is written in small
+//! letters, digits and `_`, with the link's own in a comment.
+//!
 //! Gravity is 9.81 m/s² against the z axis of the base's link: a URDF does not say.
 //!
 //! Of an MJCF: bodies with their joints, hinges and slides, several to a body, frames and

@@ -19,6 +19,18 @@ use crate::urdf::{Inertial, Joint, Role, Urdf};
 pub(crate) struct Arm {
     pub(crate) links: Vec<Link>,
     pub(crate) tool: Placement,
+    /// Every link that moves, in the frame of the joint that moves it.
+    pub(crate) frames: Vec<Frame>,
+}
+
+/// The frame of a link of the URDF.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    /// The link, by its place in the URDF.
+    pub(crate) link: usize,
+    /// The joint of the chain that moves it, from zero.
+    pub(crate) joint: usize,
+    pub(crate) placement: Placement,
 }
 
 /// A joint, and all that is fixed to it as one body.
@@ -71,9 +83,20 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
     };
     let empty = empty.filter(is_body);
     without_mass(urdf, &empty.collect::<Vec<_>>(), problems);
+    let frames = chain.moving.iter().enumerate().flat_map(|(joint, moving)| {
+        let size = &size;
+        moving.links.iter().map(move |(link, steps)| {
+            Some(Frame {
+                link: *link,
+                joint,
+                placement: placement(&way(urdf, steps)?, size),
+            })
+        })
+    });
     Some(Arm {
         links,
         tool: placement(&way(urdf, &chain.tool)?, &size),
+        frames: frames.collect::<Option<_>>()?,
     })
 }
 

@@ -1,9 +1,12 @@
 //! The robot file of a chain.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use dalembert_model::equations::frames::HAND;
+use dalembert_model::outputs::is_frame_name;
 use dalembert_model::robot::values::{list, number, placement, position, quoted};
-use dalembert_model::robot::{Placement, Position, suggested_name};
+use dalembert_model::robot::{Placement, Position, Robot, suggested_name, write_frame};
 use num_traits::{Signed, Zero};
 
 use crate::Options;
@@ -94,7 +97,39 @@ pub(crate) fn file(
         joint(&mut text, own, link, &mut left_out);
     }
     left_out.say(problems);
+    frames(&mut text, urdf, arm);
     text
+}
+
+/// Writes the frame of every link that moves, by its name or, where that cannot name a
+/// frame, by one that is like it.
+fn frames(text: &mut String, urdf: &Urdf, arm: &Arm) {
+    let mut taken = BTreeSet::from([HAND.to_owned()]);
+    for frame in arm.frames.iter().take(Robot::MAX_FRAMES) {
+        let own = urdf.links[frame.link].name.as_str();
+        let Some(name) = frame_name(own, &taken) else {
+            continue;
+        };
+        text.push('\n');
+        if name != own {
+            comment(text, &format!("Link {own}."));
+        }
+        text.push_str("[[frame]]\n");
+        line(text, "name", &quoted(&name));
+        line(text, "link", &(frame.joint + 1).to_string());
+        write_frame(text, &as_read(&frame.placement));
+        taken.insert(name);
+    }
+}
+
+/// A name of a frame that is none of these yet; none where nothing is left of the link's.
+fn frame_name(own: &str, taken: &BTreeSet<String>) -> Option<String> {
+    let words = suggested_name(own)?;
+    let words = words.split('_').filter(|word| !word.is_empty());
+    let name = words.collect::<Vec<_>>().join("_");
+    let numbered = (2..=taken.len() + 2).map(|number| format!("{name}_{number}"));
+    let mut names = [name.clone()].into_iter().chain(numbered);
+    names.find(|name| !taken.contains(name) && is_frame_name(name))
 }
 
 /// Returns what a joint is called in the robot file: not by another one's number.

@@ -17,7 +17,7 @@ use crate::equations::matrix::{Columns, zeros};
 use crate::equations::regressor::{Column, of_links};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
 use crate::number::{Exact, Rounded};
-use crate::outputs::{Argument, Axis, Motion, Quantity, Written};
+use crate::outputs::{Argument, Axis, Motion, Quantity, Sizes, Written};
 use crate::robot::{JointKind, Robot};
 use crate::scalar::Divide;
 
@@ -95,13 +95,17 @@ pub struct JointVectors<T> {
     pub v: DVector<T>,
     /// Accelerations wished for.
     pub a: DVector<T>,
+    /// Force over moment that act on the hand; none where nothing reads it.
+    pub wrench: DVector<T>,
+    /// λ², one number; none where nothing reads it.
+    pub damping: DVector<T>,
     /// The columns of a regressor; none where it is not asked for.
     pub columns: Vec<Column<T>>,
     /// The payload at the hand, where a load is asked for.
     pub loading: Option<Loading<T>>,
 }
 
-impl<T> JointVectors<T> {
+impl<T: Float> JointVectors<T> {
     /// From the entries of each argument, in the order of signatures: q, q̇, q̈,
     /// τ, v and a; of those that nothing reads none.
     pub fn new([q, qd, qdd, tau, v, a]: [DVector<T>; 6]) -> Self {
@@ -112,24 +116,38 @@ impl<T> JointVectors<T> {
             tau,
             v,
             a,
+            wrench: none(),
+            damping: none(),
             columns: Vec::new(),
             loading: None,
         }
     }
 
-    /// The vectors in the order of signatures.
-    fn vectors(&self) -> [&DVector<T>; 6] {
-        [&self.q, &self.qd, &self.qdd, &self.tau, &self.v, &self.a]
+    /// The vector of an argument; none of gravity and payloads, which the arm has.
+    fn of(&self, argument: Argument) -> Option<&DVector<T>> {
+        Some(match argument {
+            Argument::Position => &self.q,
+            Argument::Velocity => &self.qd,
+            Argument::Acceleration => &self.qdd,
+            Argument::Torque => &self.tau,
+            Argument::ReferenceVelocity => &self.v,
+            Argument::ReferenceAcceleration => &self.a,
+            Argument::Wrench => &self.wrench,
+            Argument::Damping => &self.damping,
+            Argument::Gravity | Argument::Load | Argument::Payload => return None,
+        })
     }
-}
 
-impl<T: Float> JointVectors<T> {
     /// At these positions, without a motion.
     fn at(q: &DVector<T>) -> Self {
-        let mut all = [(); 6].map(|()| DVector::from_vec(Vec::new()));
+        let mut all = [(); 6].map(|()| none());
         all[Argument::Position.index()] = q.clone();
         JointVectors::new(all)
     }
+}
+
+fn none<T: Float>() -> DVector<T> {
+    DVector::from_vec(Vec::new())
 }
 
 /// The dynamics of one arm in floating point.
@@ -140,6 +158,7 @@ impl<T: Float> JointVectors<T> {
 /// spread to the outputs.
 ///
 /// ```
+/// use dalembert_model::equations::frames::Frames;
 /// use dalembert_model::equations::friction::Friction;
 /// use dalembert_model::equations::{Arm, Link, SinCosPair};
 /// use dalembert_model::reference::Reference;
@@ -166,6 +185,7 @@ impl<T: Float> JointVectors<T> {
 ///         friction: Friction { viscous: 0.1, coulomb: None },
 ///         armature: 0.0,
 ///     }],
+///     frames: Frames::default(),
 /// };
 /// let pendulum = Reference::new(arm);
 /// let [q, qd, qdd] = [0.0, 2.0, 4.0].map(|x| DVector::from_element(1, x));
@@ -220,11 +240,13 @@ impl<T: Float> Reference<T> {
     /// A vector that the quantity depends on has another length than the arm has joints.
     pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, WrongLength> {
         let q = self.positions(self.values(Argument::Position, &at.q)?);
-        let mut given = Vec::with_capacity(Argument::JOINTS.len());
-        for (argument, vector) in Argument::JOINTS.into_iter().zip(at.vectors()) {
-            given.push(match quantity.arguments().contains(&argument) {
-                true => self.values(argument, vector)?.to_vec(),
-                false => zeros(self.joints()),
+        let mut given = Vec::with_capacity(Argument::COUNT);
+        for argument in Argument::ALL {
+            given.push(match at.of(argument) {
+                Some(vector) if quantity.arguments().contains(&argument) => {
+                    self.values(argument, vector)?.to_vec()
+                }
+                _ => zeros(argument.length(self.sizes())),
             });
         }
         let mut motion = Motion::new(q, |argument| core::mem::take(&mut given[argument.index()]));
@@ -343,12 +365,16 @@ impl<T: Float> Reference<T> {
         Ok(Formulation::NewtonEulerLink.hand(&self.whole, &at))
     }
 
-    /// Computes ⁰A_i: where every link is.
+    /// Computes ⁰A_i: where every row's frame is.
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
     pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, WrongLength> {
         Ok(poses(&self.whole, &self.whole_at(q)?))
+    }
+
+    fn sizes(&self) -> Sizes {
+        Sizes::whole(self.joints())
     }
 
     fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
@@ -376,7 +402,7 @@ impl<T: Float> Reference<T> {
         argument: Argument,
         vector: &'a DVector<T>,
     ) -> Result<&'a [T], WrongLength> {
-        let [expected, found] = [self.joints(), vector.len()];
+        let [expected, found] = [argument.length(self.sizes()), vector.len()];
         if found != expected {
             return Err(WrongLength {
                 argument: argument.name(),

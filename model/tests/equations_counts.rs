@@ -1,6 +1,7 @@
 //! Operation counts of the formulas as written.
 
 use crate::equations_support::golden;
+use dalembert_model::equations::frames::Frames;
 use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -43,6 +44,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
         base: None,
         tool: None,
         links: (0..n).map(|_| link()).collect(),
+        frames: Frames::default(),
     };
     torques(formulation, &arm, &counter)
 }

@@ -3,9 +3,10 @@
 
 use crate::equations_support::random::{Case, case, kinds, pair, pose};
 use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::frames::NamedFrame;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_links};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
-use dalembert_model::outputs::{Argument, Function, Motion, Quantity, Sizes, Written};
+use dalembert_model::outputs::{Argument, Axis, Function, Motion, Quantity, Sizes, Written};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
@@ -13,7 +14,7 @@ use dalembert_model::scalar::{Divide, Scalar};
 
 /// Every function with its arguments, and its results' axes for six joints and
 /// 36 base parameters.
-const GOLDEN: [&str; 24] = [
+const GOLDEN: [&str; 33] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -38,6 +39,15 @@ const GOLDEN: [&str; 24] = [
     "regressor(q, qd, qdd) -> y[6][36]",
     "full_regressor(q, qd, qdd) -> y[6][60]",
     "passivity_regressor(q, qd, v, a) -> y[6][36]",
+    "momentum_observer(q, qd) -> p[6] drift[6]",
+    "inverse_dynamics_with_wrench(q, qd, qdd, wrench) -> tau[6]",
+    "forward_dynamics_with_wrench(q, qd, tau, wrench) -> qdd[6]",
+    "contact_wrench(q, tau, damping) -> contact_wrench[6]",
+    "operational_inertia_inverse(q) -> operational_inertia_inverse[6][6]",
+    "operational_inertia(q, damping) -> operational_inertia[6][6]",
+    "consistent_inverse(q, damping) -> consistent_inverse[6][6]",
+    "operational_bias(q, qd, damping) -> operational_bias[6]",
+    "null_space_projector(q, damping) -> null_space[6][6]",
 ];
 
 #[test]
@@ -116,7 +126,7 @@ fn formulations_agree_on_every_quantity() {
         let mut motion = Motion::new(Vec::new(), |argument| match argument {
             Argument::Velocity => case.qd.clone(),
             Argument::Acceleration => case.qdd.clone(),
-            _ => case.qd.iter().map(|_| points.field()).collect(),
+            other => entries(other, case.qd.len(), &mut points),
         });
         motion.moves = vec![true; case.qd.len()];
         // Columns of bodies that no parameter has by itself, and of drives.
@@ -144,6 +154,12 @@ fn formulations_agree_on_every_quantity() {
             }
         }
     }
+}
+
+/// Entries of an argument of an arm of n joints.
+fn entries(argument: Argument, n: usize, points: &mut Points) -> Vec<Field> {
+    let length = argument.length(Sizes::whole(n));
+    (0..length).map(|_| points.field()).collect()
 }
 
 /// As many columns as a full regressor has.
@@ -309,7 +325,7 @@ fn driven(case: &Case, moves: &[bool], points: &mut Points) -> Motion<Field> {
     };
     let mut motion = Motion::new(Vec::new(), |argument| match argument {
         Argument::Velocity => held(&case.qd),
-        _ => case.qd.iter().map(|_| points.field()).collect(),
+        other => entries(other, case.qd.len(), points),
     });
     motion.moves = moves.to_vec();
     motion
@@ -347,6 +363,9 @@ fn forward_dynamics_solves_the_equations_of_motion() {
                 let wrong: Vec<Field> = expected.iter().map(|x| x.add(&Field::ONE)).collect();
                 let residual = quantity.residual(&recursion, &wrong);
                 assert!(residual.is_empty() || residual.iter().any(|x| *x != Field::zero()));
+                if quantity.shape().0[0] != Axis::Joints {
+                    continue;
+                }
                 for (index, value) in expected.iter().enumerate() {
                     let row = index / (expected.len() / n);
                     assert!(moves[row] || *value == Field::zero());
@@ -408,6 +427,188 @@ fn acceleration_slopes_are_its_rates() {
                 rate.add(&position.add(&by_velocity[i][k].mul(&case.qdd[k])))
             });
             assert_eq!(rate, whole[i].rate);
+        }
+    }
+}
+
+/// An arm with frames on its links: `inner` on the first, `outer` on the last, and each
+/// link's own.
+fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
+    let last = case.arm.links.len() - 1;
+    let mut arm = case.arm.clone();
+    arm.frames.named = [("inner", 0), ("outer", last)]
+        .map(|(name, joint)| NamedFrame {
+            name: name.to_string(),
+            joint,
+            pose: pose(points),
+        })
+        .to_vec();
+    arm.frames.links = arm.links.iter().map(|_| Some(pose(points))).collect();
+    arm
+}
+
+/// Values of a text's only quantity.
+fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -> Vec<Field> {
+    let written = Written {
+        formulation: Formulation::LagrangeEuler,
+        arm,
+        at: &case.at,
+        motion,
+        columns: &[],
+    };
+    let function = Function::parse(text).unwrap();
+    let expected = function.quantities()[0].written(&written);
+    assert_eq!(
+        expected.len(),
+        function.outputs(Sizes::whole(arm.links.len())),
+        "{text}"
+    );
+    for formulation in Formulation::ALL {
+        let by = Written {
+            formulation,
+            ..written.clone()
+        };
+        assert_eq!(
+            function.quantities()[0].written(&by),
+            expected,
+            "{text} {formulation:?}"
+        );
+    }
+    expected
+}
+
+fn matrix_product(a: &[Field], b: &[Field], inner: usize) -> Vec<Field> {
+    let columns = b.len() / inner;
+    let entry = |row: &[Field], k: usize| {
+        (0..inner).fold(Field::ZERO, |sum, j| {
+            sum.add(&row[j].mul(&b[j * columns + k]))
+        })
+    };
+    let rows = a.chunks(inner);
+    rows.flat_map(|row| (0..columns).map(move |k| entry(row, k)))
+        .collect()
+}
+
+/// Every formulation agrees at every frame, in all axes and of chosen components; a frame
+/// on the last link is a tool, joints behind a frame do not move it, the rate of J q̇ is
+/// J̇ q̇, and velocities and wrenches do the same work in all axes.
+#[test]
+fn frames_are_hands_in_other_places() {
+    let mut points = Points::new(0x6672);
+    for case in cases() {
+        let n = case.arm.links.len();
+        let arm = with_frames(&case, &mut points);
+        let motion = driven(&case, &vec![true; n], &mut points);
+        let of = |text: &str, arm: &Arm<Field>| at_frame(text, arm, &case, &motion);
+        let mut tooled = arm.clone();
+        tooled.tool = Some(arm.frames.named[1].pose.clone());
+        for name in ["forward_kinematics", "jacobian", "jacobian_rate"] {
+            assert_eq!(of(&format!("{name}@outer"), &arm), of(name, &tooled));
+            assert_eq!(of(&format!("{name}@hand"), &arm), of(name, &arm));
+        }
+        let inner = of("jacobian@inner", &arm);
+        assert!(
+            inner
+                .chunks(n)
+                .all(|row| row[1..].iter().all(|x| *x == Field::ZERO))
+        );
+        let moving_arm = arm.map(|x| Dual::constant(*x));
+        let (_, moving_at) = moving(&case);
+        for axes in ["mixed", "local", "world"] {
+            for frame in ["inner", "outer"] {
+                let view = format!("@{frame}:{axes}");
+                let j = of(&format!("jacobian{view}"), &arm);
+                let some = of(&format!("jacobian{view}:x_rz"), &arm);
+                assert_eq!(some, [&j[..n], &j[5 * n..]].concat());
+                // J̇ q̇ is what J q̇ changes by.
+                let seen = Function::parse(&format!("jacobian{view}")).unwrap();
+                let Quantity::At(seen) = seen.quantities()[0] else {
+                    panic!("a frame");
+                };
+                let seen = moving_arm.seen(&seen.view()).unwrap();
+                let rates = Formulation::LagrangeEuler.jacobian(&seen, &moving_at);
+                let rates = rates.iter().map(|row| {
+                    let products = row.iter().zip(&case.qd).map(|(j, qd)| j.rate.mul(qd));
+                    products.fold(Field::ZERO, |sum, x| sum.add(&x))
+                });
+                let rates: Vec<Field> = rates.collect();
+                assert_eq!(of(&format!("jacobian_rate{view}"), &arm), rates, "{view}");
+                let torques = matrix_product(&motion.wrench, &j, 6);
+                let with = of(&format!("inverse_dynamics_with_wrench{view}"), &arm);
+                let without = of("inverse_dynamics", &arm);
+                for ((with, without), torque) in with.iter().zip(&without).zip(&torques) {
+                    assert_eq!(with.add(torque), *without);
+                }
+            }
+        }
+    }
+}
+
+/// Λ⁻¹, Λ, J̄, N, μ and the wrench of torques are made of J, D⁻¹ and each other as their
+/// names say, at frames and of chosen components.
+#[test]
+fn operational_space_fits_together() {
+    let mut points = Points::new(0x6f70);
+    for case in cases() {
+        let n = case.arm.links.len();
+        let arm = with_frames(&case, &mut points);
+        let motion = driven(&case, &vec![true; n], &mut points);
+        let damping = motion.damping[0];
+        for (view, m) in [
+            ("@outer", 6),
+            ("@outer:local:x_y_rz", 3),
+            ("@inner:world:angular", 3),
+        ] {
+            let of = |name: &str| at_frame(&format!("{name}{view}"), &arm, &case, &motion);
+            let (j, rate) = (of("jacobian"), of("jacobian_rate"));
+            let mobility = of("operational_inertia_inverse");
+            let inertia = of("operational_inertia");
+            let inverse = of("consistent_inverse");
+            let d_inv = at_frame("inertia_inverse", &arm, &case, &motion);
+            let transposed: Vec<Field> = (0..n * m).map(|at| j[at % m * n + at / m]).collect();
+            let reached = matrix_product(&d_inv, &transposed, n);
+            assert_eq!(matrix_product(&j, &reached, n), mobility);
+            assert_eq!(matrix_product(&reached, &inertia, m), inverse);
+            let mut damped = mobility;
+            (0..m).for_each(|i| damped[i * m + i] = damped[i * m + i].add(&damping));
+            let one = |n: usize| -> Vec<Field> {
+                let entry = |at: usize| {
+                    if at % (n + 1) == 0 {
+                        Field::ONE
+                    } else {
+                        Field::ZERO
+                    }
+                };
+                (0..n * n).map(entry).collect()
+            };
+            assert_eq!(matrix_product(&inertia, &damped, m), one(m));
+            let mut projector = matrix_product(&inverse, &j, m);
+            for (entry, one) in projector.iter_mut().zip(one(n)) {
+                *entry = one.sub(entry);
+            }
+            assert_eq!(of("null_space_projector"), projector);
+            // μ, with what the joints are loaded with at this velocity.
+            let mut still = arm.clone().without_friction();
+            still.frames = arm.frames.clone();
+            let rest = vec![Field::ZERO; n];
+            let exact = Formulation::LagrangeEuler;
+            let loads = exact.inverse_dynamics(&still, &case.at, &motion.qd, &rest);
+            let driven = matrix_product(&j, &matrix_product(&d_inv, &loads, n), n);
+            let rest: Vec<Field> = driven.iter().zip(&rate).map(|(a, b)| a.sub(b)).collect();
+            assert_eq!(of("operational_bias"), matrix_product(&inertia, &rest, m));
+            // The wrench of its own torques, but for the damping.
+            let torques = matrix_product(&transposed, &motion.wrench[..m], m);
+            let pushed = Motion {
+                tau: torques,
+                ..motion.clone()
+            };
+            let found = at_frame(&format!("contact_wrench{view}"), &arm, &case, &pushed);
+            let squared = matrix_product(&j, &transposed, n);
+            let left: Vec<Field> = matrix_product(&squared, &found, m);
+            let right = matrix_product(&squared, &motion.wrench[..m], m);
+            for ((left, found), right) in left.iter().zip(&found).zip(&right) {
+                assert_eq!(left.add(&damping.mul(found)), *right);
+            }
         }
     }
 }

@@ -167,3 +167,137 @@ fn gravity_is_in_base_axes() {
     let lifted = energy("base = { xyz = [1, 2, 3] }") - energy("");
     assert!((lifted - 3.0 * 9.81 * 3.0).abs() < 1e-13, "{lifted}");
 }
+
+/// A file with tables behind its joints.
+fn behind(more: &str) -> Result<Robot, String> {
+    let text = file("") + more;
+    let read = parse(&text, &Options::default());
+    let robot = read.map(|reading| reading.robot);
+    robot.map_err(|errors| errors.render("arm.toml", &text))
+}
+
+#[test]
+fn frames_are_read_and_written_back() {
+    let more = "frame = { xyz = [0, 0, 0.1] }\n\n[[frame]]\nname = \"camera\"\nlink = 2\n\
+                xyz = [0.1, 0, 0]\nrpy = [0, \"pi/2\", 0]\n[[frame]]\nname = \"base_1\"\nlink = \"1\"\n";
+    let robot = behind(more).unwrap();
+    assert_eq!(robot.frames.len(), 2);
+    assert_eq!((robot.frames[0].joint, robot.frames[1].joint), (1, 0));
+    assert_eq!(robot.frames[0].placement.rpy[1], Angle::right_angles(1));
+    let own = robot.joints[1].frame.as_ref().unwrap();
+    assert_eq!(own.xyz[2], ratio(1, 10));
+    let again = parse(&write(&robot), &Options::default()).unwrap().robot;
+    assert_eq!(again, robot);
+    // A file without frames has the text, and the hash, that it always had.
+    assert!(!write(&behind("").unwrap()).contains("frame"));
+}
+
+#[test]
+fn frames_that_cannot_be_are_refused_where_they_stand() {
+    let frame = |name: &str, link: &str| format!("[[frame]]\nname = {name}\nlink = {link}\n");
+    for (more, message, help) in [
+        (
+            frame("\"camera\"", "3"),
+            "there is no link `3`",
+            "joints are counted from 1 to 2",
+        ),
+        (
+            frame("\"camera\"", "\"wrist\""),
+            "there is no link `wrist`",
+            "count them from 1 to 2",
+        ),
+        (
+            frame("\"camera\"", "[1]"),
+            "expected a link",
+            "or the name of its joint",
+        ),
+        (
+            frame("\"Tool-0\"", "1"),
+            "\"Tool-0\" cannot name a frame",
+            "write \"tool_0\"",
+        ),
+        (
+            frame("\"tip_batch\"", "1"),
+            "\"tip_batch\" cannot name a frame",
+            "small letters",
+        ),
+        (
+            frame("\"hand\"", "1"),
+            "`hand` is the name of the robot's own hand",
+            "otherwise",
+        ),
+        (
+            frame("\"a\"", "1") + &frame("\"a\"", "2"),
+            "frame 1 is called \"a\" already",
+            "a name of its own",
+        ),
+        (
+            "[[frame]]\nname = \"a\"\n".to_string(),
+            "frame 1 has no `link`",
+            "link = 3",
+        ),
+        (
+            "[[frame]]\nlink = 1\n".to_string(),
+            "frame 1 has no `name`",
+            "jacobian_camera",
+        ),
+        (
+            frame("\"a\"", "1") + "xzy = [0, 0, 0]\n",
+            "unknown key `xzy`",
+            "did you mean `xyz`?",
+        ),
+        (
+            "[frame]\nname = \"a\"\n".to_string(),
+            "expected [[frame]] tables",
+            "two brackets",
+        ),
+    ] {
+        let said = behind(&more).unwrap_err();
+        assert!(said.contains(message), "{more}\n{said}");
+        assert!(said.contains(help), "{more}\n{said}");
+        assert_eq!(said.matches("error: ").count(), 1, "{said}");
+    }
+}
+
+/// A frame in the link's own frame is where it was before rows were derived.
+#[test]
+fn frames_move_over_with_their_links() {
+    let text = "name = \"arm\"\ngravity = [0, 0, -9.81]\n\
+         [[joint]]\nkind = \"revolute\"\nplacement = { xyz = [0.1, 0.2, 0.3], rpy = [0.3, 0, 0.5] }\n\
+         axis = [0, 1, 0]\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+         [[joint]]\nkind = \"revolute\"\nplacement = { xyz = [0, 0.2, 0.3], rpy = [0, 1, 0] }\n\
+         axis = [1, 0, 0]\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+         [[frame]]\nname = \"one\"\nlink = 1\n[[frame]]\nname = \"two\"\nlink = 2\nxyz = [0, 0.5, 0]\n";
+    let robot = parse(text, &Options::default()).unwrap().robot;
+    let reference = Reference::<f64>::from_robot(&robot);
+    let still = DVector::from_vec(vec![0.0; 2]);
+    let at = |text: &str| {
+        let function = dalembert_model::outputs::Function::parse(text).unwrap();
+        let at = dalembert_model::reference::JointVectors::new(
+            [(); 6].map(|()| DVector::from_vec(Vec::new())),
+        );
+        let at = dalembert_model::reference::JointVectors {
+            q: still.clone(),
+            ..at
+        };
+        reference.entries(function.quantities()[0], &at).unwrap()
+    };
+    // At q = 0 the placements are the poses.
+    let one = at("forward_kinematics@one");
+    for (entry, expected) in [3, 7, 11].map(|i| one[i]).iter().zip([0.1, 0.2, 0.3]) {
+        assert!((entry - expected).abs() < 1e-15, "{one:?}");
+    }
+    let links = at("link_poses");
+    assert!(
+        links[..12]
+            .iter()
+            .zip(&one)
+            .all(|(a, b)| (a - b).abs() < 1e-15)
+    );
+    let two = at("forward_kinematics@two");
+    // The second link's own frame, and half a metre along its y.
+    for i in 0..3 {
+        let expected = links[12 + 4 * i + 3] + 0.5 * links[12 + 4 * i + 1];
+        assert!((two[4 * i + 3] - expected).abs() < 1e-15, "{two:?}");
+    }
+}

@@ -190,7 +190,11 @@ fn runtime_gives_what_is_known() {
         for GivenState { state, known } in given(name) {
             let granted = conditions.granted(Function::ForwardDynamics, &state);
             let vector = |values: &[f64]| DVector::from_row_slice(values);
-            let at = JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))));
+            let at = JointVectors {
+                wrench: vector(state.of(Argument::Wrench)),
+                damping: vector(state.of(Argument::Damping)),
+                ..JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))))
+            };
             assert_eq!(known.len(), 13);
             for (quantity, expected) in known {
                 let found = runtime.entries(quantity, &at).unwrap();

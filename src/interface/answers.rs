@@ -38,6 +38,13 @@ answers! {
         /// Its slope Cᵀq̇ = ∂T/∂q.
         ct_qd: [T; N],
     }
+    /// The momentum and its drift.
+    MomentumObserver {
+        /// Momentum p = D q̇.
+        p: [T; N],
+        /// Its drift β = Cᵀq̇ − c − b∘q̇.
+        drift: [T; N],
+    }
     /// Contributions of rotation and translation of the links to D and h, and c.
     DalembertTerms {
         /// Rotational part of D.

@@ -9,12 +9,22 @@
 
 pub mod answers;
 
+/// A vector with an entry a joint, or of so many.
+macro_rules! vector {
+    ($scalar:ident, $joints:ident) => {
+        [$scalar; $joints]
+    };
+    ($scalar:ident, $joints:ident, $length:literal) => {
+        [$scalar; $length]
+    };
+}
+
 macro_rules! questions {
-    ($($(#[$doc:meta])* $question:ident$(<$columns:ident>)?::$ask:ident($($argument:ident),+) -> $answer:ty;)*) => {$(
+    ($($(#[$doc:meta])* $question:ident$(<$columns:ident>)?::$ask:ident($($argument:ident$(: $length:literal)?),+) -> $answer:ty;)*) => {$(
         $(#[$doc])*
         pub trait $question<T, const N: usize $(, const $columns: usize)?> {
             $(#[$doc])*
-            fn $ask(&self, $($argument: &[T; N]),+) -> $answer;
+            fn $ask(&self, $($argument: &vector!(T, N $(, $length)?)),+) -> $answer;
         }
 
         impl<R, T, const N: usize $(, const $columns: usize)?> $question<T, N $(, $columns)?> for &R
@@ -22,7 +32,7 @@ macro_rules! questions {
             R: $question<T, N $(, $columns)?> + ?Sized,
         {
             #[inline]
-            fn $ask(&self, $($argument: &[T; N]),+) -> $answer {
+            fn $ask(&self, $($argument: &vector!(T, N $(, $length)?)),+) -> $answer {
                 (**self).$ask($($argument),+)
             }
         }
@@ -79,4 +89,22 @@ questions! {
     FullRegressor<K>::full_regressor(q, qd, qdd) -> [[T; K]; N];
     /// Y in D a + C v + c + b∘v = Y π, over the base parameters.
     PassivityRegressor<K>::passivity_regressor(q, qd, v, a) -> [[T; K]; N];
+    /// D q̇ and Cᵀq̇ − c − b∘q̇.
+    MomentumObserver::momentum_observer(q, qd) -> answers::MomentumObserver<T, N>;
+    /// τ(q, q̇, q̈) beside a wrench w that acts on the hand.
+    InverseDynamicsWithWrench::inverse_dynamics_with_wrench(q, qd, qdd, wrench: 6) -> [T; N];
+    /// q̈(q, q̇, τ) under a wrench w that acts on the hand.
+    ForwardDynamicsWithWrench::forward_dynamics_with_wrench(q, qd, tau, wrench: 6) -> [T; N];
+    /// The wrench on the hand that torques τ come from.
+    ContactWrench::contact_wrench(q, tau, damping: 1) -> [T; 6];
+    /// Λ⁻¹ = J D⁻¹ Jᵀ: the mobility of the hand.
+    OperationalInertiaInverse::operational_inertia_inverse(q) -> [[T; 6]; 6];
+    /// Λ: the inertia of the hand.
+    OperationalInertia::operational_inertia(q, damping: 1) -> [[T; 6]; 6];
+    /// J̄ = D⁻¹ Jᵀ Λ.
+    ConsistentInverse::consistent_inverse(q, damping: 1) -> [[T; 6]; N];
+    /// μ: the bias force of the hand.
+    OperationalBias::operational_bias(q, qd, damping: 1) -> [T; 6];
+    /// N = 1 − J̄ J.
+    NullSpaceProjector::null_space_projector(q, damping: 1) -> [[T; N]; N];
 }

@@ -20,8 +20,8 @@ pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     })
 }
 
-/// An output by its name, of which clap lists all and suggests one, or a bundle
-/// of some, which none of its lists can have.
+/// An output by its name, of which clap lists all and suggests one, or one at a frame or a
+/// bundle of some, which none of its lists can have.
 #[derive(Clone)]
 pub(super) struct FunctionParser;
 
@@ -34,7 +34,7 @@ impl TypedValueParser for FunctionParser {
         argument: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<Function, clap::Error> {
-        let is_bundle = value.to_string_lossy().contains(['=', '+']);
+        let is_bundle = value.to_string_lossy().contains(['=', '+', '@', ':']);
         if is_bundle {
             let bundles = StringValueParser::new().try_map(|text| bundle(&text));
             return bundles.parse_ref(command, argument, value);

@@ -172,7 +172,9 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
             | Argument::ReferenceAcceleration
             | Argument::Gravity
             | Argument::Load
-            | Argument::Payload,
+            | Argument::Payload
+            | Argument::Wrench
+            | Argument::Damping,
             _,
         ) => return None,
         Input::Entry(Argument::Position, joint) => {

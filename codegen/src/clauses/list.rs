@@ -1,5 +1,5 @@
-//! Lists of words, and of outputs, where a bundle is an item too:
-//! `gravity, servo = inverse_dynamics + jacobian`.
+//! Lists of words, and of outputs, where one at a frame and a bundle are items too:
+//! `gravity, jacobian @ camera : local, servo = inverse_dynamics + jacobian`.
 
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens;
@@ -50,7 +50,7 @@ pub(super) fn outputs(value: &[TokenTree], errors: &mut Errors) -> Vec<(Function
             .any(sign)
         {
             true => bundle(item, before, errors),
-            false => meant(item, errors, words::parse),
+            false => output(item, errors),
         };
     read(Function::WHAT, Function::known, value, errors, one)
 }
@@ -119,6 +119,22 @@ fn meant<T>(
     }
 }
 
+/// An output by its word, or one at a frame.
+fn output(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
+    let sign = |tree: &TokenTree| is_punct(tree, '@') || is_punct(tree, ':');
+    if !item.iter().any(sign) {
+        return meant(item, errors, words::parse);
+    }
+    let text: String = item.iter().map(TokenTree::to_string).collect();
+    match Function::parse(&text) {
+        Ok(output) => Some(output),
+        Err(error) => {
+            errors.say(tokens(item), &error.message(), &for_bundle(&error));
+            None
+        }
+    }
+}
+
 /// `name = output + output`
 fn bundle(
     item: &[TokenTree],
@@ -149,6 +165,9 @@ fn bundle(
             }
             [TokenTree::Ident(_)] => {
                 read.extend(meant(part, errors, words::parse).map(|output| (output, part)))
+            }
+            [TokenTree::Ident(_), at, ..] if is_punct(at, '@') || is_punct(at, ':') => {
+                read.extend(output(part, errors).map(|output| (output, part)));
             }
             [TokenTree::Ident(_), next, ..] => errors.push(next, &m::NO_PLUS),
             [] => errors.push(tokens(item), &m::NO_PART),

@@ -72,8 +72,8 @@ pub(super) const CRATE_RELATIVE: Message = message(
     "start with `crate::` or with the name of a crate",
 );
 pub(super) const NO_ITEM: Message = message(
-    "expected `key: value;`, `joint { … }` or `scene NAME { … }`",
-    "a robot has: convention, gravity, base, tool, payload_frame, allow, joint, scene",
+    "expected `key: value;`, `joint { … }`, `frame { … }` or `scene NAME { … }`",
+    "a robot has: convention, gravity, base, tool, payload_frame, allow, joint, frame, scene",
 );
 pub(super) const SCENE_NAME: Message = message(
     "expected the scene's name after `scene`",

@@ -43,6 +43,7 @@ pub(super) fn read(
     let Blocks {
         keys,
         joints,
+        frames,
         scenes,
     } = split(block, errors);
     let mut file = File::default();
@@ -54,8 +55,9 @@ pub(super) fn read(
             _ => file.line(&pair, errors),
         }
     }
-    for (head, body) in &joints {
-        file.mark(head.to_token_stream(), |file| file.text += "[[joint]]");
+    for (head, body) in joints.iter().chain(&frames) {
+        let table = format!("[[{head}]]");
+        file.mark(head.to_token_stream(), |file| file.text += &table);
         file.text.push('\n');
         for pair in pairs(&trees(body.stream()), ',', errors) {
             file.line(&pair, errors);
@@ -121,10 +123,11 @@ pub(super) fn beside(source: &str, name: &Ident, body: &Group, errors: &mut Erro
 struct Blocks {
     keys: Vec<TokenTree>,
     joints: Vec<(Ident, Group)>,
+    frames: Vec<(Ident, Group)>,
     scenes: Vec<(Ident, Group)>,
 }
 
-/// The robot's own keys, its joints and its scenes. A file has them in this
+/// The robot's own keys, its joints, its frames and its scenes. A file has them in this
 /// order too.
 fn split(block: &Group, errors: &mut Errors) -> Blocks {
     let mut blocks = Blocks::default();
@@ -142,13 +145,15 @@ fn split(block: &Group, errors: &mut Errors) -> Blocks {
         }
         match (tree, after.first().and_then(braces)) {
             (TokenTree::Ident(word), Some(body)) => {
-                if word == "scene" {
-                    errors.push(word, &m::SCENE_NAME);
-                } else {
-                    if word != "joint" {
+                match word.to_string().as_str() {
+                    "scene" => errors.push(word, &m::SCENE_NAME),
+                    "frame" => blocks.frames.push((word.clone(), body)),
+                    "joint" => blocks.joints.push((word.clone(), body)),
+                    _ => {
                         errors.push(word, &m::NO_ITEM);
+                        let joint = Ident::new("joint", word.span());
+                        blocks.joints.push((joint, body));
                     }
-                    blocks.joints.push((word.clone(), body));
                 }
                 rest = &after[1..];
             }

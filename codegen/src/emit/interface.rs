@@ -11,10 +11,13 @@ use crate::program::ScalarType;
 /// The type that has the traits.
 pub(crate) const ROBOT: &str = "Robot";
 
-/// The trait that asks what a function answers. What bundles return, and what a load
-/// is, are each module's own.
+/// The trait that asks what a function answers. What bundles return, what is at a frame,
+/// and what a load is, are each module's own.
 pub fn question(function: Function) -> Option<String> {
-    let is_own = matches!(function, Function::Load | Function::Bundle(_));
+    let is_own = matches!(
+        function,
+        Function::Load | Function::Bundle(_) | Function::At(_)
+    );
     (!is_own).then(|| function.camel())
 }
 
@@ -57,7 +60,10 @@ fn implementation(generated: &GeneratedFunction, scalar: ScalarType, path: &str)
     let (function, program) = (generated.function, &generated.program);
     let n = program.joints;
     let names: Vec<&str> = program.arguments.iter().map(|a| a.name()).collect();
-    let parameters = names.iter().map(|name| format!("{name}: &[{scalar}; {n}]"));
+    let parameters = program.arguments.iter().map(|argument| {
+        let length = argument.length(program.sizes());
+        format!("{}: &[{scalar}; {length}]", argument.name())
+    });
     let parameters: Vec<String> = parameters.collect();
     let call = format!("{function}({})", names.join(", "));
     let (result, body) = match answer(function, path, scalar, &n.to_string()) {

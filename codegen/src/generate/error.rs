@@ -38,6 +38,15 @@ pub enum GenerateError {
         /// The scene.
         scene: String,
     },
+    /// The robot has no frame of this name.
+    Frame {
+        /// Which function is at it.
+        function: Function,
+        /// The name.
+        frame: &'static str,
+        /// The likely fix.
+        fix: String,
+    },
     /// The scene is none of this robot.
     Scene(SceneError),
     /// A constant is beyond the scalar's range, or rounds to zero.
@@ -100,6 +109,7 @@ impl GenerateError {
             | GenerateError::Scene(_) => None,
             GenerateError::Parameter(why) => why.function(),
             GenerateError::Constant { function, .. }
+            | GenerateError::Frame { function, .. }
             | GenerateError::Singular { function, .. }
             | GenerateError::TooLarge { function, .. }
             | GenerateError::Base(function, _)
@@ -124,6 +134,15 @@ impl fmt::Display for GenerateError {
                  otherwise",
                 one.text(),
                 other.text()
+            ),
+            GenerateError::Frame {
+                function,
+                frame,
+                fix,
+            } => write!(
+                f,
+                "`{}`: the robot has no frame `{frame}`: {fix}",
+                function.text()
             ),
             GenerateError::Contents => f.write_str(
                 "a file without modules has one scalar: choose f64 or f32, and write a file for each",

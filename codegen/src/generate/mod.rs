@@ -6,7 +6,7 @@
 //! - [`early`]: a search that was ended early, and what programs are compared by
 //! - `anew`: plans of a robot or a scene that was edited since
 //! - `contradiction`: what was proved, tried
-//! - [`parameters`]: which parameters can be arguments
+//! - [`parameters`]: which parameters can be arguments; `frames`: which frames there are
 //! - [`language`]: what a language lacks
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated; [`reason`]: what it says of that
@@ -15,6 +15,7 @@ mod anew;
 mod contradiction;
 pub(crate) mod early;
 pub(crate) mod error;
+mod frames;
 pub(crate) mod keep;
 pub(crate) mod language;
 pub(crate) mod parameters;
@@ -161,6 +162,9 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
         if let Some(&other) = others.find(|other| function.is_namesake(**other)) {
             return Err(GenerateError::Namesakes(other, function));
         }
+    }
+    for &function in &functions {
+        frames::check(robot, function)?;
     }
     language::check(robot, request, &functions)
         .map_err(|why| GenerateError::Language(request.language, why))?;

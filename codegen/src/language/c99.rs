@@ -135,7 +135,7 @@ pub(crate) fn float(scalar: ScalarType) -> &'static str {
 
 /// Returns whether the function's results are one struct: a bundle's are.
 pub(crate) fn is_bundle(function: Function) -> bool {
-    !Function::ALL.contains(&function) && function != Function::Load
+    matches!(function, Function::Bundle(_))
 }
 
 /// Returns whether the function returns its only number.

@@ -7,7 +7,7 @@ use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
 use dalembert_model::equations::matrix::{Vector, scaled};
 use dalembert_model::equations::regressor::{Column, LinkParameter};
-use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
 
@@ -46,12 +46,17 @@ pub fn trace_chain(
     let chain = chain.at_speeds(&motion.per_speed);
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
+    let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
+    let arm = (function.quantities().iter().any(of_frame)).then(|| arm(scene_robot, None, &whole));
+    let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
     let regrouped = Regrouped {
         chain,
         at,
         composite,
         motion,
         form,
+        textbook: arm.as_ref().map(|arm| textbook(arm, &position, &whole)),
+        joints: scene_robot.chained(),
     };
     let mut outputs = Vec::new();
     for &quantity in function.quantities() {
@@ -79,6 +84,16 @@ fn written(
     motion: &Motion<Symbol>,
     gravity: Option<&Vector<Symbol>>,
 ) -> Vec<Symbol> {
+    let arm = arm(scene_robot, gravity, motion);
+    quantity.written(&textbook(&arm, &arm.at(&motion.q), motion))
+}
+
+/// The whole arm in motion.
+fn arm(
+    scene_robot: &SceneRobot,
+    gravity: Option<&Vector<Symbol>>,
+    motion: &Motion<Symbol>,
+) -> Arm<Symbol> {
     let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
         Symbol::from(x.clone())
     });
@@ -86,15 +101,23 @@ fn written(
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
     };
-    let arm = arm.at_speeds(&motion.per_speed);
-    quantity.written(&Written {
+    arm.at_speeds(&motion.per_speed)
+}
+
+/// What the recursion in link axes is given.
+fn textbook<'a>(
+    arm: &'a Arm<Symbol>,
+    at: &'a [DhVariables<Symbol>],
+    motion: &'a Motion<Symbol>,
+) -> Written<'a, Symbol> {
+    Written {
         formulation: Formulation::NewtonEulerLink,
-        arm: &arm,
-        at: &arm.at(&motion.q),
+        arm,
+        at,
         motion,
         // Regressors the chain formulas give.
         columns: &[],
-    })
+    }
 }
 
 /// Returns what moves, with exact parameters, the base folded.

@@ -341,7 +341,9 @@ impl SceneRobot {
     /// # Errors
     /// Why there are none that could be written down.
     pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, NoBase> {
-        let found = self.base[quantity as usize].get_or_init(|| BaseParameters::of(self, quantity));
+        // Nothing at a frame is over base parameters.
+        let place = quantity.index().unwrap_or_default();
+        let found = self.base[place].get_or_init(|| BaseParameters::of(self, quantity));
         found.as_ref().map_err(|why| *why)
     }
 

@@ -1,7 +1,7 @@
 //! The motion of a robot's joints from the inputs of a program.
 
 use dalembert_model::equations::{JointPosition, SinCosPair};
-use dalembert_model::outputs::Motion;
+use dalembert_model::outputs::{Motion, Sizes};
 use dalembert_model::robot::{JointKind, Robot};
 
 use crate::function::Argument;
@@ -26,7 +26,12 @@ pub fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> 
     let speeds = robot.joints.iter().enumerate();
     let speeds = speeds.map(|(i, joint)| joint.has_coulomb().then(|| input(Input::PerSpeed(i))));
     let per_speed = speeds.collect();
-    let entries = |argument| (0..n).map(|i| input(Input::Entry(argument, i))).collect();
+    let entries = |argument: Argument| {
+        let length = argument.length(Sizes::whole(n));
+        (0..length)
+            .map(|i| input(Input::Entry(argument, i)))
+            .collect()
+    };
     Motion {
         per_speed,
         ..Motion::new(q, entries)

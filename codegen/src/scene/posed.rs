@@ -6,7 +6,7 @@ use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, exact_pose};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Motion, RuntimeParameter};
+use dalembert_model::outputs::{Motion, RuntimeParameter, Written};
 use dalembert_model::scalar::record::{Recorded, Recorder, Recording};
 use dalembert_model::scalar::{Divide, Scalar};
 
@@ -136,6 +136,21 @@ impl<S: Divide> Posed<S> {
     /// The results over all joints there are.
     pub fn all(&self, function: Function, formulation: Formulation) -> Vec<S> {
         function.evaluate(formulation, &self.arm, &self.motion, &self.columns)
+    }
+
+    /// What each quantity of a function inverts beside D.
+    pub fn divisors(&self, function: Function) -> Vec<Vec<S>> {
+        let written = Written {
+            formulation: Formulation::NewtonEulerLink,
+            arm: &self.arm,
+            at: &self.arm.at(&self.motion.q),
+            motion: &self.motion,
+            columns: &self.columns,
+        };
+        let quantities = function.quantities().iter();
+        quantities
+            .map(|quantity| quantity.divisor(&written))
+            .collect()
     }
 
     /// The results over the scene's rows, from those over all.

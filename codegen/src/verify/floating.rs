@@ -68,19 +68,18 @@ impl Measure {
     }
 }
 
-/// The factor by which the results at a state may err more than others: for what inverts D, the
-/// condition of D over the joints that move, with a unit diagonal. Units and sizes of the
-/// joints are taken out and excuse nothing.
-#[derive(Clone, Copy, Debug)]
-pub struct Granted(f64);
+/// The factors by which the results at a state may err more than others: for what inverts D, the
+/// condition of D over the joints that move, with a unit diagonal, so that units and sizes of the
+/// joints are taken out and excuse nothing; for what inverts a matrix over components of the hand's
+/// velocity, the condition of this as it stands, since its entries are added to one λ².
+#[derive(Clone, Debug)]
+pub struct Granted(Vec<(Quantity, f64)>);
 
 impl Granted {
     /// To a quantity: what else is in a function inverts nothing.
-    pub fn to(self, quantity: Quantity) -> f64 {
-        match quantity.inverts_inertia() {
-            true => self.0,
-            false => 1.0,
-        }
+    pub fn to(&self, quantity: Quantity) -> f64 {
+        let own = self.0.iter().find(|(own, _)| *own == quantity);
+        own.map_or(1.0, |(_, factor)| *factor)
     }
 }
 
@@ -94,8 +93,10 @@ pub struct Runtime {
     whole: Arm<Exact>,
     scene_robot: SceneRobot,
     results: Formulas,
-    /// D over the joints that move, as functions take the arm.
-    inertias: Formulas,
+    /// How many entries the matrices have that a function inverts.
+    lengths: RefCell<BTreeMap<Function, Vec<usize>>>,
+    /// D over the joints that move, as functions take the arm, and what else each quantity inverts.
+    divisors: Formulas,
 }
 
 /// A formula a function, over rounded constants.
@@ -116,23 +117,48 @@ impl Runtime {
             whole,
             scene_robot,
             results: Formulas::default(),
-            inertias: Formulas::default(),
+            lengths: RefCell::default(),
+            divisors: Formulas::default(),
         }
     }
 
-    /// Returns the factor by which a function's results may err more than others at a state.
+    /// Returns the factors by which a function's results may err more than others at a state.
     pub fn granted(&self, function: Function, state: &JointState) -> Granted {
-        if !function.inverts_inertia() {
-            return Granted(1.0);
+        let inverts = |quantity: &Quantity| quantity.inverts_inertia() || quantity.is_of_frame();
+        if !function.quantities().iter().any(inverts) {
+            return Granted(Vec::new());
         }
-        let inertia = |posed: &Posed<Value>| {
+        // D, and a divisor a quantity; how long each is, the recording does not say.
+        let mut lengths = Vec::new();
+        let divisors = |posed: &Posed<Value>| {
             let (arm, motion) = (&posed.arm, &posed.motion);
             let d = Formulation::NewtonEulerLink.inertia(arm, &arm.at(&motion.q));
-            submatrix(&d, &free(&motion.moves)).concat()
+            let mut all = vec![submatrix(&d, &free(&motion.moves)).concat()];
+            all.extend(posed.divisors(function));
+            lengths = all.iter().map(Vec::len).collect();
+            all.concat()
         };
-        let recording = self.recorded(&self.inertias, function, &self.arm, inertia);
-        let d = self.run_at(&recording, state);
-        Granted(Condition::of(&d, f64::EPSILON / 2.0).scaled.max(1.0))
+        let recording = self.recorded(&self.divisors, function, self.arm_of(function), divisors);
+        let numbers = self.run_at(&recording, state);
+        let mut known = self.lengths.borrow_mut();
+        let lengths = known.entry(function).or_insert(lengths);
+        let mut rest = numbers.as_slice();
+        let mut conditions = lengths.iter().map(|length| {
+            let (own, others) = rest.split_at((*length).min(rest.len()));
+            rest = others;
+            (!own.is_empty()).then(|| Condition::of(own, f64::EPSILON / 2.0))
+        });
+        let of_inertia = conditions.next().flatten();
+        let of_inertia = of_inertia.map_or(1.0, |condition| condition.scaled.max(1.0));
+        let quantities = function.quantities().iter().zip(conditions);
+        let factors = quantities.map(|(quantity, own)| {
+            let own = own.map_or(1.0, |condition| condition.raw.max(1.0));
+            match quantity.inverts_inertia() {
+                true => (*quantity, of_inertia * own),
+                false => (*quantity, own),
+            }
+        });
+        Granted(factors.collect())
     }
 
     /// A formula of a function, recorded unless it is there.
@@ -176,16 +202,20 @@ impl Runtime {
 
     /// The results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
-        let mut quantities = function.quantities().iter();
-        let arm = match quantities.any(|quantity| quantity.depends_on_base()) {
-            true => &self.whole,
-            false => &self.arm,
-        };
         let formulation = Formulation::NewtonEulerLink;
         let results =
             |posed: &Posed<Value>| posed.results(&self.scene_robot, function, formulation);
-        let recording = self.recorded(&self.results, function, arm, results);
+        let recording = self.recorded(&self.results, function, self.arm_of(function), results);
         self.run_at(&recording, state)
+    }
+
+    /// The arm that a function is of.
+    fn arm_of(&self, function: Function) -> &Arm<Exact> {
+        let mut quantities = function.quantities().iter();
+        match quantities.any(|quantity| quantity.depends_on_base()) {
+            true => &self.whole,
+            false => &self.arm,
+        }
     }
 }
 

@@ -98,7 +98,7 @@ fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request)
         passed.push(own.to_owned());
     }
     let quantities = function.quantities();
-    let is_bundle = !Function::ALL.contains(&function) && function != Function::Load;
+    let is_bundle = matches!(function, Function::Bundle(_));
     let is_number = function.structure().is_none() && quantities[0].shape().0.is_empty();
     let mut results = Vec::new();
     match batch {

@@ -80,6 +80,7 @@ impl Draw {
             } else {
                 self.milli(0, 900)
             },
+            frame: None,
             limits: Limits::default(),
         }
     }
@@ -102,6 +103,7 @@ impl Draw {
             tool: None,
             payload_frame: None,
             joints: (0..n).map(|_| self.joint()).collect(),
+            frames: Vec::new(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::frames::Frames;
 use super::friction::Friction;
 use super::matrix::{Columns, Vector, plus, zero_vector};
 use crate::robot::{Convention, Inertia, JointKind};
@@ -20,6 +21,8 @@ pub struct Arm<S> {
     pub tool: Option<Columns<S>>,
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
+    /// Frames that are fixed to them, and the one that is the hand.
+    pub frames: Frames<S>,
 }
 
 /// One row of the table: see [`crate::robot::Joint`] for shapes and units.
@@ -176,6 +179,7 @@ impl<S> Arm<S> {
             base: self.base.as_ref().map(|pose| pose.map(&mut f)),
             tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
             links: self.links.iter().map(|link| link.map(&mut f)).collect(),
+            frames: self.frames.map(f),
         }
     }
 }

@@ -19,7 +19,7 @@ pub struct Factor<S> {
     upper: Vec<Vec<S>>,
     /// d_k
     pivots: Vec<S>,
-    /// 1/d_k of all but the first, which nothing is multiplied by.
+    /// 1/d_k
     inverses: Vec<S>,
 }
 
@@ -59,21 +59,41 @@ impl<S: Divide> Factor<S> {
 
     /// x with D x = b.
     pub fn solve(&self, b: &[S]) -> Vec<S> {
-        let n = self.pivots.len();
-        let mut x = b.to_vec();
-        for k in (0..n).rev() {
-            for i in 0..k {
-                x[i] = minus(&x[i], &times(&self.upper[k][i], &x[k]));
-            }
-            x[k] = match k {
-                0 => over(&x[0], &self.pivots[0]),
-                _ => times(&x[k], &self.inverses[k]),
-            };
-        }
-        for k in 1..n {
+        self.substituted(self.eliminate(b, |k, x| match k {
+            0 => over(x, &self.pivots[0]),
+            _ => times(x, &self.inverses[k]),
+        }))
+    }
+
+    /// U⁻¹ b
+    pub fn eliminated(&self, b: &[S]) -> Vec<S> {
+        self.eliminate(b, |_, x| x.clone())
+    }
+
+    /// diag(1/d) x
+    pub fn scaled(&self, x: &[S]) -> Vec<S> {
+        let pairs = x.iter().zip(&self.inverses);
+        pairs.map(|(x, inverse)| times(x, inverse)).collect()
+    }
+
+    /// U⁻ᵀ x
+    pub fn substituted(&self, mut x: Vec<S>) -> Vec<S> {
+        for k in 1..x.len() {
             for i in 0..k {
                 x[k] = minus(&x[k], &times(&self.upper[k][i], &x[i]));
             }
+        }
+        x
+    }
+
+    /// U⁻¹ b, each entry through `then` once it has been eliminated from the others.
+    fn eliminate(&self, b: &[S], then: impl Fn(usize, &S) -> S) -> Vec<S> {
+        let mut x = b.to_vec();
+        for k in (0..x.len()).rev() {
+            for i in 0..k {
+                x[i] = minus(&x[i], &times(&self.upper[k][i], &x[k]));
+            }
+            x[k] = then(k, &x[k]);
         }
         x
     }
@@ -95,13 +115,7 @@ impl<S: Divide> Factor<S> {
             }
             inverse.push(column);
         }
-        let scaled: Vec<Vec<S>> = inverse
-            .iter()
-            .map(|column| {
-                let pairs = column.iter().zip(&self.inverses);
-                pairs.map(|(x, inverse)| times(x, inverse)).collect()
-            })
-            .collect();
+        let scaled: Vec<Vec<S>> = inverse.iter().map(|column| self.scaled(column)).collect();
         symmetric(n, |i, k| {
             (0..=k).fold(S::zero(), |sum, l| {
                 plus(&sum, &times(&scaled[i][l], &inverse[k][l]))

@@ -1,5 +1,6 @@
 //! From a robot with exact parameters to an arm in any scalar.
 
+use super::frames::{Frames, NamedFrame};
 use super::friction::{Coulomb, Friction};
 use super::matrix::Columns;
 use super::{Arm, Link, SinCosPair};
@@ -53,12 +54,27 @@ impl<S> Arm<S> {
                 armature: number(&joint.armature),
             }
         });
+        let links = links.collect();
+        let mut posed = |placement: &Placement| exact_pose(placement).map(&mut *scalar);
+        let own = robot.joints.iter();
+        let own = own.map(|joint| joint.frame.as_ref().map(&mut posed));
+        let own = own.collect();
+        let named = robot.frames.iter().map(|frame| NamedFrame {
+            name: frame.name.clone(),
+            joint: frame.joint,
+            pose: posed(&frame.placement),
+        });
         Arm {
             convention: robot.convention,
             gravity,
             base,
             tool,
-            links: links.collect(),
+            links,
+            frames: Frames {
+                named: named.collect(),
+                links: own,
+                ..Frames::default()
+            },
         }
     }
 }

@@ -7,13 +7,14 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::energy::moving;
+use super::frames::Axes;
 use super::lagrange_euler::PseudoInertia;
 use super::matrix::{
     Columns, Vector, cross, difference, minus, negative, plus, scaled, sum, times, total,
     zero_vector, zeros,
 };
 use super::newton_euler::{Wrench, table1};
-use super::{Arm, DhVariables, Formulation, from_torques};
+use super::{Arm, DhVariables, Formulation, Link, from_torques};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
@@ -21,6 +22,18 @@ use crate::scalar::dual::Dual;
 /// ⁰A_i of every frame i = 1 … n, in base axes.
 pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     poses_from(&frame_0(arm), arm, at)
+}
+
+/// The pose of every link's own frame, in base axes.
+pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+    let own = arm.frames.links.iter().map(Option::as_ref);
+    let own = own.chain(core::iter::repeat(None));
+    let poses = poses(arm, at).into_iter().zip(own);
+    let poses = poses.map(|(pose, own)| match own {
+        None => pose,
+        Some(own) => pose.then(own),
+    });
+    poses.collect()
 }
 
 /// The pose of frame 0 in base axes.
@@ -65,6 +78,8 @@ impl Formulation {
     /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
     /// of a Jacobian.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+        let (arm, at) = arm.to_hand(at);
+        let arm = &*arm;
         match self {
             Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
             Self::Dalembert | Self::NewtonEulerBase => hand_by_levers(arm, at, &levers(arm, at)),
@@ -74,23 +89,70 @@ impl Formulation {
     }
 
     /// J, 6×n: row by row the linear and the angular velocity of the hand for
-    /// each unit rate, in base axes.
+    /// each unit rate, in the arm's [`Axes`].
     pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         let n = at.len();
-        let columns: Vec<[Vector<S>; 2]> = match self {
-            Self::LagrangeEuler => (0..n).map(|j| by_rates(arm, at, j)).collect(),
-            _ => {
-                let levers = levers(arm, at);
-                (0..n).map(|j| geometric(arm, &levers, j)).collect()
+        let (arm, at) = arm.to_hand(at);
+        let by_links = matches!(
+            self,
+            Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences
+        );
+        let mut columns = match arm.frames.axes {
+            Axes::Local if by_links => local_columns(&arm, at),
+            axes => {
+                let columns = self.mixed_columns(&arm, at);
+                let hand = (axes != Axes::Mixed).then(|| self.hand(&arm, at));
+                let own = columns.into_iter();
+                own.map(|column| in_axes(axes, hand.as_ref(), column))
+                    .collect()
             }
         };
+        columns.resize(n, [zero_vector(), zero_vector()]);
         let row = |r: usize| columns.iter().map(move |c| c[r / 3][r % 3].clone());
         (0..6).map(|r| row(r).collect()).collect()
     }
 
-    /// J̇ q̇, linear over angular: the acceleration of the hand of a motion that
-    /// keeps its velocities.
+    /// The columns of J in base axes at the hand, of the joints up to it.
+    fn mixed_columns<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+        match self {
+            Self::LagrangeEuler => (0..at.len()).map(|j| by_rates(arm, at, j)).collect(),
+            _ => {
+                let levers = levers(arm, at);
+                (0..at.len()).map(|j| geometric(arm, &levers, j)).collect()
+            }
+        }
+    }
+
+    /// J̇ q̇, linear over angular, in the arm's [`Axes`]: the rate of J q̇ in a motion that
+    /// keeps its velocities. In base axes at the hand it is the hand's acceleration.
     pub fn jacobian_rate<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+    ) -> [Vector<S>; 2] {
+        let (arm, at) = arm.to_hand(at);
+        let qd = &qd[..at.len()];
+        let rate = self.acceleration_without_qdd(&arm, at, qd);
+        let axes = arm.frames.axes;
+        if axes == Axes::Mixed {
+            return rate;
+        }
+        // The frame's point moves on: v × ω, in base axes.
+        let columns = self.mixed_columns(&arm, at);
+        let columns = columns.iter().zip(qd);
+        let mut twist = [zero_vector(), zero_vector()];
+        for (column, qd) in columns {
+            twist = [0, 1].map(|part| sum(&twist[part], &scaled(qd, &column[part])));
+        }
+        let [v, omega] = &twist;
+        let [linear, angular] = rate;
+        let linear = sum(&linear, &cross(v, omega));
+        in_axes(axes, Some(&self.hand(&arm, at)), [linear, angular])
+    }
+
+    /// The acceleration of the hand without q̈, in base axes.
+    fn acceleration_without_qdd<S: Scalar>(
         self,
         arm: &Arm<S>,
         at: &[DhVariables<S>],
@@ -217,6 +279,62 @@ fn geometric<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>], j: usize) -> [Vecto
     }
 }
 
+/// A velocity of the hand in base axes, in other axes; `hand` is its pose.
+fn in_axes<S: Scalar>(
+    axes: Axes,
+    hand: Option<&Columns<S>>,
+    [linear, angular]: [Vector<S>; 2],
+) -> [Vector<S>; 2] {
+    match (axes, hand) {
+        (Axes::Mixed, _) | (_, None) => [linear, angular],
+        (Axes::Local, Some(hand)) => [hand.rotate_back(&linear), hand.rotate_back(&angular)],
+        // Of the point of the same body that is at the base's origin.
+        (Axes::World, Some(hand)) => [sum(&linear, &cross(&hand.origin, &angular)), angular],
+    }
+}
+
+/// The columns of J in the hand's own axes: from the hand inward, the third row of its
+/// axes in a joint's frame is the joint's axis in the hand's.
+fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+    let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
+    let mut columns = Vec::with_capacity(at.len());
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        let inner = inward(arm, link, at, &pose);
+        let joint = match arm.convention {
+            Convention::Standard => &inner,
+            Convention::Modified => &pose,
+        };
+        let axis = joint.axes.each_ref().map(|axis| axis[2].clone());
+        let [x, y, _] = &joint.origin;
+        columns.push(match link.kind {
+            JointKind::Prismatic => [axis, zero_vector()],
+            // z × p along each axis of the hand.
+            JointKind::Revolute => {
+                let along = |axis: &Vector<S>| minus(&times(x, &axis[1]), &times(y, &axis[0]));
+                [joint.axes.each_ref().map(along), axis]
+            }
+        });
+        pose = inner;
+    }
+    columns.reverse();
+    columns
+}
+
+/// A pose in the frame of a link, in that of the link before.
+fn inward<S: Scalar>(
+    arm: &Arm<S>,
+    link: &Link<S>,
+    at: &DhVariables<S>,
+    pose: &Columns<S>,
+) -> Columns<S> {
+    let step = link.append(arm.convention, at, &Columns::identity());
+    let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
+    Columns {
+        axes: pose.axes.each_ref().map(turn),
+        origin: sum(&turn(&pose.origin), &step.origin),
+    }
+}
+
 /// The axes of frames 0 … n and, in the place of the origin, the lever from there to
 /// the hand, in base axes. Added up from the hand on, no lever is a difference.
 fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
@@ -244,12 +362,7 @@ fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
 fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
     for (link, at) in arm.links.iter().zip(at).rev() {
-        let step = link.append(arm.convention, at, &Columns::identity());
-        let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
-        pose = Columns {
-            axes: pose.axes.each_ref().map(turn),
-            origin: sum(&turn(&pose.origin), &step.origin),
-        };
+        pose = inward(arm, link, at, &pose);
     }
     match &arm.base {
         None => pose,

@@ -12,7 +12,10 @@
 //! | [`friction`] | what joints take of torque while they move |
 //! | [`factor`] | D = U diag(d) Uᵀ, solved and inverted |
 //! | [`articulated`] | q̈ by articulated bodies |
+//! | [`frames`] | frames that are fixed to links, in which axes they are asked for |
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
+//! | [`operational`] | Λ, J̄, bias force and null space at the hand |
+//! | [`contact`] | Jᵀw of a wrench at the hand, and the wrench of torques |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
 //! | [`Arm::from_robot`], [`pose_of`], [`exact_pose`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
@@ -33,12 +36,14 @@ mod arm;
 pub mod articulated;
 mod base;
 pub mod chain;
+pub mod contact;
 pub mod dalembert;
 pub mod derivatives;
 pub mod energy;
 pub mod factor;
 mod formulation;
 pub mod forward;
+pub mod frames;
 pub mod friction;
 mod from_robot;
 pub mod from_torques;
@@ -47,6 +52,7 @@ pub mod lagrange_euler;
 pub mod load;
 pub mod matrix;
 pub mod newton_euler;
+pub mod operational;
 pub mod regressor;
 
 pub use crate::scalar::SinCosPair;

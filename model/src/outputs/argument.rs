@@ -26,6 +26,10 @@ pub enum Argument {
     Load,
     /// A payload's mass, centre of mass and inertia.
     Payload,
+    /// A wrench that acts on the hand.
+    Wrench,
+    /// λ², which keeps an inverse finite where the arm is singular.
+    Damping,
 }
 
 /// The number of entries of an argument.
@@ -143,11 +147,31 @@ const TABLE: [Facts; Argument::COUNT] = [
         limit: None,
         reach: 1.0,
     },
+    Facts {
+        name: "wrench",
+        symbol: "w",
+        noun: "wrench",
+        given: Some("hand_wrench"),
+        meaning: "Force in N over moment in N·m that act on the frame, in its axes and about its point.",
+        length: Length::Fixed(6),
+        limit: None,
+        reach: 100.0,
+    },
+    Facts {
+        name: "damping",
+        symbol: "λ²",
+        noun: "damping",
+        given: Some("damping"),
+        meaning: "λ², zero or more, which is added to the diagonal before an inverse is taken.",
+        length: Length::Fixed(1),
+        limit: None,
+        reach: 1.0,
+    },
 ];
 
 impl Argument {
     /// The number of arguments.
-    pub const COUNT: usize = 9;
+    pub const COUNT: usize = 11;
 
     /// Every argument, in the order of signatures.
     pub const ALL: [Argument; Argument::COUNT] = [
@@ -160,6 +184,8 @@ impl Argument {
         Argument::Gravity,
         Argument::Load,
         Argument::Payload,
+        Argument::Wrench,
+        Argument::Damping,
     ];
 
     /// Those with an entry a joint, which a motion is made of.
@@ -242,6 +268,14 @@ impl Argument {
     /// limit (a position that turns: half a turn).
     pub fn reach(self) -> f64 {
         self.facts().reach
+    }
+
+    /// The least that an entry is taken to be where a joint has no such limit.
+    pub fn least(self) -> f64 {
+        match self {
+            Argument::Damping => 0.0,
+            _ => -self.reach(),
+        }
     }
 }
 

@@ -28,6 +28,12 @@ pub(super) trait Formula {
     /// True if it exists only where D has an inverse.
     const INVERTS_INERTIA: bool = false;
 
+    /// The symmetric matrix that it inverts beside D, row by row, of which the condition
+    /// says how far rounding may move it; nothing if it inverts no other.
+    fn divisor<S: Divide>(_: &Written<'_, S>) -> Vec<S> {
+        Vec::new()
+    }
+
     /// Returns what vanishes if these entries over all joints are the
     /// quantity's, by an equation that it solves; nothing where
     /// [`Formula::written`] says what it is.
@@ -51,6 +57,10 @@ pub struct Motion<S> {
     pub v: Vec<S>,
     /// Accelerations wished for.
     pub a: Vec<S>,
+    /// Force over moment that act on the hand.
+    pub wrench: Vec<S>,
+    /// λ², one number.
+    pub damping: Vec<S>,
     /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
     /// that of a joint at rest ([`friction`](crate::equations::friction)).
     pub per_speed: Vec<Option<S>>,
@@ -72,6 +82,8 @@ impl<S> Motion<S> {
             tau: entries(Argument::Torque),
             v: entries(Argument::ReferenceVelocity),
             a: entries(Argument::ReferenceAcceleration),
+            wrench: entries(Argument::Wrench),
+            damping: entries(Argument::Damping),
             loading: None,
         }
     }
@@ -80,7 +92,12 @@ impl<S> Motion<S> {
     /// joint vector.
     pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
         match argument {
-            Argument::Position | Argument::Gravity | Argument::Load | Argument::Payload => None,
+            Argument::Position
+            | Argument::Wrench
+            | Argument::Damping
+            | Argument::Gravity
+            | Argument::Load
+            | Argument::Payload => None,
             Argument::Velocity => Some(&mut self.qd),
             Argument::Acceleration => Some(&mut self.qdd),
             Argument::Torque => Some(&mut self.tau),
@@ -102,6 +119,8 @@ impl<S: Clone> Motion<S> {
             tau: pick(&self.tau),
             v: pick(&self.v),
             a: pick(&self.a),
+            wrench: self.wrench.clone(),
+            damping: self.damping.clone(),
             per_speed: joints
                 .iter()
                 .map(|&joint| self.per_speed[joint].clone())
@@ -156,4 +175,16 @@ pub struct Regrouped<'a, S> {
     pub motion: &'a Motion<S>,
     /// The association.
     pub form: Form,
+    /// The whole arm in motion, where something asked is of a frame: the chain has none.
+    pub textbook: Option<Written<'a, S>>,
+    /// The joints of the chain among those of the arm.
+    pub joints: &'a [usize],
+}
+
+impl<S: Scalar> Regrouped<'_, S> {
+    /// Values over all joints of the arm, over those of the chain.
+    pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
+        let joints = self.joints.iter();
+        joints.map(|&joint| values[joint].clone()).collect()
+    }
 }

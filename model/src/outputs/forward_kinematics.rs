@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
@@ -34,6 +35,7 @@ impl Formula for Pose {
         },
         given: Some("pose"),
         depends_on_base: true,
+        frame: FrameChoice::Frame,
         ..Facts::PLAIN
     };
 

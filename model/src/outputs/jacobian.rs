@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
@@ -35,11 +36,12 @@ impl Formula for Jacobian {
         },
         given: Some("jacobian"),
         depends_on_base: true,
+        frame: FrameChoice::Rows,
         ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let j = at.formulation.jacobian(at.arm, at.at);
+        let j = at.formulation.task_jacobian(at.arm, at.at);
         j.into_iter().flatten().collect()
     }
 }

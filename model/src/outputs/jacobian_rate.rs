@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
@@ -34,11 +35,12 @@ impl Formula for JacobianRate {
         },
         given: Some("jacobian_rate_qd"),
         depends_on_base: true,
+        frame: FrameChoice::Rows,
         ..Facts::PLAIN
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let rate = at.formulation.jacobian_rate(at.arm, at.at, &at.motion.qd);
-        rate.into_iter().flatten().collect()
+        at.arm.frames.rows.pick(&rate.concat())
     }
 }

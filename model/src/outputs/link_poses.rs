@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Shape, Written};
-use crate::equations::kinematics::poses;
+use crate::equations::kinematics::link_poses;
 use crate::equations::matrix::Columns;
 use crate::scalar::Divide;
 
@@ -39,7 +39,7 @@ impl Formula for LinkPoses {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let poses = poses(at.arm, at.at);
+        let poses = link_poses(at.arm, at.at);
         poses.iter().flat_map(Columns::rows).collect()
     }
 }

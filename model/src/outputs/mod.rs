@@ -3,6 +3,7 @@
 //! - `registry`: the macro that makes [`Function`] and [`Quantity`] of the list below
 //! - `function`: what a generated function is: its name, arguments and results
 //! - `bundle`: several of them as one
+//! - `at`: one of them at a frame of the robot
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
 //! - `argument`: what functions read
@@ -16,6 +17,7 @@
 //! to the lists below.
 
 mod argument;
+mod at;
 mod bundle;
 mod formula;
 mod function;
@@ -25,12 +27,15 @@ mod registry;
 mod runtime;
 mod shape;
 
+mod consistent_inverse;
+mod contact_wrench;
 mod coriolis;
 mod coriolis_matrix;
 mod dalembert_terms;
 mod dynamic_coefficients;
 mod forward_dynamics;
 mod forward_dynamics_derivatives;
+mod forward_dynamics_with_wrench;
 mod forward_kinematics;
 mod full_regressor;
 mod gravity;
@@ -38,6 +43,7 @@ mod inertia;
 mod inertia_inverse;
 mod inverse_dynamics;
 mod inverse_dynamics_derivatives;
+mod inverse_dynamics_with_wrench;
 mod jacobian;
 mod jacobian_rate;
 mod kinetic_energy;
@@ -45,6 +51,11 @@ mod link_poses;
 mod load;
 mod manipulator_equation;
 mod momentum;
+mod momentum_observer;
+mod null_space_projector;
+mod operational_bias;
+mod operational_inertia;
+mod operational_inertia_inverse;
 mod passivity;
 mod passivity_regressor;
 mod potential_energy;
@@ -52,6 +63,7 @@ mod reaction_wrenches;
 mod regressor;
 
 pub use argument::Argument;
+pub use at::{FunctionAt, QuantityAt, is_frame_name};
 pub use bundle::{Bundle, BundleError};
 pub use formula::{Motion, Regrouped, Written};
 pub use function::Columns;
@@ -114,6 +126,24 @@ registry! {
     full_regressor: FullRegressor { LinkRegressor }
     /// Y over the base parameters: D a + C v + c + b∘v = Y π.
     passivity_regressor: PassivityRegressor { PassivityRegressor }
+    /// D q̇ and Cᵀq̇ − c − b∘q̇: what an observer of outside forces integrates.
+    momentum_observer: MomentumObserver { MomentumDrift }
+    /// τ(q, q̇, q̈) beside a wrench that acts on the hand.
+    inverse_dynamics_with_wrench: InverseDynamicsWithWrench { ContactTorque }
+    /// q̈(q, q̇, τ) under a wrench that acts on the hand.
+    forward_dynamics_with_wrench: ForwardDynamicsWithWrench { ContactAcceleration }
+    /// The wrench on the hand that joint torques say.
+    contact_wrench: ContactWrench { ContactWrench }
+    /// Λ⁻¹ = J D⁻¹ Jᵀ: the mobility of the hand.
+    operational_inertia_inverse: OperationalInertiaInverse { OperationalInertiaInverse }
+    /// Λ: the inertia of the hand.
+    operational_inertia: OperationalInertia { OperationalInertia }
+    /// J̄ = D⁻¹ Jᵀ Λ.
+    consistent_inverse: ConsistentInverse { ConsistentInverse }
+    /// μ = Λ (J D⁻¹ (h + c) − J̇ q̇).
+    operational_bias: OperationalBias { OperationalBias }
+    /// N = 1 − J̄ J.
+    null_space_projector: NullSpaceProjector { NullSpace }
 
     ; beside them:
 

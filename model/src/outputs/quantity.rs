@@ -4,6 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::at::FrameChoice;
 use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
@@ -12,6 +13,7 @@ use crate::robot::{JointKind, Robot};
 pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
 
 /// The facts that a quantity's file states, beside its formulas.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Facts {
     /// Its field in the structs that generated functions return.
     pub field: &'static str,
@@ -53,6 +55,8 @@ pub(super) struct Facts {
     pub payload_dependence: PayloadDependence,
     /// True if it depends on gravity.
     pub gravity: bool,
+    /// What may be chosen of the frame that it is of.
+    pub frame: FrameChoice,
 }
 
 impl Facts {
@@ -76,6 +80,7 @@ impl Facts {
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,
         gravity: false,
+        frame: FrameChoice::None,
     };
 }
 
@@ -206,6 +211,11 @@ impl Quantity {
         self.facts().payload_dependence
     }
 
+    /// Returns whether it can be had at any frame.
+    pub fn is_of_frame(self) -> bool {
+        self.facts().frame != FrameChoice::None
+    }
+
     /// Returns whether it depends on gravity.
     pub fn feels_gravity(self) -> bool {
         self.facts().gravity
@@ -231,7 +241,7 @@ impl Quantity {
         };
         let axes = self.shape().0.iter().zip(places);
         let indices = axes.map(|(axis, place)| match axis {
-            Axis::Fixed(_) => Index::Fixed(place),
+            Axis::Fixed(_) => Index::Fixed(self.component(place)),
             Axis::Joints if turns(place) => Index::Turning,
             Axis::Joints => Index::Sliding,
             Axis::LinkParameters => {
@@ -240,6 +250,15 @@ impl Quantity {
             Axis::BaseParameters | Axis::Load => Index::Base,
         });
         (self.facts().unit)(&indices.collect::<Vec<_>>())
+    }
+
+    /// The place among six of a component of a quantity at a frame, if some were chosen.
+    fn component(self, place: usize) -> usize {
+        let rows = match self {
+            Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => at.view().rows,
+            _ => return place,
+        };
+        rows.indices().nth(place).unwrap_or(place)
     }
 
     /// The name of one entry, one-based: `D_12`, `h_123`, with separators

@@ -17,6 +17,8 @@ macro_rules! registry {
             $($(#[$along_doc])* $along,)*
             /// Several of these in one, by a name of the user's.
             Bundle(bundle::Bundle),
+            /// One of these at a frame.
+            At(at::FunctionAt),
         }
 
         /// A quantity that a function returns.
@@ -30,6 +32,8 @@ macro_rules! registry {
                 #[doc = concat!("Of [`Function::", stringify!($along), "`].")]
                 $part,
             )*)*
+            /// One of these at a frame.
+            At(at::QuantityAt),
         }
 
         impl Function {
@@ -42,6 +46,7 @@ macro_rules! registry {
                     $(Function::$function => &$file::FUNCTION,)*
                     $(Function::$along => &$along_file::FUNCTION,)*
                     Function::Bundle(bundle) => bundle.definition(),
+                    Function::At(at) => at.definition(),
                 }
             }
         }
@@ -54,14 +59,16 @@ macro_rules! registry {
                 match self {
                     $($(Quantity::$quantity => &<$file::$quantity as formula::Formula>::FACTS,)*)*
                     $($(Quantity::$part => &<$along_file::$part as formula::Formula>::FACTS,)*)*
+                    Quantity::At(at) => at.facts(),
                 }
             }
 
-            /// The function that defines it, where others may return it too.
+            /// The function that defines it, of the hand, where others may return it too.
             pub fn function(self) -> Function {
                 match self {
                     $($(Quantity::$quantity => Function::$function,)*)*
                     $($(Quantity::$part => Function::$along,)*)*
+                    Quantity::At(at) => at.quantity().function(),
                 }
             }
 
@@ -70,6 +77,7 @@ macro_rules! registry {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)*)*
                     $($(Quantity::$part => <$along_file::$part as formula::Formula>::written(at),)*)*
+                    Quantity::At(own) => own.written(at),
                 }
             }
 
@@ -82,6 +90,7 @@ macro_rules! registry {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::regrouped(at),)*)*
                     $($(Quantity::$part => <$along_file::$part as formula::Formula>::regrouped(at),)*)*
+                    Quantity::At(own) => own.regrouped(at),
                 }
             }
 
@@ -90,6 +99,7 @@ macro_rules! registry {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)*)*
                     $($(Quantity::$part => <$along_file::$part as formula::Formula>::INVERTS_INERTIA,)*)*
+                    Quantity::At(own) => own.quantity().inverts_inertia(),
                 }
             }
 
@@ -103,7 +113,23 @@ macro_rules! registry {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)*)*
                     $($(Quantity::$part => <$along_file::$part as formula::Formula>::residual(at, values),)*)*
+                    Quantity::At(own) => own.residual(at, values),
                 }
+            }
+
+            /// The symmetric matrix that it inverts beside D, row by row; nothing if it
+            /// inverts no other.
+            pub fn divisor<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
+                match self {
+                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::divisor(at),)*)*
+                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::divisor(at),)*)*
+                    Quantity::At(own) => own.divisor(at),
+                }
+            }
+
+            /// Its place among all of them; none of one at a frame.
+            pub fn index(self) -> ::core::option::Option<usize> {
+                Quantity::ALL.iter().position(|quantity| *quantity == self)
             }
         }
     };

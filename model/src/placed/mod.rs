@@ -40,6 +40,7 @@ mod row;
 
 use alloc::vec::Vec;
 
+use crate::equations::matrix::Columns;
 use crate::number::recover::recovered;
 use crate::number::{Rational, Wide};
 use crate::robot::{Placement, Robot};
@@ -111,19 +112,31 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
             com: joint.com.clone(),
             inertia: joint.inertia.clone(),
         };
-        let moved = frame::moved(&own, &frame::inverse(&row.frame), &size);
+        let back = frame::inverse(&row.frame);
+        let moved = frame::moved(&own, &back, &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
+        joint.frame = placed_in(&back, joint.frame.as_ref(), &size).unless_identity();
+        let fixed = robot.frames.iter_mut().filter(|frame| frame.joint == i);
+        for frame in fixed {
+            frame.placement = placed_in(&back, Some(&frame.placement), &size);
+        }
         before = row.frame;
     }
     let last = frame::inverse(&before);
     for end in [&mut robot.tool, &mut robot.payload_frame] {
-        let pose = match &*end {
-            None => last.clone(),
-            Some(own) => last.then(&frame::pose(own)),
-        };
-        *end = frame::placement(&pose, &size).unless_identity();
+        *end = placed_in(&last, end.as_ref(), &size).unless_identity();
     }
     Ok(())
+}
+
+/// Where a frame is in another one, in which that which it is given in has this pose;
+/// without a placement it is that.
+fn placed_in(back: &Columns<Wide>, own: Option<&Placement>, size: &Rational) -> Placement {
+    let pose = match own {
+        None => back.clone(),
+        Some(own) => back.then(&frame::pose(own)),
+    };
+    frame::placement(&pose, size)
 }
 
 /// Returns what lengths are small against: the arm stretched out, or a metre if
@@ -131,6 +144,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     let ends = [&robot.base, &robot.tool, &robot.payload_frame];
     let ends = ends.into_iter().flatten();
+    let ends = ends.chain(robot.frames.iter().map(|frame| &frame.placement));
     let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
     let total: Rational = placements.map(Placement::size).sum();
     match num_traits::Zero::is_zero(&total) {

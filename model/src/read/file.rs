@@ -12,7 +12,7 @@ use super::places::Places;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
-use super::{Options, allow, guard, joint, outputs, placed, scene, syntax};
+use super::{Options, allow, frame, guard, joint, outputs, placed, scene, syntax};
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::placed::Placed;
@@ -20,7 +20,7 @@ use crate::robot::{Convention, Finding, Joint, Place, Placement, Robot};
 use crate::scene::Scene;
 
 /// The keys of a robot.
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 11] = [
     "name",
     "convention",
     "gravity",
@@ -30,6 +30,7 @@ const KEYS: [&str; 10] = [
     "allow",
     "outputs",
     "joint",
+    "frame",
     "scene",
 ];
 
@@ -139,7 +140,11 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
         tool,
         payload_frame,
         joints,
+        frames: Vec::new(),
     };
+    robot.frames = keys.get("frame").map_or_else(Vec::new, |list| {
+        frame::read(cx, places, &robot.joints, list)
+    });
     let findings = placed::rows(cx, places, &mut robot, placements);
     Some((robot, findings))
 }

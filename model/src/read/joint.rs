@@ -15,7 +15,7 @@ use crate::placed::Placed;
 use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Placement, Position};
 
 /// The keys of a joint, in the order that robot files have them.
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 19] = [
     "name",
     "kind",
     "alpha",
@@ -33,6 +33,7 @@ const KEYS: [&str; 18] = [
     "coulomb",
     "coulomb_width",
     "armature",
+    "frame",
     "limits",
 ];
 /// Those of a row of the DH table.
@@ -98,6 +99,7 @@ pub(super) fn read(
         coulomb: fields.number(Field::Coulomb),
         coulomb_width: fields.coulomb_width(),
         armature: fields.number(Field::Armature),
+        frame: fields.frame(),
         limits: fields.limits(kind),
     };
     (joint, placed)
@@ -178,6 +180,14 @@ impl Fields<'_, '_, '_, '_, '_> {
         let help = "kind = \"revolute\" or \"prismatic\"";
         let value = self.keys.require("kind", help, self.cx.sink)?;
         self.cx.word(value, &JointKind::WORDS)
+    }
+
+    /// The link's own frame, in that of its row or of its placement.
+    fn frame(&mut self) -> Option<Placement> {
+        let value = self.keys.get(Field::Frame.key())?;
+        let read = self.cx.placement(value, Field::Frame.key());
+        self.keep(Field::Frame, value, read, Placement::default)
+            .unless_identity()
     }
 
     /// A number that is zero unless given.

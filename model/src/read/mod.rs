@@ -3,7 +3,7 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file`, `allow`, `joint` and `scene`: the keys of the file, through `table` and
+//! - `file`, `allow`, `joint`, `frame` and `scene`: the keys of the file, through `table` and
 //!   `value`
 //! - `placed`: DH rows for joints that are placed by frames
 //! - [`Robot::validate`]: what is wrong whoever made the robot
@@ -20,6 +20,12 @@
 //! [[joint]]                       # a joint without a row of the DH table:
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
 //! axis = [0, 0, 1]
+//!
+//! [[frame]]                       # a frame by its name, fixed to the link of joint 1
+//! name = "camera"
+//! link = 1
+//! xyz = [0, 0.05, 0.1]
+//! rpy = ["pi/2", 0, 0]
 //! ```
 //!
 //! What is odd and not wrong is a warning, each with a name ([`RobotWarning`]) in its help.
@@ -31,7 +37,9 @@
 //! this order, as in URDF. Joints are placed all or none; their `com` and
 //! `inertia`, the `tool` and payloads are in the links' own frames, whose
 //! origins lie on the joints' axes. [`placed`](crate::placed) says which rows they
-//! get; `link_poses` are those of the rows' frames. A row may turn about y after
+//! get. `link_poses` are those of the links' own frames: a joint with a row may say where
+//! that is in the row's, `frame`. Frames by name are in the links' own where joints are
+//! placed, and in the rows' otherwise. A row may turn about y after
 //! its twist, `beta`, where axes are nearly parallel.
 //!
 //! `report` collects and prints what was found; `suggest` finds the word that
@@ -40,6 +48,7 @@
 mod allow;
 mod file;
 mod foreign;
+mod frame;
 mod guard;
 mod joint;
 mod outputs;

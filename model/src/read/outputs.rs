@@ -40,10 +40,13 @@ pub(super) fn read(cx: &mut Context, value: &Value, whose: &str) -> Option<Vec<F
     complete.then_some(outputs)
 }
 
-/// Reads an output by its name, or a bundle of some.
+/// Reads an output by its name, one at a frame, or a bundle of some.
 fn output(cx: &mut Context, item: &Value, before: &[Function]) -> Option<Function> {
     let words = Function::ALL.map(|function| (function.name(), function));
-    let Some(text) = item.as_str().filter(|text| text.contains(['=', '+'])) else {
+    let Some(text) = item
+        .as_str()
+        .filter(|text| text.contains(['=', '+', '@', ':']))
+    else {
         return cx.word(item, &words);
     };
     match Function::parse(text) {

@@ -16,7 +16,7 @@ use super::table::Keys;
 use super::value::{Context, first_line};
 use crate::number::Rational;
 use crate::outputs::Function;
-use crate::robot::{Field, Inertia, JointKind, Place, Position, Robot};
+use crate::robot::{Field, Inertia, Joint, JointKind, Place, Position, Robot};
 use crate::scene::{Float, MotionBox, Part, Payload, Scale, Scene, Tolerance};
 
 const KEYS: [&str; 10] = [
@@ -91,6 +91,34 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, places: &Places, scenes: &Va
 }
 
 /// Returns whether a finding here may come from what could not be read.
+/// Returns the joint of a number, from one, or of a name.
+pub(super) fn find_joint(joints: &[Joint], text: &str) -> Option<usize> {
+    match text.parse::<i64>() {
+        Ok(number) => usize::try_from(number)
+            .ok()
+            .and_then(|number| number.checked_sub(1))
+            .filter(|joint| *joint < joints.len()),
+        Err(_) => {
+            let mut names = joints.iter().map(|joint| joint.name.as_deref());
+            names.position(|name| name == Some(text))
+        }
+    }
+}
+
+/// Returns the likely fix of a text that is no joint.
+pub(super) fn for_joint(joints: &[Joint], text: &str) -> String {
+    let n = joints.len();
+    let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
+    match (text.parse::<i64>(), suggest::closest(text, &names)) {
+        (Err(_), Some(meant)) => format!("did you mean `{meant}`?"),
+        (Err(_), None) if names.is_empty() => {
+            format!("the joints have no names: count them from 1 to {n}")
+        }
+        _ if names.is_empty() => format!("joints are counted from 1 to {n}"),
+        _ => format!("joints are counted from 1 to {n}: {}", names.join(", ")),
+    }
+}
+
 fn is_of_absence(part: Part) -> bool {
     matches!(
         part,
@@ -196,30 +224,9 @@ impl Reader<'_, '_, '_> {
 
     /// A joint by its number, from one, or its name.
     fn joint(&mut self, text: &str, span: Range<usize>) -> Option<usize> {
-        let joints = &self.robot.joints;
-        let n = joints.len();
-        let number = text.parse::<i64>().ok();
-        let named = || {
-            let mut names = joints.iter().map(|joint| joint.name.as_deref());
-            names.position(|name| name == Some(text))
-        };
-        let found = match number {
-            Some(number) => usize::try_from(number)
-                .ok()
-                .and_then(|number| number.checked_sub(1))
-                .filter(|joint| *joint < n),
-            None => named(),
-        };
+        let found = find_joint(&self.robot.joints, text);
         if found.is_none() {
-            let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
-            let help = match (number, suggest::closest(text, &names)) {
-                (None, Some(meant)) => format!("did you mean `{meant}`?"),
-                (None, None) if names.is_empty() => {
-                    format!("the joints have no names: count them from 1 to {n}")
-                }
-                _ if names.is_empty() => format!("joints are counted from 1 to {n}"),
-                _ => format!("joints are counted from 1 to {n}: {}", names.join(", ")),
-            };
+            let help = for_joint(&self.robot.joints, text);
             let message = format!("there is no joint {}", quote(text));
             self.cx.sink.error(span, message, &help);
         }

@@ -275,8 +275,6 @@ impl<'s> Context<'s, '_> {
 
     /// A placement; `what` is the key that has it.
     pub(super) fn placement(&mut self, value: &Value, what: &str) -> Option<Placement> {
-        const XYZ: &str = "xyz = [x, y, z], in m";
-        const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
         let help = format!("{what} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
         let keys = Keys {
             table: self.table(value, &help)?,
@@ -284,6 +282,13 @@ impl<'s> Context<'s, '_> {
             what: what.to_string(),
         };
         keys.reject_unknown(&["xyz", "rpy"], self.sink);
+        self.placement_of(&keys)
+    }
+
+    /// The placement that the keys of a table say, among others.
+    pub(super) fn placement_of(&mut self, keys: &Keys) -> Option<Placement> {
+        const XYZ: &str = "xyz = [x, y, z], in m";
+        const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
         let mut placement = Placement::default();
         let (xyz, rpy) = (keys.get("xyz"), keys.get("rpy"));
         let xyz = xyz.map(|value| self.array(value, XYZ, Self::length));

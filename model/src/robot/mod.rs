@@ -40,7 +40,7 @@ pub use placement::Placement;
 pub use warning::RobotWarning;
 
 pub use validate::suggested_name;
-pub use write::write;
+pub use write::{write, write_frame};
 
 /// Which of the two DH conventions the table is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -99,6 +99,19 @@ pub struct Robot {
     pub payload_frame: Option<Placement>,
     /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`].
     pub joints: Vec<Joint>,
+    /// Frames that are fixed to links, by their names; at most [`Robot::MAX_FRAMES`].
+    pub frames: Vec<Frame>,
+}
+
+/// A frame that is fixed to a link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Its name: small letters, digits and single `_`, since functions are called after it.
+    pub name: String,
+    /// The joint that moves the link, zero-based.
+    pub joint: usize,
+    /// Where it is in the frame of the joint's row.
+    pub placement: Placement,
 }
 
 impl Robot {
@@ -117,6 +130,8 @@ impl Robot {
 
     /// The most joints a robot may have.
     pub const MAX_JOINTS: usize = 64;
+    /// The most frames it may have.
+    pub const MAX_FRAMES: usize = 1024;
     /// The longest name of a robot or a joint, in characters.
     pub const MAX_NAME: usize = 64;
 
@@ -169,6 +184,9 @@ pub struct Joint {
     pub coulomb_width: Rational,
     /// Rotor inertia felt at the joint, added to D_ii, kg·m² or kg.
     pub armature: Rational,
+    /// The link's own frame in that of its row, unless it is that: what poses of links
+    /// are of. Centre of mass and inertia are in the row's.
+    pub frame: Option<Placement>,
     /// Limits of motion and load, each optional.
     pub limits: Limits,
 }

@@ -20,6 +20,10 @@ pub enum Place {
     Joints,
     /// A field of the joint with this zero-based index.
     Joint(usize, Field),
+    /// The list of frames as a whole.
+    Frames,
+    /// The frame with this zero-based index.
+    Frame(usize),
 }
 
 /// A field of a [`Joint`](super::Joint).
@@ -60,6 +64,8 @@ pub enum Field {
     CoulombWidth,
     /// Rotor inertia.
     Armature,
+    /// The link's own frame.
+    Frame,
     /// Range of positions, of the limits.
     Position,
     /// Velocity limit.
@@ -90,6 +96,7 @@ impl Field {
             Field::Coulomb => "coulomb",
             Field::CoulombWidth => "coulomb_width",
             Field::Armature => "armature",
+            Field::Frame => "frame",
             Field::Position => "position",
             Field::Velocity => "velocity",
             Field::Acceleration => "acceleration",
@@ -107,6 +114,8 @@ impl fmt::Display for Place {
             Place::Tool => f.write_str("tool"),
             Place::PayloadFrame => f.write_str("payload_frame"),
             Place::Joints => f.write_str("joints"),
+            Place::Frames => f.write_str("frames"),
+            Place::Frame(index) => write!(f, "frame {}", index + 1),
             // People count joints from one, as the equations do.
             Place::Joint(index, field) => write!(f, "joint {}: {}", index + 1, field.key()),
         }

@@ -18,8 +18,10 @@ use super::{
     Convention, Field, Joint, JointKind, Place, Placement, Position, Robot, RobotWarning, reach,
     units,
 };
+use crate::equations::frames::HAND;
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
+use crate::outputs::is_frame_name;
 
 /// The widths over which the sign of Coulomb friction may be smoothed.
 const WIDTHS: core::ops::RangeInclusive<f64> = 1e-9..=1e9;
@@ -93,6 +95,7 @@ impl Robot {
                 names.insert(name, index);
             }
         }
+        findings.frames(self);
         findings.into_all()
     }
 }
@@ -152,6 +155,44 @@ impl Findings {
         }
     }
 
+    fn frames(&mut self, robot: &Robot) {
+        if robot.frames.len() > Robot::MAX_FRAMES {
+            let message = format!("a robot has {} frames at most", Robot::MAX_FRAMES);
+            self.error(
+                Place::Frames,
+                message,
+                "leave out those that nothing asks for",
+            );
+        }
+        let mut names = BTreeMap::new();
+        for (index, frame) in robot.frames.iter().enumerate() {
+            let (place, name) = (Place::Frame(index), frame.name.as_str());
+            if name == HAND {
+                let message = format!("`{HAND}` is the name of the robot's own hand");
+                self.error(place, message, "call the frame otherwise");
+            } else if !is_frame_name(name) {
+                let message = format!("{name:?} cannot name a frame");
+                let help = match suggested_name(name).filter(|name| is_frame_name(name)) {
+                    Some(better) => {
+                        format!("functions are called after it, `jacobian_{better}`; write {better:?}")
+                    }
+                    None => "functions are called after it: small letters, digits and single `_` between them".to_owned(),
+                };
+                self.error(place, message, &help);
+            } else if let Some(first) = names.insert(name, index) {
+                let message = format!("frame {} is called {name:?} already", first + 1);
+                self.error(place, message, "give every frame a name of its own");
+            }
+            if frame.joint >= robot.joints.len() {
+                let message = format!("frame {name:?} is fixed to no link of the robot");
+                let help = format!("links are counted from 1 to {}", robot.joints.len());
+                self.error(place, message, &help);
+            }
+            self.placement(place, &frame.placement);
+            self.doubtful_placement(place, &frame.placement);
+        }
+    }
+
     fn placement(&mut self, place: Place, placement: &Placement) {
         for value in &placement.xyz {
             self.size(place, value);
@@ -183,6 +224,9 @@ impl Findings {
         self.not_negative(at(Field::Viscous), "viscous", &joint.viscous);
         self.coulomb(index, joint);
         self.not_negative(at(Field::Armature), "armature", &joint.armature);
+        if let Some(frame) = &joint.frame {
+            self.placement(at(Field::Frame), frame);
+        }
         let limits = &joint.limits;
         for (field, limit) in [
             (Field::Velocity, &limits.velocity),

@@ -11,7 +11,7 @@ use core::fmt::Write;
 use num_traits::Zero;
 
 use super::values::{angle, list, number, placement, position, quoted};
-use super::{Convention, Joint, JointKind, Robot};
+use super::{Convention, Joint, JointKind, Placement, Robot};
 use crate::number::{Angle, Rational};
 
 /// Writes a robot as a robot file.
@@ -38,6 +38,12 @@ pub fn write(robot: &Robot) -> String {
     for joint in &robot.joints {
         text.push_str("\n[[joint]]\n");
         write_joint(&mut text, joint);
+    }
+    for frame in &robot.frames {
+        text.push_str("\n[[frame]]\n");
+        line(&mut text, "name", &quoted(&frame.name));
+        line(&mut text, "link", &format!("{}", frame.joint + 1));
+        write_frame(&mut text, &frame.placement);
     }
     text
 }
@@ -103,7 +109,20 @@ fn write_joint(text: &mut String, joint: &Joint) {
             line(text, key, &number(value));
         }
     }
+    if let Some(frame) = &joint.frame {
+        line(text, "frame", &placement(frame));
+    }
     write_limits(text, joint);
+}
+
+/// Writes the keys of a `[[frame]]` table that say where it is.
+pub fn write_frame(text: &mut String, placement: &Placement) {
+    if placement.xyz.iter().any(|x| !x.is_zero()) {
+        line(text, "xyz", &list(placement.xyz.iter().map(number)));
+    }
+    if placement.rpy.iter().any(|turn| !turn.is_zero()) {
+        line(text, "rpy", &list(placement.rpy.iter().map(angle)));
+    }
 }
 
 fn write_limits(text: &mut String, joint: &Joint) {

@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use dalembert_model::equations::frames::Frames;
 use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -108,6 +109,7 @@ impl Extreme {
             base: None,
             tool: None,
             links: types.chars().enumerate().map(link).collect(),
+            frames: Frames::default(),
         }
     }
 }

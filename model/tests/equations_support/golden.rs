@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use dalembert_model::equations::frames::Frames;
 use dalembert_model::equations::friction::Friction;
 use dalembert_model::equations::{Arm, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -63,6 +64,7 @@ fn arm(json: &Value) -> Arm<f64> {
         base: None,
         tool: None,
         links: json["links"].as_array().unwrap().iter().map(link).collect(),
+        frames: Frames::default(),
     }
 }
 

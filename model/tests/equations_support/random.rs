@@ -1,6 +1,7 @@
 //! Random general arms in the prime field: every parameter its own residue, so
 //! that no slip can hide behind a zero or a right angle.
 
+use dalembert_model::equations::frames::Frames;
 use dalembert_model::equations::friction::{Coulomb, Friction};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPair};
@@ -33,6 +34,7 @@ pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) ->
         base: None,
         tool: None,
         links: kinds.iter().map(|kind| link(*kind, points)).collect(),
+        frames: Frames::default(),
     };
     let position = |kind: &JointKind| match kind {
         JointKind::Revolute => JointPosition::Revolute(pair(points)),

@@ -90,7 +90,8 @@ pub fn compare(emitted: &Emitted, runtime: &Runtime, states: &[GivenState]) -> V
         let n = given.state.q.len();
         // A state need not have what only some functions read.
         let mut arguments = function.arguments().into_iter();
-        if arguments.any(|argument| given.state.of(argument).len() != n) {
+        let sizes = Sizes::whole(n);
+        if arguments.any(|argument| given.state.of(argument).len() != argument.length(sizes)) {
             continue;
         }
         let results = own.run(&given.state);

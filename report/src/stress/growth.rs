@@ -108,6 +108,7 @@ pub fn chain(n: usize, seed: u64) -> Robot {
             coulomb: Rational::default(),
             coulomb_width: Rational::default(),
             armature: Rational::default(),
+            frame: None,
             limits: Limits::default(),
         }
     };
@@ -119,5 +120,6 @@ pub fn chain(n: usize, seed: u64) -> Robot {
         tool: None,
         payload_frame: None,
         joints: (0..n.min(Robot::MAX_JOINTS)).map(joint).collect(),
+        frames: Vec::new(),
     }
 }

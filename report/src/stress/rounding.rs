@@ -1,7 +1,7 @@
 //! A robot whose parameters are numbers of a scalar.
 
 use dalembert_model::number::{Angle, Rational, Rounded};
-use dalembert_model::robot::{Inertia, Joint, Placement, Robot};
+use dalembert_model::robot::{Frame, Inertia, Joint, Placement, Robot};
 
 use dalembert_codegen::workspace::program::ScalarType;
 
@@ -68,12 +68,20 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
         );
         placement.map_or(Some(None), |rounded| rounded.map(Some))
     };
+    let frame = |frame: &Frame| {
+        let placement = placement(&Some(frame.placement.clone()))?;
+        Some(Frame {
+            placement: placement.unwrap_or_default(),
+            ..frame.clone()
+        })
+    };
     Some(Robot {
         gravity: triple(&robot.gravity)?,
         base: placement(&robot.base)?,
         tool: placement(&robot.tool)?,
         payload_frame: placement(&robot.payload_frame)?,
         joints: robot.joints.iter().map(joint).collect::<Option<_>>()?,
+        frames: robot.frames.iter().map(frame).collect::<Option<_>>()?,
         ..robot.clone()
     })
 }

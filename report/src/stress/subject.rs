@@ -98,7 +98,11 @@ fn run<T: Float>(
 ) -> Result<Vec<f64>, WrongLength> {
     let vector =
         |values: &[f64]| DVector::from_iterator(values.len(), values.iter().map(|x| narrow(*x)));
-    let at = JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))));
+    let at = JointVectors {
+        wrench: vector(state.of(Argument::Wrench)),
+        damping: vector(state.of(Argument::Damping)),
+        ..JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))))
+    };
     let mut results = Vec::new();
     for quantity in function.quantities() {
         results.extend(runtime.entries(*quantity, &at)?);

@@ -82,6 +82,7 @@ fn robot(json: &Value) -> Robot {
             coulomb: exact(0.0),
             coulomb_width: exact(0.0),
             armature: exact(0.0),
+            frame: None,
             limits: Limits::default(),
         }
     };
@@ -94,6 +95,7 @@ fn robot(json: &Value) -> Robot {
         tool: None,
         payload_frame: None,
         joints: kinds.enumerate().map(joint).collect(),
+        frames: Vec::new(),
     }
 }
 

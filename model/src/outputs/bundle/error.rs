@@ -31,6 +31,14 @@ pub enum BundleError {
     Few(Option<Function>),
     /// Two parts return the same.
     Twice(Quantity, [Function; 2]),
+    /// This cannot name a frame.
+    Frame(String),
+    /// An output that is of no frame.
+    NoFrame(Function),
+    /// An output that is of a frame, but not in chosen axes or components.
+    NoAxes(Function, String),
+    /// A word that chooses neither axes nor components, or a second one.
+    Word(String),
     /// Results of two parts would have one field.
     SameField(&'static str, [Function; 2]),
 }
@@ -75,6 +83,18 @@ impl BundleError {
             BundleError::Twice(quantity, [one, other]) => {
                 format!("`{one}` and `{other}` both return {}", quantity.symbol())
             }
+            BundleError::Frame(name) => {
+                let name: String = name.chars().take(64).collect();
+                format!("`{name}` cannot name a frame")
+            }
+            BundleError::NoFrame(function) => format!("`{function}` is of no frame"),
+            BundleError::NoAxes(function, words) => {
+                format!("`{function}` has no choice of `{words}`")
+            }
+            BundleError::Word(word) => {
+                let word: String = word.chars().take(64).collect();
+                format!("`{word}` is no choice of axes or components")
+            }
             BundleError::SameField(field, [one, other]) => {
                 format!("`{one}` and `{other}` would both be the field `{field}`")
             }
@@ -104,6 +124,14 @@ impl BundleError {
             }
             BundleError::Few(Some(part)) => format!("ask for `{part}` by itself"),
             BundleError::Twice(..) => "leave one of them out".to_string(),
+            BundleError::Frame(_) => {
+                "small letters, digits and single `_` between them, such as `camera_2`".to_string()
+            }
+            BundleError::NoFrame(_) => "leave `@` and what follows out".to_string(),
+            BundleError::NoAxes(..) => "it takes a frame alone".to_string(),
+            BundleError::Word(_) => "`mixed`, `local` or `world`; `linear`, `angular`, or some of \
+                                     x, y, z, rx, ry and rz, such as `x_y_rz`"
+                .to_string(),
             BundleError::SameField(..) => "ask for one of them by itself".to_string(),
         }
     }

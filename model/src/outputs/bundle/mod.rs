@@ -21,6 +21,7 @@ use super::function::Definition;
 use super::{Columns, Function, Quantity};
 
 pub use error::BundleError;
+pub(super) use name::check as check_name;
 
 /// A function of the results of several others.
 ///
@@ -65,7 +66,9 @@ impl Function {
         name::check(name)?;
         let parts: Vec<Function> = parts.into_iter().flat_map(Function::parts).collect();
         // What comes along with others is no output.
-        let is_none = |part: &&Function| Function::from_name(part.name()) != Some(**part);
+        let is_none = |part: &&Function| {
+            !matches!(part, Function::At(_)) && Function::from_name(part.name()) != Some(**part)
+        };
         if let Some(part) = parts.iter().find(is_none) {
             return Err(BundleError::Unknown(part.name().to_string()));
         }
@@ -117,20 +120,24 @@ impl Function {
         match self {
             Function::Bundle(bundle) => {
                 let parts = bundle.definition().parts.iter();
-                let parts: Vec<&str> = parts.map(|part| part.name()).collect();
+                let parts: Vec<String> = parts.map(|part| part.text()).collect();
                 format!("{}{IS}{}", self.name(), parts.join("+"))
             }
-            other => other.name().to_string(),
+            other => other.text_at().unwrap_or_else(|| other.name().to_string()),
         }
     }
 
-    /// The function of a text: a name, or `NAME = PART + PART`.
+    /// The function of a text: a name, one at a frame (`jacobian@camera`), or
+    /// `NAME = PART + PART`.
     ///
     /// # Errors
     /// [`BundleError`]; what names no function is a [`BundleError::Unknown`].
     pub fn parse(text: &str) -> Result<Function, BundleError> {
         let named = |word: &str| {
             let word = word.trim();
+            if Function::is_at(word) {
+                return Function::parse_at(word);
+            }
             Function::from_name(word).ok_or_else(|| BundleError::Unknown(word.to_string()))
         };
         match text.split_once(IS) {
@@ -180,7 +187,8 @@ fn summary(parts: &[Function]) -> String {
     }
 }
 
-fn kept(text: String) -> &'static str {
+/// A text for as long as the process runs.
+pub(super) fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }
 

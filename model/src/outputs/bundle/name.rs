@@ -33,7 +33,7 @@ const WORDS: [&str; 51] = [
 ];
 
 /// Returns whether a bundle may have this name.
-pub(super) fn check(name: &str) -> Result<(), BundleError> {
+pub(in crate::outputs) fn check(name: &str) -> Result<(), BundleError> {
     let own = || name.to_string();
     let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())

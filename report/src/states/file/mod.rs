@@ -53,7 +53,7 @@ fn state(value: &Value, n: usize) -> Result<GivenState, StateFault> {
     let known = words::keys();
     for (key, value) in keys {
         match (
-            known.contains(&key.as_str()),
+            known.contains(&key.as_str()) || words::at_frame(key).is_some(),
             REMARKS.contains(&key.as_str()),
         ) {
             (true, _) => {}
@@ -63,6 +63,11 @@ fn state(value: &Value, n: usize) -> Result<GivenState, StateFault> {
         }
     }
     let need = |key| vector(keys, key, n)?.ok_or(StateFault::Missing(key));
+    let sizes = Sizes::whole(n);
+    let other = |argument: Argument| {
+        let key = argument.given().unwrap_or_default();
+        Ok(vector(keys, key, argument.length(sizes))?.unwrap_or_default())
+    };
     let q = need("q")?;
     let mut given = GivenState {
         state: JointState {
@@ -70,12 +75,15 @@ fn state(value: &Value, n: usize) -> Result<GivenState, StateFault> {
             qd: vector(keys, "qd", n)?.unwrap_or_else(|| vec![0.0; n]),
             qdd: vector(keys, "qdd", n)?.unwrap_or_else(|| vec![0.0; n]),
             tau: vector(keys, TORQUE, n)?.unwrap_or_default(),
+            wrench: other(Argument::Wrench)?,
+            damping: other(Argument::Damping)?,
             ..JointState::default()
         },
         known: Default::default(),
     };
-    for (key, quantity) in words::given() {
-        let Some(values) = vector(keys, key, quantity.len(Sizes::whole(n)))? else {
+    let at_frames = keys.keys().filter_map(|key| words::at_frame(key));
+    for (key, quantity) in words::given().chain(at_frames) {
+        let Some(values) = vector(keys, key, quantity.len(sizes))? else {
             continue;
         };
         let arguments = quantity.arguments().iter();

@@ -1,12 +1,22 @@
 //! The keys of states, and what others call them.
 
-use dalembert_codegen::workspace::function::{Argument, Quantity};
+use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
 use dalembert_model::read::closest;
 
 /// The keys of quantities, in the order of the list of outputs.
 pub(super) fn given() -> impl Iterator<Item = (&'static str, Quantity)> {
     let all = Quantity::ALL.iter();
     all.filter_map(|&quantity| Some((quantity.given()?, quantity)))
+}
+
+/// The quantity of a key with a frame: `jacobian@camera:local`.
+pub(super) fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
+    let (name, view) = key.split_once('@')?;
+    let (_, quantity) = given().find(|(own, _)| *own == name)?;
+    let function = Function::parse(&format!("{}@{view}", quantity.function())).ok()?;
+    let quantity = *function.quantities().first()?;
+    let own = quantity.given().filter(|own| *own == key)?;
+    Some((own, quantity))
 }
 
 /// Every key of a state.

@@ -1,0 +1,108 @@
+//! A UR10 that moves is pushed at its hand, and finds the push by its momentum.
+//!
+//! - [`observer`]: the torques of what touches the arm, from the drives' and the motion
+//! - [`simulate`]: the arm, its controller and the push, at 1 kHz
+//!
+//! The arm has no sensor of force: what the observer is given are positions, velocities and
+//! the torques of the drives. De Luca and Mattone, "Sensorless robot collision detection and
+//! hybrid force/motion control", 2005.
+#![forbid(unsafe_code)]
+
+pub mod observer;
+
+use example_shared::integrate::State;
+use observer::Observer;
+
+dalembert::dynamics! {
+    /// The arm, with what is asked of it at its hand.
+    pub mod ur10 = "../../generated/robots/ur10.toml";
+    outputs: inverse_dynamics, forward_dynamics_with_wrench, momentum_observer, contact_wrench;
+    scalar: f64;
+}
+
+/// A value for each joint.
+pub type Joints = [f64; ur10::N];
+
+/// Force over moment on the hand, in base axes.
+pub type Wrench = [f64; 6];
+
+/// The period of controller and observer, s.
+pub const PERIOD: f64 = 1e-3;
+
+/// Torques of something outside above this are a push, N·m. Without one the observer is
+/// below a thousandth of it.
+pub const THRESHOLD: f64 = 1.0;
+
+/// λ² of the estimate of a wrench: small beside J Jᵀ where the arm is bent.
+const DAMPING: [f64; 1] = [1e-6];
+
+/// The closed loop's frequency, rad/s.
+const FREQUENCY: f64 = 20.0;
+
+/// A push on the hand.
+#[derive(Clone, Copy, Debug)]
+pub struct Push {
+    /// When it begins and ends, s.
+    pub during: [f64; 2],
+    /// What it is.
+    pub wrench: Wrench,
+}
+
+/// What the arm noticed at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct Noticed {
+    /// When, s.
+    pub time: f64,
+    /// The torques of what is outside, N·m.
+    pub outside: Joints,
+    /// The wrench that they say.
+    pub wrench: Wrench,
+}
+
+impl Noticed {
+    /// Returns whether something pushes.
+    pub fn is_push(&self) -> bool {
+        self.outside.iter().any(|torque| torque.abs() > THRESHOLD)
+    }
+}
+
+/// Where the arm should be: slow circles of every joint about a bent pose.
+fn target(time: f64) -> [Joints; 3] {
+    let centre = [0.2, -1.2, 1.6, -1.9, -1.4, 0.3];
+    let (s, c) = time.sin_cos();
+    [
+        centre.map(|q| q + 0.2 * (1.0 - c)),
+        [0.2 * s; ur10::N],
+        [0.2 * c; ur10::N],
+    ]
+}
+
+/// Moves the arm for so many seconds while it is pushed.
+pub fn simulate(push: &Push, duration: f64) -> Vec<Noticed> {
+    let [q, qd, _] = target(0.0);
+    let mut state = State { q, qd };
+    let mut observer = Observer::new(&state);
+    let mut all = Vec::new();
+    for step in 0..(duration / PERIOD).round() as u32 {
+        let time = f64::from(step) * PERIOD;
+        let [q, qd, qdd] = target(time);
+        let wanted = core::array::from_fn(|i| {
+            let (error, rate) = (q[i] - state.q[i], qd[i] - state.qd[i]);
+            qdd[i] + 2.0 * FREQUENCY * rate + FREQUENCY * FREQUENCY * error
+        });
+        let tau = ur10::inverse_dynamics(&state.q, &state.qd, &wanted);
+        let is_pushed = (push.during[0]..push.during[1]).contains(&time);
+        let wrench = if is_pushed { push.wrench } else { [0.0; 6] };
+        let next = state.step(PERIOD, |at| {
+            ur10::forward_dynamics_with_wrench(&at.q, &at.qd, &tau, &wrench)
+        });
+        let outside = observer.observe(&state, &next, &tau);
+        state = next;
+        all.push(Noticed {
+            time: time + PERIOD,
+            outside,
+            wrench: ur10::contact_wrench(&state.q, &outside, &DAMPING),
+        });
+    }
+    all
+}

@@ -1,0 +1,174 @@
+//! What a wrench that acts on the hand is to the joints, and the other way round.
+//!
+//! A wrench is the force and the moment that something else exerts on the hand, about the
+//! point and in the axes of the arm's [`Axes`]: that in which J has the velocity. It does
+//! the work of the torques Jᵀ w.
+
+use alloc::vec::Vec;
+
+use super::factor::Factor;
+use super::frames::Axes;
+use super::matrix::{Columns, Vector, cross, difference, sum, symmetric, times, total};
+use super::newton_euler::Wrench;
+use super::operational::{damped, products};
+use super::{Arm, DhVariables, Formulation, Link};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::{Divide, Scalar};
+
+impl Formulation {
+    /// Jᵀ w of a wrench of six components, a torque or force a joint: the recursions in
+    /// link axes carry the wrench along the chain, the others multiply by J.
+    pub fn torques_of_wrench<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        wrench: &[S],
+    ) -> Vec<S> {
+        match self {
+            Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences => {
+                let mut torques = along_links(arm, at, wrench);
+                torques.resize(at.len(), S::zero());
+                torques
+            }
+            _ => {
+                let j = self.jacobian(arm, at);
+                let torque = |joint: usize| {
+                    let column = j.iter().zip(wrench);
+                    total(column.map(|(row, w)| times(&row[joint], w)))
+                };
+                (0..at.len()).map(torque).collect()
+            }
+        }
+    }
+
+    /// The wrench of the least |Jᵀ w − τ|² + λ² |w|², from torques that are its alone:
+    /// (J Jᵀ + λ² 1)⁻¹ J τ of the joints that move.
+    ///
+    /// The pivots of J Jᵀ + λ² 1 are λ² at least; with λ² = 0 they vanish where J loses
+    /// rank, and then the torques do not say what the wrench is.
+    pub fn wrench_of_torques<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        [tau, damping]: [&[S]; 2],
+        moves: &[bool],
+    ) -> Vec<S> {
+        let j = self.moving_jacobian(arm, at, moves);
+        let matrix = damped(&squared(&j), &damping[0]);
+        Factor::new(&matrix).solve(&products(&j, tau))
+    }
+
+    /// J of the components that are asked for, zero of joints that do not move.
+    pub fn moving_jacobian<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        moves: &[bool],
+    ) -> Vec<Vec<S>> {
+        let mut j = self.task_jacobian(arm, at);
+        for row in &mut j {
+            for (entry, _) in row.iter_mut().zip(moves).filter(|(_, moves)| !**moves) {
+                *entry = S::zero();
+            }
+        }
+        j
+    }
+}
+
+/// J Jᵀ
+pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
+    symmetric(j.len(), |i, k| {
+        total(j[i].iter().zip(&j[k]).map(|(a, b)| times(a, b)))
+    })
+}
+
+/// The torques of the joints up to the hand.
+fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> Vec<S> {
+    let (arm, at) = arm.to_hand(at);
+    let part = |from: usize| -> Vector<S> { core::array::from_fn(|i| wrench[from + i].clone()) };
+    let wrench = Wrench {
+        force: part(0),
+        moment: part(3),
+    };
+    match arm.frames.axes {
+        Axes::Local => from_the_hand(&arm, at, wrench),
+        Axes::World => from_the_base(&arm, at, wrench),
+        Axes::Mixed => {
+            let hand = Formulation::NewtonEulerLink.hand(&arm, at);
+            let moment = sum(&wrench.moment, &cross(&hand.origin, &wrench.force));
+            from_the_base(&arm, at, Wrench { moment, ..wrench })
+        }
+    }
+}
+
+/// What a joint that acts along z of a frame feels of a wrench about its origin.
+fn felt<S: Scalar>(link: &Link<S>, wrench: &Wrench<S>) -> S {
+    match link.kind {
+        JointKind::Revolute => wrench.moment[2].clone(),
+        JointKind::Prismatic => wrench.force[2].clone(),
+    }
+}
+
+/// The wrench in each link's axes, from the hand inward.
+fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
+    let mut wrench = match &arm.tool {
+        None => wrench,
+        Some(tool) => carried(&wrench, &tool.origin, |v| tool.rotate(v)),
+    };
+    let mut torques = Vec::with_capacity(at.len());
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        let step = link.append(arm.convention, at, &Columns::identity());
+        let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
+        let inner = carried(&wrench, &step.origin, turn);
+        torques.push(match arm.convention {
+            Convention::Standard => felt(link, &inner),
+            Convention::Modified => felt(link, &wrench),
+        });
+        wrench = inner;
+    }
+    torques.reverse();
+    torques
+}
+
+/// A wrench about a frame's origin in its axes, about that and in those of the frame that
+/// it is turned into, in which it is at `origin`.
+fn carried<S: Scalar>(
+    wrench: &Wrench<S>,
+    origin: &Vector<S>,
+    turn: impl Fn(&Vector<S>) -> Vector<S>,
+) -> Wrench<S> {
+    let force = turn(&wrench.force);
+    Wrench {
+        moment: sum(&turn(&wrench.moment), &cross(origin, &force)),
+        force,
+    }
+}
+
+/// A wrench about the base's origin in base axes, in each link's axes, from the base outward.
+fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
+    let outward = |wrench: &Wrench<S>, origin: &Vector<S>| Wrench {
+        moment: difference(&wrench.moment, &cross(origin, &wrench.force)),
+        force: wrench.force.clone(),
+    };
+    let turned = |wrench: Wrench<S>, turn: &dyn Fn(&Vector<S>) -> Vector<S>| Wrench {
+        force: turn(&wrench.force),
+        moment: turn(&wrench.moment),
+    };
+    let mut wrench = match &arm.base {
+        None => wrench,
+        Some(base) => turned(outward(&wrench, &base.origin), &|v| base.rotate_back(v)),
+    };
+    let mut torques = Vec::with_capacity(at.len());
+    for (link, at) in arm.links.iter().zip(at) {
+        let before = match arm.convention {
+            Convention::Standard => Some(felt(link, &wrench)),
+            Convention::Modified => None,
+        };
+        let step = link.append(arm.convention, at, &Columns::identity());
+        wrench = turned(outward(&wrench, &step.origin), &|v| {
+            link.to_link(arm.convention, at, v)
+        });
+        torques.push(before.unwrap_or_else(|| felt(link, &wrench)));
+    }
+    torques
+}

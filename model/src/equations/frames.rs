@@ -1,0 +1,231 @@
+//! Frames that are fixed to links, and the one that velocities and wrenches are of.
+//!
+//! An arm has a hand: the last link's frame, or the tool's. [`Arm::seen`] gives the same
+//! arm with another frame in its place, on any link, and says in which axes and which of
+//! the six components are asked for. So formulas of the hand are formulas of any frame.
+
+use alloc::borrow::Cow;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::matrix::Columns;
+use super::{Arm, DhVariables};
+
+/// The name by which an arm's own hand is a frame, too.
+pub const HAND: &str = "hand";
+
+/// The axes that a frame's velocity has its components in, and the point it is of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Axes {
+    /// Base axes, at the frame's origin (`LOCAL_WORLD_ALIGNED` in Pinocchio).
+    #[default]
+    Mixed,
+    /// The frame's own axes, at its origin (`LOCAL`).
+    Local,
+    /// Base axes, at the base's origin (`WORLD`).
+    World,
+}
+
+impl Axes {
+    /// Every choice with its word.
+    pub const WORDS: [(&'static str, Axes); 3] = [
+        ("mixed", Axes::Mixed),
+        ("local", Axes::Local),
+        ("world", Axes::World),
+    ];
+
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        let mut all = Axes::WORDS.into_iter();
+        all.find(|(_, axes)| *axes == self)
+            .map_or("", |(word, _)| word)
+    }
+}
+
+/// The components of a velocity or a wrench that are asked for: some of six, linear
+/// before angular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Rows(u8);
+
+impl Default for Rows {
+    fn default() -> Self {
+        Rows::ALL
+    }
+}
+
+impl Rows {
+    /// All six.
+    pub const ALL: Rows = Rows(0b11_1111);
+    /// The names of the components, in their order.
+    pub const NAMES: [&'static str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+    /// Names of several.
+    const GROUPS: [(&'static str, Rows); 2] =
+        [("linear", Rows(0b00_0111)), ("angular", Rows(0b11_1000))];
+
+    /// The components of a word: `linear`, `angular`, or names with `_` between, in their
+    /// order, such as `x_y_rz`.
+    pub fn of(word: &str) -> Option<Rows> {
+        if let Some((_, rows)) = Rows::GROUPS.into_iter().find(|(name, _)| *name == word) {
+            return Some(rows);
+        }
+        let mut rows = 0u8;
+        for name in word.split('_') {
+            let bit = 1 << Rows::NAMES.into_iter().position(|own| own == name)?;
+            // In order, and none twice: one word for one choice.
+            if rows >= bit {
+                return None;
+            }
+            rows |= bit;
+        }
+        Some(Rows(rows))
+    }
+
+    /// Its word.
+    pub fn word(self) -> String {
+        match Rows::GROUPS.into_iter().find(|(_, rows)| *rows == self) {
+            Some((name, _)) => name.into(),
+            None => {
+                let names = self.indices().map(|row| Rows::NAMES[row]);
+                names.collect::<Vec<_>>().join("_")
+            }
+        }
+    }
+
+    /// The places of the components among six.
+    pub fn indices(self) -> impl Iterator<Item = usize> + Clone {
+        (0..6).filter(move |row| self.0 >> row & 1 == 1)
+    }
+
+    /// The number of components.
+    pub fn count(self) -> usize {
+        self.0.count_ones() as usize
+    }
+
+    /// These of six.
+    pub fn pick<T: Clone>(self, six: &[T]) -> Vec<T> {
+        self.indices()
+            .filter_map(|row| six.get(row).cloned())
+            .collect()
+    }
+}
+
+/// A frame, and what is asked of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct View {
+    /// The frame's name, or [`HAND`].
+    pub frame: &'static str,
+    /// In which axes.
+    pub axes: Axes,
+    /// Which components.
+    pub rows: Rows,
+}
+
+/// A frame that is fixed to a link.
+#[derive(Clone, Debug)]
+pub struct NamedFrame<S> {
+    /// Its name.
+    pub name: String,
+    /// The joint that moves the link, zero-based.
+    pub joint: usize,
+    /// Its pose in the frame of the joint's row.
+    pub pose: Columns<S>,
+}
+
+/// The frames of an arm that no torque depends on.
+#[derive(Clone, Debug)]
+pub struct Frames<S> {
+    /// Each link's own frame in that of its row; `None` where it is that, as are those
+    /// that are missing.
+    pub links: Vec<Option<Columns<S>>>,
+    /// Those with a name.
+    pub named: Vec<NamedFrame<S>>,
+    /// The joint that moves the link with the hand; `None` for the last.
+    pub joint: Option<usize>,
+    /// The axes of velocities of the hand.
+    pub axes: Axes,
+    /// The components of these.
+    pub rows: Rows,
+}
+
+impl<S> Default for Frames<S> {
+    fn default() -> Self {
+        Frames {
+            links: Vec::new(),
+            named: Vec::new(),
+            joint: None,
+            axes: Axes::default(),
+            rows: Rows::default(),
+        }
+    }
+}
+
+impl<S> Frames<S> {
+    /// Every number through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Frames<T> {
+        let links = self.links.iter();
+        let links = links.map(|pose| pose.as_ref().map(|pose| pose.map(&mut f)));
+        let links = links.collect();
+        let named = self.named.iter().map(|frame| NamedFrame {
+            name: frame.name.clone(),
+            joint: frame.joint,
+            pose: frame.pose.map(&mut f),
+        });
+        Frames {
+            links,
+            named: named.collect(),
+            joint: self.joint,
+            axes: self.axes,
+            rows: self.rows,
+        }
+    }
+}
+
+impl<S: Clone> Arm<S> {
+    /// Returns the same arm whose hand is a frame of this name, in these axes and
+    /// components; `None` where there is no such frame.
+    pub fn seen(&self, view: &View) -> Option<Arm<S>> {
+        let mut arm = self.clone();
+        if view.frame != HAND {
+            let mut named = self.frames.named.iter();
+            let frame = named.find(|frame| frame.name == view.frame)?;
+            arm.tool = Some(frame.pose.clone());
+            arm.frames.joint = Some(frame.joint);
+        }
+        (arm.frames.axes, arm.frames.rows) = (view.axes, view.rows);
+        Some(arm)
+    }
+
+    /// The arm and its position without the links behind the hand.
+    pub(super) fn to_hand<'a>(
+        &'a self,
+        at: &'a [DhVariables<S>],
+    ) -> (Cow<'a, Arm<S>>, &'a [DhVariables<S>]) {
+        match self.frames.joint {
+            Some(joint) if joint + 1 < self.links.len() => {
+                let mut arm = self.clone();
+                arm.links.truncate(joint + 1);
+                (Cow::Owned(arm), &at[..at.len().min(joint + 1)])
+            }
+            _ => (Cow::Borrowed(self), at),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_choice_of_components_has_one_word() {
+        let words: Vec<String> = (1..64).map(|mask| Rows(mask).word()).collect();
+        for (mask, word) in (1..64).zip(&words) {
+            assert_eq!(Rows::of(word), Some(Rows(mask)));
+            assert_eq!(Rows(mask).indices().count(), Rows(mask).count());
+        }
+        assert_eq!(Rows::of("x_y_rz").map(Rows::count), Some(3));
+        assert_eq!(Rows::of("linear"), Rows::of("x_y_z"));
+        for none in ["", "y_x", "x_x", "x__y", "roll", "linear_rz"] {
+            assert_eq!(Rows::of(none), None, "{none}");
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Dynamics in the space of the hand (Khatib, "A unified approach for motion and force
+//! control of robot manipulators: the operational space formulation", 1987).
+//!
+//! With J of the components that are asked for, m×n:
+//!
+//! ```text
+//! Λ⁻¹ = J D⁻¹ Jᵀ        Λ = (Λ⁻¹ + λ² 1)⁻¹        J̄ = D⁻¹ Jᵀ Λ
+//! μ = Λ (J D⁻¹ (h + c) − J̇ q̇)        N = 1 − J̄ J
+//! ```
+//!
+//! Λ⁻¹ is positive semidefinite: singular where J loses rank, and always where m > n.
+//! With λ² > 0 the pivots of Λ⁻¹ + λ² 1 are λ² at least, and nothing divides by zero;
+//! with λ² = 0 they vanish where J loses rank, and there is no Λ.
+
+use alloc::vec::Vec;
+
+use super::factor::{Factor, scatter};
+use super::forward::free;
+use super::matrix::{minus, negative, plus, symmetric, times, total};
+use super::{Arm, DhVariables, Formulation};
+use crate::scalar::{Divide, Scalar};
+
+/// What follows from J and D alone.
+#[derive(Clone, Debug)]
+pub struct TaskSpace<S> {
+    /// J, m×n.
+    jacobian: Vec<Vec<S>>,
+    /// J D⁻¹, m×n; zero of joints that do not move.
+    driven: Vec<Vec<S>>,
+    /// Λ⁻¹, m×m.
+    mobility: Vec<Vec<S>>,
+}
+
+/// Σ a_k b_k
+fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
+    total(a.iter().zip(b).map(|(a, b)| times(a, b)))
+}
+
+/// a x for each row a.
+pub fn products<S: Scalar>(rows: &[Vec<S>], x: &[S]) -> Vec<S> {
+    rows.iter().map(|row| product(row, x)).collect()
+}
+
+impl<S: Divide> TaskSpace<S> {
+    /// From J and D⁻¹.
+    pub fn by_inverse(jacobian: Vec<Vec<S>>, inverse: &[Vec<S>]) -> TaskSpace<S> {
+        // D⁻¹ is symmetric: its rows are its columns.
+        let driven = jacobian.iter().map(|row| products(inverse, row));
+        let driven: Vec<Vec<S>> = driven.collect();
+        let mobility = symmetric(jacobian.len(), |i, k| product(&driven[i], &jacobian[k]));
+        TaskSpace {
+            jacobian,
+            driven,
+            mobility,
+        }
+    }
+
+    /// From J and the factors of D over the joints that move: Λ⁻¹ = Xᵀ d⁻¹ X with
+    /// X = U⁻¹ Jᵀ, which keeps the zeros of J behind the joint that a column is of.
+    pub fn by_factor(jacobian: Vec<Vec<S>>, factor: &Factor<S>, moves: &[bool]) -> TaskSpace<S> {
+        let halves = halves(&jacobian, factor, moves);
+        let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
+        let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
+        let joints = free(moves);
+        let driven = scaled.into_iter().map(|row| {
+            let row = factor.substituted(row);
+            scatter(&row, &joints, moves.len())
+        });
+        TaskSpace {
+            driven: driven.collect(),
+            jacobian,
+            mobility,
+        }
+    }
+
+    /// Λ⁻¹
+    pub fn mobility(&self) -> &[Vec<S>] {
+        &self.mobility
+    }
+
+    /// Λ⁻¹ + λ² 1
+    pub fn damped(&self, damping: &S) -> Vec<Vec<S>> {
+        damped(&self.mobility, damping)
+    }
+
+    /// Λ
+    pub fn inertia(&self, damping: &S) -> Vec<Vec<S>> {
+        Factor::new(&self.damped(damping)).inverse()
+    }
+
+    /// J̄, n×m.
+    pub fn consistent_inverse(&self, damping: &S) -> Vec<Vec<S>> {
+        let factor = Factor::new(&self.damped(damping));
+        let joints = 0..self.driven.first().map_or(0, Vec::len);
+        // A row of J̄ is Λ times a column of J D⁻¹: Λ is symmetric.
+        let column = |joint: usize| self.driven.iter().map(|row| row[joint].clone()).collect();
+        joints
+            .map(|joint| factor.solve(&column(joint) as &Vec<S>))
+            .collect()
+    }
+
+    /// N, n×n, over the joints that move.
+    pub fn null_space(&self, damping: &S, moves: &[bool]) -> Vec<Vec<S>> {
+        let inverse = self.consistent_inverse(damping);
+        let entry = |i: usize, k: usize| {
+            let column = self.jacobian.iter().map(|row| &row[k]);
+            let products = inverse[i].iter().zip(column);
+            let product = total(products.map(|(x, y)| times(x, y)));
+            match (moves[i] && moves[k], i == k) {
+                (false, _) => S::zero(),
+                (true, true) => minus(&S::one(), &product),
+                (true, false) => negative(&product),
+            }
+        };
+        let row = |i: usize| (0..moves.len()).map(|k| entry(i, k)).collect();
+        (0..moves.len()).map(row).collect()
+    }
+
+    /// μ, from J D⁻¹ (h + c) and J̇ q̇.
+    pub fn bias(&self, driven: &[S], rate: &[S], damping: &S) -> Vec<S> {
+        let rest = driven.iter().zip(rate);
+        let rest: Vec<S> = rest.map(|(driven, rate)| minus(driven, rate)).collect();
+        Factor::new(&self.damped(damping)).solve(&rest)
+    }
+}
+
+/// A symmetric matrix with λ² added to its diagonal.
+pub fn damped<S: Scalar>(matrix: &[Vec<S>], damping: &S) -> Vec<Vec<S>> {
+    symmetric(matrix.len(), |i, k| match i == k {
+        true => plus(&matrix[i][i], damping),
+        false => matrix[i][k].clone(),
+    })
+}
+
+/// U⁻¹ Jᵀ over the joints that move, a row for each of J's.
+fn halves<S: Divide>(jacobian: &[Vec<S>], factor: &Factor<S>, moves: &[bool]) -> Vec<Vec<S>> {
+    let joints = free(moves);
+    let half = |row: &Vec<S>| {
+        let row: Vec<S> = joints.iter().map(|&joint| row[joint].clone()).collect();
+        factor.eliminated(&row)
+    };
+    jacobian.iter().map(half).collect()
+}
+
+/// J D⁻¹ b, from the factors of D over the joints that move.
+pub fn driven_by<S: Divide>(
+    jacobian: &[Vec<S>],
+    factor: &Factor<S>,
+    b: &[S],
+    moves: &[bool],
+) -> Vec<S> {
+    let joints = free(moves);
+    let b: Vec<S> = joints.iter().map(|&joint| b[joint].clone()).collect();
+    let scaled = factor.scaled(&factor.eliminated(&b));
+    products(&halves(jacobian, factor, moves), &scaled)
+}
+
+impl Formulation {
+    /// J of the components that the arm is asked for, m×n.
+    pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+        arm.frames.rows.pick(&self.jacobian(arm, at))
+    }
+
+    /// What follows from J and D.
+    pub fn task_space<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        moves: &[bool],
+    ) -> TaskSpace<S> {
+        let inverse = self.inertia_inverse(arm, at, moves);
+        TaskSpace::by_inverse(self.task_jacobian(arm, at), &inverse)
+    }
+
+    /// μ
+    pub fn operational_bias<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        qd: &[S],
+        damping: &S,
+        moves: &[bool],
+    ) -> Vec<S> {
+        let space = self.task_space(arm, at, moves);
+        // Without friction and torques the joints fall by −D⁻¹ (h + c).
+        let still = alloc::vec![S::zero(); qd.len()];
+        let free = arm.clone().without_friction();
+        let falling = self.forward_dynamics(&free, at, qd, &still, moves);
+        let driven = products(&space.jacobian, &falling);
+        let driven: Vec<S> = driven.iter().map(negative).collect();
+        let rate = self.jacobian_rate(arm, at, qd).concat();
+        space.bias(&driven, &arm.frames.rows.pick(&rate), damping)
+    }
+}

@@ -1,0 +1,388 @@
+//! Outputs at a frame, in chosen axes and components: `jacobian@camera:local:linear`.
+//!
+//! A text is an output's name, `@` and a frame's, then words with `:` before each: the
+//! [`Axes`], and the [`Rows`] if not all six are wanted. In generated code the signs are
+//! `_`, `jacobian_camera_local_linear`. The frame is a part of what the output is, so
+//! whoever asks an output for its name, its shape or its formula need not know that it
+//! has one.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::hash::{Hash, Hasher};
+
+use super::bundle::{BundleError, check_name, kept};
+use super::function::Definition;
+use super::quantity::Facts;
+use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
+use crate::equations::Arm;
+use crate::equations::frames::{Axes, Rows, View};
+use crate::robot::Robot;
+use crate::scalar::Divide;
+
+/// The sign before a frame's name.
+const AT: char = '@';
+/// The sign before a word.
+const OF: char = ':';
+
+/// What may be chosen of an output's frame; each choice includes those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum FrameChoice {
+    /// Nothing: it is of the joints, or of all links.
+    None,
+    /// Which frame.
+    Frame,
+    /// In which axes.
+    Axes,
+    /// Which of six components.
+    Rows,
+}
+
+/// A quantity at a frame. What it says of itself is kept for as long as the process runs,
+/// as that of a [`Bundle`](super::Bundle) is.
+#[derive(Clone, Copy, Debug)]
+pub struct QuantityAt(&'static Viewed);
+
+/// A quantity, how it is seen, and what it says of itself.
+#[derive(Debug)]
+struct Viewed {
+    quantity: Quantity,
+    view: View,
+    facts: Facts,
+}
+
+impl QuantityAt {
+    fn key(self) -> (Quantity, View) {
+        (self.0.quantity, self.0.view)
+    }
+
+    /// The quantity of the hand.
+    pub fn quantity(self) -> Quantity {
+        self.0.quantity
+    }
+
+    /// The frame, and what is asked of it.
+    pub fn view(self) -> View {
+        self.0.view
+    }
+
+    pub(super) fn facts(self) -> &'static Facts {
+        &self.0.facts
+    }
+
+    /// The arm whose hand is the frame; none where the robot has no such frame, which
+    /// whoever generates refuses before.
+    fn seen<S: Clone>(self, arm: &Arm<S>) -> Option<Arm<S>> {
+        arm.seen(&self.0.view)
+    }
+
+    pub(super) fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
+        let arm = self.seen(at.arm);
+        arm.map_or_else(Vec::new, |arm| {
+            self.0.quantity.written(&Written { arm: &arm, ..*at })
+        })
+    }
+
+    pub(super) fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        let arm = self.seen(at.arm);
+        arm.map_or_else(Vec::new, |arm| {
+            let at = Written { arm: &arm, ..*at };
+            self.0.quantity.residual(&at, values)
+        })
+    }
+
+    pub(super) fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
+        let arm = self.seen(at.arm);
+        arm.map_or_else(Vec::new, |arm| {
+            self.0.quantity.divisor(&Written { arm: &arm, ..*at })
+        })
+    }
+
+    pub(super) fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let textbook = at.textbook.as_ref()?;
+        let arm = self.seen(textbook.arm)?;
+        let textbook = Written {
+            arm: &arm,
+            ..*textbook
+        };
+        self.0.quantity.regrouped(&Regrouped {
+            textbook: Some(textbook),
+            ..at.clone()
+        })
+    }
+}
+
+impl PartialEq for QuantityAt {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for QuantityAt {}
+
+impl Hash for QuantityAt {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key().hash(state);
+    }
+}
+
+impl PartialOrd for QuantityAt {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for QuantityAt {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+/// An output at a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FunctionAt(&'static Definition);
+
+impl FunctionAt {
+    pub(super) fn definition(self) -> &'static Definition {
+        self.0
+    }
+}
+
+impl Function {
+    /// The same output at a frame, in these axes and components.
+    ///
+    /// ```
+    /// use dalembert_model::outputs::Function;
+    ///
+    /// let jacobian = Function::parse("jacobian@camera:local:linear").unwrap();
+    /// assert_eq!(jacobian.name(), "jacobian_camera_local_linear");
+    /// assert_eq!(jacobian.text(), "jacobian@camera:local:linear");
+    /// ```
+    ///
+    /// # Errors
+    /// [`BundleError`]: the output has no frame or no axes, or the name is none.
+    pub fn at(function: Function, view: View) -> Result<Function, BundleError> {
+        let choice = |quantity: &Quantity| quantity.facts().frame;
+        let most = function.quantities().iter().map(choice).min();
+        let asked = match view {
+            View { rows, .. } if rows != Rows::ALL => FrameChoice::Rows,
+            View { axes, .. } if axes != Axes::Mixed => FrameChoice::Axes,
+            _ => FrameChoice::Frame,
+        };
+        match most {
+            Some(FrameChoice::None) | None => return Err(BundleError::NoFrame(function)),
+            Some(most) if most < asked => {
+                let word = suffix(view, OF);
+                return Err(BundleError::NoAxes(function, word));
+            }
+            Some(_) => {}
+        }
+        let name = format!("{function}_{}{}", view.frame, suffix(view, '_'));
+        check_name(&name).map_err(|_| BundleError::Frame(view.frame.to_string()))?;
+        let results = function.quantities().iter();
+        let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
+        let of = function.definition();
+        Ok(Function::At(FunctionAt(Box::leak(Box::new(Definition {
+            structure: None,
+            by_default: false,
+            name: kept(name),
+            summary: kept(format!("{} {}", of.summary, described(view))),
+            results: Box::leak(results.into_boxed_slice()),
+            parts: &[],
+        })))))
+    }
+
+    /// The output of a text with a frame.
+    pub(super) fn parse_at(text: &str) -> Result<Function, BundleError> {
+        let (name, rest) = text.split_once(AT).unwrap_or((text, ""));
+        let name = name.trim();
+        let function = Function::from_name(name);
+        let function = function.ok_or_else(|| BundleError::Unknown(name.to_string()))?;
+        let mut words = rest.split(OF).map(str::trim);
+        let frame = words.next().unwrap_or_default();
+        let (mut axes, mut rows) = (None, None);
+        for word in words {
+            let named = Axes::WORDS.iter().any(|(own, _)| *own == word);
+            let place = if named { &mut axes } else { &mut rows };
+            if !named && Rows::of(word).is_none() || place.replace(word).is_some() {
+                return Err(BundleError::Word(word.to_string()));
+            }
+        }
+        let of_word = |word: &str| {
+            let mut all = Axes::WORDS.into_iter();
+            all.find(|(own, _)| *own == word).map(|(_, axes)| axes)
+        };
+        let view = View {
+            frame: kept(frame.chars().take(Robot::MAX_NAME + 1).collect()),
+            axes: axes.and_then(of_word).unwrap_or_default(),
+            rows: rows.and_then(Rows::of).unwrap_or_default(),
+        };
+        Function::at(function, view)
+    }
+
+    /// Returns whether a text is of an output at a frame.
+    pub(super) fn is_at(text: &str) -> bool {
+        text.contains([AT, OF])
+    }
+
+    /// The text of an output at a frame, without spaces.
+    pub(super) fn text_at(self) -> Option<String> {
+        let Some(Quantity::At(at)) = self.quantities().first() else {
+            return None;
+        };
+        let view = at.view();
+        let name = at.quantity().function().name();
+        Some(format!("{name}{AT}{}{}", view.frame, suffix(view, OF)))
+    }
+
+    /// The frames that it is at, each once.
+    pub fn frames(self) -> Vec<&'static str> {
+        let mut frames: Vec<&'static str> = Vec::new();
+        for quantity in self.quantities() {
+            if let Quantity::At(at) = quantity
+                && !frames.contains(&at.view().frame)
+            {
+                frames.push(at.view().frame);
+            }
+        }
+        frames
+    }
+}
+
+/// Returns whether functions can be called after a frame of this name.
+pub fn is_frame_name(name: &str) -> bool {
+    check_name(&format!("{}_{name}", Function::Jacobian)).is_ok()
+}
+
+/// The words of a view, each with a sign before it.
+fn suffix(view: View, sign: char) -> String {
+    let mut text = String::new();
+    let axes: Option<String> = (view.axes != Axes::Mixed).then(|| view.axes.word().to_string());
+    let rows = (view.rows != Rows::ALL).then(|| view.rows.word());
+    for word in axes.into_iter().chain(rows) {
+        text.push(sign);
+        text.push_str(&word);
+    }
+    text
+}
+
+/// A view in words.
+fn described(view: View) -> String {
+    let axes = match view.axes {
+        Axes::Mixed => "",
+        Axes::Local => ", in its own axes",
+        Axes::World => ", in base axes at the base's origin",
+    };
+    let rows = match view.rows {
+        Rows::ALL => String::new(),
+        rows => {
+            let names: Vec<&str> = rows.indices().map(|row| Rows::NAMES[row]).collect();
+            format!(", components {}", names.join(", "))
+        }
+    };
+    format!("At frame `{}`{axes}{rows}.", view.frame)
+}
+
+/// A quantity at a frame.
+fn seen(quantity: Quantity, view: View) -> Quantity {
+    let of = quantity.facts();
+    let at = format!("{}{}", view.frame, suffix(view, OF));
+    let components = |axis: &Axis| match axis {
+        Axis::Fixed(6) if of.frame >= FrameChoice::Rows => Axis::Fixed(view.rows.count()),
+        other => *other,
+    };
+    let axes: Vec<Axis> = of.shape.0.iter().map(components).collect();
+    let facts = Facts {
+        field: kept(format!("{}_{}{}", of.field, view.frame, suffix(view, '_'))),
+        symbol: kept(format!("{} at {at}", of.symbol)),
+        summary: kept(format!("{} {}", of.summary, described(view))),
+        shape: Shape(Box::leak(axes.into_boxed_slice())),
+        given: of.given.map(|key| kept(format!("{key}{AT}{at}"))),
+        given_as: None,
+        ..*of
+    };
+    Quantity::At(QuantityAt(Box::leak(Box::new(Viewed {
+        quantity,
+        view,
+        facts,
+    }))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_a_name_and_reads_back() {
+        for (text, name) in [
+            ("jacobian@camera", "jacobian_camera"),
+            ("forward_kinematics@tool0", "forward_kinematics_tool0"),
+            ("jacobian@hand:local", "jacobian_hand_local"),
+            (
+                "jacobian_rate@tip:world:x_rz",
+                "jacobian_rate_tip_world_x_rz",
+            ),
+        ] {
+            let function = Function::parse(text).unwrap();
+            assert_eq!(function.text(), text);
+            assert_eq!(function.name(), name);
+            assert_eq!(Function::parse(text), Ok(function));
+        }
+        let spaced = Function::parse(" jacobian @ camera : angular : local ").unwrap();
+        assert_eq!(spaced.text(), "jacobian@camera:local:angular");
+        assert_eq!(spaced.quantities()[0].shape().0[0], Axis::Fixed(3));
+        // Mixed axes and six components are what is meant without words.
+        assert_eq!(
+            Function::parse("jacobian@a:mixed:x_y_z_rx_ry_rz").map(Function::text),
+            Ok("jacobian@a".to_string())
+        );
+        let bundle = Function::parse("see=jacobian@camera+jacobian@hand+gravity").unwrap();
+        assert_eq!(bundle.text(), "see=jacobian@camera+jacobian@hand+gravity");
+        assert_eq!(bundle.frames(), ["camera", "hand"]);
+        let fields: Vec<&str> = bundle.quantities().iter().map(|q| q.field()).collect();
+        assert_eq!(fields, ["jacobian_camera", "jacobian_hand", "c"]);
+    }
+
+    #[test]
+    fn what_is_no_frame_is_refused_by_name() {
+        for (text, expected) in [
+            (
+                "gravity@camera",
+                "`gravity` is of no frame: leave `@` and what follows out",
+            ),
+            (
+                "forward_kinematics@camera:local",
+                "`forward_kinematics` has no choice of `:local`: it takes a frame alone",
+            ),
+            (
+                "jacobian@Camera",
+                "`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`",
+            ),
+            (
+                "jacobian@",
+                "`` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`",
+            ),
+            (
+                "jacobian@camera_batch",
+                "`camera_batch` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`",
+            ),
+            (
+                "jacobian@camera:lokal",
+                "`lokal` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`",
+            ),
+            (
+                "jacobian@camera:local:world",
+                "`world` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`",
+            ),
+            (
+                "see=jacobian@camera+jacobian@camera",
+                "`jacobian_camera` is in it twice: leave one of them out",
+            ),
+        ] {
+            let error = Function::parse(text).unwrap_err();
+            assert_eq!(error.to_string(), expected, "{text}");
+        }
+    }
+}

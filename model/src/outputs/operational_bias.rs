@@ -1,0 +1,85 @@
+//! μ = Λ (J D⁻¹ (h + c) − J̇ q̇): the wrench that keeps the hand's velocity while the joints
+//! are driven by nothing else. Friction is no part of it.
+
+use alloc::vec::Vec;
+
+use super::at::FrameChoice;
+use super::formula::Formula;
+use super::function::Definition;
+use super::inverse_dynamics::torques;
+use super::operational_inertia::damped_mobility;
+use super::operational_inertia_inverse::{chain_jacobian, factor};
+use super::quantity::{Choices, Facts};
+use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::matrix::zeros;
+use crate::equations::operational::{TaskSpace, driven_by};
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "operational_bias",
+    summary: "Bias force of the hand: μ = Λ (J D⁻¹ (h + c) - J̇q̇), without friction.",
+    results: &[Quantity::OperationalBias],
+    structure: None,
+    by_default: false,
+    parts: &[],
+};
+
+/// μ_r
+pub(super) struct OperationalBias;
+
+impl Formula for OperationalBias {
+    const FACTS: Facts = Facts {
+        field: "operational_bias",
+        letter: "μ",
+        symbol: "μ",
+        summary: "Bias force μ of the hand, force over moment.",
+        arguments: &[Argument::Position, Argument::Velocity, Argument::Damping],
+        shape: Shape(&[Axis::Fixed(6)]),
+        unit: |at| match at {
+            [Index::Fixed(..3)] => "N",
+            _ => "N·m",
+        },
+        given: Some("operational_bias"),
+        choices: Some(Choices {
+            recursion: true,
+            travel: true,
+            flows: false,
+        }),
+        depends_on_base: true,
+        payload_dependence: PayloadDependence::Torque,
+        gravity: true,
+        frame: FrameChoice::Rows,
+        ..Facts::PLAIN
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let damping = &motion.damping[0];
+        at.formulation
+            .operational_bias(at.arm, at.at, &motion.qd, damping, &motion.moves)
+    }
+
+    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        damped_mobility(at).concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let motion = at.motion;
+        let textbook = at.textbook.as_ref()?;
+        let chain = at.chain.clone().without_friction();
+        let free = Regrouped {
+            chain: &chain,
+            ..at.clone()
+        };
+        let loads = torques(&free, &zeros(motion.qd.len()));
+        let (jacobian, factor) = (chain_jacobian(at)?, factor(at));
+        let driven = driven_by(&jacobian, &factor, &loads, &motion.moves);
+        let (arm, qd) = (textbook.arm, &textbook.motion.qd);
+        let rate = textbook.formulation.jacobian_rate(arm, textbook.at, qd);
+        let rate = arm.frames.rows.pick(&rate.concat());
+        let space = TaskSpace::by_factor(jacobian, &factor, &motion.moves);
+        Some(space.bias(&driven, &rate, &motion.damping[0]))
+    }
+}
