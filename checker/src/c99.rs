@@ -5,7 +5,7 @@
 //! own. Sines of the header's own are those of `together`; structs are not read.
 
 use crate::fault::Fault;
-use crate::file::{Found, between, is_letter};
+use crate::file::{Found, between, is_letter, whole};
 use crate::program::{Node, Source};
 use crate::quantity::{FUNCTIONS, Quantity};
 use crate::text::Parser;
@@ -150,12 +150,6 @@ fn code(source: &str) -> Result<Vec<(usize, &str)>, (usize, &str)> {
         }
     }
     Ok(all)
-}
-
-/// A whole number as it is printed.
-pub(crate) fn whole(word: &str) -> Option<usize> {
-    let number = word.parse().ok()?;
-    (word == format!("{number}")).then_some(number)
 }
 
 impl<'t> Parser<'t> {

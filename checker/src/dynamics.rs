@@ -6,7 +6,7 @@
 
 use crate::fault::Fault;
 use crate::number::Number;
-use crate::polynomial::Work;
+use crate::number::Work;
 use crate::robot::{Body, Step, Z};
 use crate::scene::Setting;
 

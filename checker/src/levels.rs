@@ -152,42 +152,6 @@ impl Search {
         let [low, high] = corners(&products, 1, products[0][0], products[0]);
         radius + high.max(-low)
     }
-
-    /// A bound of F by amplitudes in the next angle: each coefficient of the level behind
-    /// it is a constant and harmonics, of which sine and cosine go together.
-    pub(crate) fn amplitudes(&self, level: usize) -> f64 {
-        let Some(Level { powers, moves, .. }) = self.levels.get(level) else {
-            return f64::INFINITY;
-        };
-        let mut waves = vec![[0.0f64; 8]; self.values[level + 1].len()];
-        for (value, &(power, target)) in self.values[level].iter().zip(moves) {
-            let [constant, sin, cos, sin2, cos2, sin3, cos3, other] = &mut waves[target as usize];
-            match powers[power as usize] {
-                (0, 0) => *constant += value,
-                (1, 0) => *sin += value,
-                (0, 1) => *cos += value,
-                (1, 1) => *sin2 += 0.5 * value,
-                (0, 2) => (*constant, *cos2) = (*constant + 0.5 * value, *cos2 + 0.5 * value),
-                (1, 2) => (*sin, *sin3) = (*sin + 0.25 * value, *sin3 + 0.25 * value),
-                (0, 3) => (*cos, *cos3) = (*cos + 0.75 * value, *cos3 + 0.25 * value),
-                _ => *other += value.abs(),
-            }
-        }
-        let size = |&[constant, sin, cos, sin2, cos2, sin3, cos3, other]: &[f64; 8]| {
-            let pairs = [(sin, cos), (sin2, cos2), (sin3, cos3)];
-            let pairs = pairs.map(|(a, b)| (a * a + b * b).sqrt());
-            constant.abs() + pairs.iter().sum::<f64>() + other
-        };
-        waves.iter().map(size).sum()
-    }
-
-    /// F at a place.
-    pub(crate) fn value(&mut self, at: &[f64]) -> f64 {
-        for (level, &angle) in at.iter().enumerate() {
-            self.fix(level, angle);
-        }
-        self.norm(at.len())
-    }
 }
 
 /// The least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It

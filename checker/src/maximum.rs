@@ -58,11 +58,9 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     let slack = search.mass * (1e-12 + 16.0 * UNIT * first.len() as f64);
     let rest = (polynomial.rest + slack) * (1.0 + 1e-9);
     let mut least = (wanted - rest).next_down();
-    let seen = search.climb();
     let mut shown = wanted;
-    if !(seen <= least) {
-        least = seen * GROWTH[0];
-        shown = f64::INFINITY;
+    if !(least > 0.0) {
+        (least, shown) = (norm * 1e-12, f64::INFINITY);
     }
     for growth in GROWTH {
         for _ in 0..20 {
@@ -87,7 +85,7 @@ impl Search {
     /// Shows that F ≤ B, the angles of the levels before being put in.
     fn shows(&mut self, level: usize, most: f64) -> Result<(), Unshown> {
         let norm = self.norm(level);
-        if norm <= most || self.amplitudes(level) <= most {
+        if norm <= most {
             return Ok(());
         }
         let Some(Level { degree, range, .. }) = self.levels.get(level) else {
@@ -126,41 +124,5 @@ impl Search {
             }
         }
         Ok(())
-    }
-
-    /// A value that F takes: the largest that is found by turning one angle after the
-    /// other from a few places.
-    fn climb(&mut self) -> f64 {
-        let count = self.levels.len();
-        let mut best = 0.0f64;
-        for start in 0..12 {
-            let mut at: Vec<f64> = (0..count)
-                .map(|k| sin_cos((start * 7 + k * 3) as f64).0 * PI)
-                .collect();
-            let mut own = 0.0f64;
-            let mut step = 1.0;
-            while step > 1e-3 {
-                let before = own;
-                for k in 0..count {
-                    let [low, high] = self.levels[k].range.unwrap_or([-PI, PI]);
-                    let from = at[k];
-                    for turn in [-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0] {
-                        let kept = at[k];
-                        at[k] = (from + step * turn).clamp(low, high);
-                        let value = self.value(&at);
-                        if value > own {
-                            own = value
-                        } else {
-                            at[k] = kept
-                        }
-                    }
-                }
-                if own <= before * 1.0001 {
-                    step *= 0.5;
-                }
-            }
-            best = best.max(own);
-        }
-        best
     }
 }

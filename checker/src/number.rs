@@ -1,7 +1,20 @@
 //! The numbers of the recursion: polynomials for bounds, doubles to look for states.
 
 use crate::fault::Fault;
-use crate::polynomial::Work;
+
+/// The most products of terms for all polynomials of one certificate.
+pub const MOST_WORK: u64 = 400_000_000;
+
+/// Counts products of terms, so that the work for one certificate is bounded.
+#[derive(Debug, Default)]
+pub struct Work(u64);
+
+impl Work {
+    pub(crate) fn spend(&mut self, products: usize) -> Result<(), Fault> {
+        self.0 = self.0.saturating_add(products as u64);
+        (self.0 <= MOST_WORK).then_some(()).ok_or(Fault::Work)
+    }
+}
 
 /// A number of the robot file: within `radius` of a double.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -9,6 +9,7 @@
 
 use crate::fault::Fault;
 use crate::interval::UNIT;
+pub use crate::number::Work;
 use crate::number::{Number, Real};
 
 /// The exponents of a monomial: `WIDTH` bits a joint.
@@ -21,8 +22,6 @@ const WIDTH: usize = 13;
 const FIELDS: [(usize, usize); 6] = [(0, 2), (2, 4), (6, 3), (9, 2), (11, 1), (12, 1)];
 /// The most terms of one polynomial.
 const MOST_TERMS: usize = 1 << 18;
-/// The most products of terms for all polynomials of one certificate.
-pub const MOST_WORK: u64 = 400_000_000;
 /// What summing up `rest` in floating point may cost, as a factor: far fewer than 2³⁰
 /// additions, each rounded by at most one part in 2⁵³.
 pub const SLACK: f64 = 1.000_001;
@@ -73,17 +72,6 @@ const ERRORS: Key = each(3 << 11);
 const SINE_SQUARED: Key = each(1 << 1);
 /// The exponents that angles have, sin and cos.
 pub const ANGLES: Key = each((1 << 6) - 1);
-
-/// Counts products of terms, so that the work for one certificate is bounded.
-#[derive(Debug, Default)]
-pub struct Work(u64);
-
-impl Work {
-    fn spend(&mut self, products: usize) -> Result<(), Fault> {
-        self.0 = self.0.saturating_add(products as u64);
-        (self.0 <= MOST_WORK).then_some(()).ok_or(Fault::Work)
-    }
-}
 
 /// A function of the state: the sum of its terms, and at most `rest` more or less.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,7 +9,7 @@ use Quantity::*;
 use crate::dynamics::{State, torques};
 use crate::fault::Fault;
 use crate::number::Number;
-use crate::polynomial::Work;
+use crate::number::Work;
 use crate::scene::Setting;
 
 /// A part of what a function returns.

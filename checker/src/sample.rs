@@ -5,8 +5,9 @@ use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::{SINE_ERROR, sin_cos};
+use crate::number::Work;
 use crate::number::{Number, Real};
-use crate::polynomial::{Polynomial, Work};
+use crate::polynomial::Polynomial;
 use crate::program::{Node, Program, Source};
 use crate::scene::Setting;
 

@@ -2,7 +2,7 @@
 //! operations are those of the crate `dalembert-sines`, where each result is proved to be within
 //! an ulp; what is further away than `MOST` is the C library's.
 
-use crate::c99::whole;
+use crate::file::whole;
 
 /// Its lines after the first, `#if defined(__clang__)`. Literals of f32 end with F for `~`, and
 /// functions of the library with f for `^`.

@@ -4,7 +4,7 @@ use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::maximum;
 use crate::number::Number;
-use crate::polynomial::Work;
+use crate::number::Work;
 use crate::quantity::Quantity;
 use crate::ring::Ring;
 use crate::sample::{self, Seen};

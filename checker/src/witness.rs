@@ -6,7 +6,8 @@
 use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
-use crate::polynomial::{Polynomial, Work};
+use crate::number::Work;
+use crate::polynomial::Polynomial;
 use crate::program::Program;
 use crate::sample::{self, Random, held, run, states};
 use crate::scene::Setting;

@@ -48,8 +48,8 @@ fn json_says_the_same() {
     let functions = near["functions"].as_array().unwrap();
     assert_eq!(
         functions.len(),
-        12,
-        "three functions, two scalars, two codes"
+        20,
+        "five functions, two scalars, two codes"
     );
     for row in functions {
         let [error, normwise, condition] =

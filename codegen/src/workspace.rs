@@ -20,7 +20,7 @@ pub mod approximate {
 pub mod language {
     pub use crate::language::{Entries, Language, MathPath, Printed};
     pub mod c99 {
-        pub use crate::language::c99::Names;
+        pub use crate::language::names::Names;
     }
     pub mod entries {
         pub use crate::language::entries::Around;

@@ -33,7 +33,7 @@ pub struct Shared {
 /// # Errors
 /// Everything that is wrong with the model or with one of its arms.
 pub fn arms(text: &Text, options: &Options) -> Result<Arms, Diagnostics> {
-    let mut problems = Problems::of(text);
+    let mut problems = Problems::of(text.as_str(), text);
     let urdf = model(text.as_str(), options, &mut problems);
     let tips = urdf.and_then(|urdf| Some((tree::tips(&urdf, options, &mut problems)?, urdf.name)));
     let notes = problems.finish()?;

@@ -148,7 +148,11 @@ pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> 
 /// # Errors
 /// Those of [`import`]; [`Text::render`] says in which file they are.
 pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnostics> {
-    finished(text.as_str(), options, problems::Problems::of(text))
+    finished(
+        text.as_str(),
+        options,
+        problems::Problems::of(text.as_str(), text),
+    )
 }
 
 fn finished(

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::text::Text;
 use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 
 /// More than these are counted, not listed.
@@ -10,11 +9,17 @@ const MAX: usize = 200;
 /// More names than these are not listed.
 pub(crate) const MAX_NAMES: usize = 30;
 
+/// A text that may be of several files.
+pub(crate) trait Files {
+    /// Returns the name of the file of a byte and its line there; `None` of a single file.
+    fn in_file(&self, byte: usize) -> Option<(&str, usize)>;
+}
+
 /// Collects them, in any order.
 pub(crate) struct Problems<'s> {
     source: &'s str,
-    /// The files that the source is made of, if it is made of several.
-    text: Option<&'s Text>,
+    /// The files that the source is made of.
+    files: Option<&'s dyn Files>,
     found: Vec<Diagnostic>,
     /// The number of problems beyond those that are listed.
     more: usize,
@@ -24,26 +29,25 @@ impl<'s> Problems<'s> {
     pub(crate) fn new(source: &'s str) -> Self {
         Problems {
             source,
-            text: None,
+            files: None,
             found: Vec::new(),
             more: 0,
         }
     }
 
     /// Collects them of a text of several files.
-    pub(crate) fn of(text: &'s Text) -> Self {
+    pub(crate) fn of(source: &'s str, files: &'s dyn Files) -> Self {
         Problems {
-            text: Some(text),
-            ..Problems::new(text.as_str())
+            files: Some(files),
+            ..Problems::new(source)
         }
     }
 
     /// Returns the line of a byte in its file, in words.
     pub(crate) fn line(&self, byte: usize) -> String {
-        match self.text.filter(|text| text.is_made_of_several()) {
+        match self.files.and_then(|files| files.in_file(byte)) {
             None => format!("line {}", place(self.source, byte).0),
-            Some(text) => {
-                let (name, line) = text.line(byte);
+            Some((name, line)) => {
                 let file = std::path::Path::new(name).file_name().unwrap_or_default();
                 format!("{}, line {line}", file.to_string_lossy())
             }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use dalembert_model::read::{Diagnostic, Diagnostics};
 
-use crate::problems::{Problems, place};
+use crate::problems::{Files, Problems, place};
 use crate::{MAX_BYTES, guard};
 
 /// The most files of a model.
@@ -29,6 +29,12 @@ struct Open {
     rest: Range<usize>,
     /// What it includes, the last first: where, and the names.
     includes: Vec<(Range<usize>, String)>,
+}
+
+impl Files for Text {
+    fn in_file(&self, byte: usize) -> Option<(&str, usize)> {
+        (self.files.len() > 1).then(|| self.line(byte))
+    }
 }
 
 impl Text {
@@ -111,10 +117,6 @@ impl Text {
     /// Returns the whole text, for [`crate::import`].
     pub fn as_str(&self) -> &str {
         &self.text
-    }
-
-    pub(crate) fn is_made_of_several(&self) -> bool {
-        self.files.len() > 1
     }
 
     /// Returns the name of the file of a place in the text, and its line there.

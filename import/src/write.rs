@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use dalembert_model::equations::frames::HAND;
-use dalembert_model::outputs::is_frame_name;
 use dalembert_model::robot::values::{list, number, placement, position, quoted};
-use dalembert_model::robot::{Placement, Position, Robot, suggested_name, write_frame};
+use dalembert_model::robot::{
+    HAND, Placement, Position, Robot, is_frame_name, suggested_name, write_frame,
+};
 use num_traits::{Signed, Zero};
 
 use crate::Options;

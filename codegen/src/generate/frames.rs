@@ -1,8 +1,7 @@
 //! Frames that functions are at: the robot must have them.
 
-use dalembert_model::equations::frames::HAND;
 use dalembert_model::read::closest;
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{HAND, Robot};
 
 use super::GenerateError;
 use crate::function::Function;

@@ -22,88 +22,12 @@ use dalembert_sines::{LARGEST, LARGEST_F32};
 use super::called::Called;
 use super::dialect::Dialect;
 use super::function::reads;
+pub(crate) use super::names::{LONGEST, Names, float};
 use super::scope::Scope;
 use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::kernel::{Kernel, Term, Value};
 use crate::program::{AngleSum, Library, Lowered, LoweredTrig, ScalarType};
-
-/// The most characters of a name: compilers need not tell longer ones apart.
-pub(crate) const LONGEST: usize = 31;
-
-/// Words that are shortened in names that would be too long.
-const SHORT: [(&str, &str); 15] = [
-    ("inverse", "inv"),
-    ("forward", "fwd"),
-    ("dynamics", "dyn"),
-    ("derivatives", "deriv"),
-    ("kinematics", "kin"),
-    ("coefficients", "coef"),
-    ("manipulator", "manip"),
-    ("equation", "eq"),
-    ("passivity", "pass"),
-    ("regressor", "regr"),
-    ("kinetic", "kin"),
-    ("potential", "pot"),
-    ("energy", "en"),
-    ("momentum", "mom"),
-    ("parameters", "param"),
-];
-
-/// The names of one scalar's functions in a header of a language.
-#[derive(Clone, Debug)]
-pub struct Names {
-    base: String,
-    language: Language,
-    scalar: ScalarType,
-}
-
-impl Names {
-    /// The names of a module's functions in a scalar.
-    pub fn new(base: &str, language: Language, scalar: ScalarType) -> Names {
-        Names {
-            base: base.to_owned(),
-            language,
-            scalar,
-        }
-    }
-
-    /// The language.
-    pub(super) fn language(&self) -> Language {
-        self.language
-    }
-
-    /// Returns how its functions are written.
-    pub(crate) fn dialect(&self) -> Dialect {
-        match self.language {
-            Language::Cuda => Dialect::cuda(self.scalar),
-            Language::C | Language::Rust => Dialect::c99(self.scalar),
-        }
-    }
-
-    /// A function or type by its word, shortened where it would be too long.
-    pub(crate) fn of(&self, word: &str) -> String {
-        let infix = match self.scalar {
-            ScalarType::F64 => "",
-            ScalarType::F32 => "f32_",
-        };
-        let name = format!("{}_{infix}{word}", self.base);
-        if name.len() <= LONGEST {
-            return name;
-        }
-        let words = word.split('_').map(|part| {
-            let short = SHORT.iter().find(|(long, _)| *long == part);
-            short.map_or(part, |(_, short)| short)
-        });
-        let words: Vec<&str> = words.collect();
-        format!("{}_{infix}{}", self.base, words.join("_"))
-    }
-
-    /// A macro, which both scalars share.
-    pub(crate) fn constant(&self, word: &str) -> String {
-        format!("{}_{word}", self.base.to_uppercase())
-    }
-}
 
 impl Dialect {
     /// C99.
@@ -122,14 +46,6 @@ impl Dialect {
             literal,
             separator: "",
         }
-    }
-}
-
-/// The scalar's type.
-pub(crate) fn float(scalar: ScalarType) -> &'static str {
-    match scalar {
-        ScalarType::F64 => "double",
-        ScalarType::F32 => "float",
     }
 }
 
@@ -267,7 +183,7 @@ pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
 /// Returns whether the function is told whether angles may be far: in batches that are vectors,
 /// where calls would be in the way.
 pub(crate) fn is_told(code: &Lowered, names: &Names) -> bool {
-    names.language == Language::C && is_together(code)
+    names.language() == Language::C && is_together(code)
 }
 
 /// Arguments that the code does not read.

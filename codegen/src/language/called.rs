@@ -11,7 +11,7 @@
 //! ```
 
 use super::Language;
-use super::c99::{Names, float};
+use super::names::{Names, float};
 use super::scope::Scope;
 use crate::program::{AngleSum, Library, Lowered, LoweredTrig};
 

@@ -21,6 +21,7 @@ pub(crate) mod cuda;
 pub(crate) mod dialect;
 pub(crate) mod entries;
 pub(crate) mod function;
+pub(crate) mod names;
 pub(crate) mod parts;
 pub(crate) mod read;
 pub(crate) mod result;

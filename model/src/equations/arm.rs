@@ -1,11 +1,12 @@
 //! The parameters and the position of an arm in the scalar of a computation.
 
+use alloc::borrow::Cow;
 use alloc::vec::Vec;
 
-use super::frames::Frames;
+use super::frames::{Frames, View};
 use super::friction::Friction;
 use super::matrix::{Columns, Vector, plus, zero_vector};
-use crate::robot::{Convention, Inertia, JointKind};
+use crate::robot::{Convention, HAND, Inertia, JointKind};
 use crate::scalar::{Scalar, SinCosPair};
 
 /// The parameters of an arm in the scalar of a computation.
@@ -304,4 +305,35 @@ fn turn_z<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
 fn turn_back_z<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
     let [x, y] = angle.turn_back(&x, &y);
     [x, y, z]
+}
+
+impl<S: Clone> Arm<S> {
+    /// Returns the same arm whose hand is a frame of this name, in these axes and
+    /// components; `None` where there is no such frame.
+    pub fn seen(&self, view: &View) -> Option<Arm<S>> {
+        let mut arm = self.clone();
+        if view.frame != HAND {
+            let mut named = self.frames.named.iter();
+            let frame = named.find(|frame| frame.name == view.frame)?;
+            arm.tool = Some(frame.pose.clone());
+            arm.frames.joint = Some(frame.joint);
+        }
+        (arm.frames.axes, arm.frames.rows) = (view.axes, view.rows);
+        Some(arm)
+    }
+
+    /// The arm and its position without the links behind the hand.
+    pub(super) fn to_hand<'a>(
+        &'a self,
+        at: &'a [DhVariables<S>],
+    ) -> (Cow<'a, Arm<S>>, &'a [DhVariables<S>]) {
+        match self.frames.joint {
+            Some(joint) if joint + 1 < self.links.len() => {
+                let mut arm = self.clone();
+                arm.links.truncate(joint + 1);
+                (Cow::Owned(arm), &at[..at.len().min(joint + 1)])
+            }
+            _ => (Cow::Borrowed(self), at),
+        }
+    }
 }

@@ -1,18 +1,13 @@
 //! Frames that are fixed to links, and the one that velocities and wrenches are of.
 //!
-//! An arm has a hand: the last link's frame, or the tool's. [`Arm::seen`] gives the same
+//! An arm has a hand: the last link's frame, or the tool's. [`Arm::seen`](super::Arm::seen) gives the same
 //! arm with another frame in its place, on any link, and says in which axes and which of
 //! the six components are asked for. So formulas of the hand are formulas of any frame.
 
-use alloc::borrow::Cow;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::matrix::Columns;
-use super::{Arm, DhVariables};
-
-/// The name by which an arm's own hand is a frame, too.
-pub const HAND: &str = "hand";
 
 /// The axes that a frame's velocity has its components in, and the point it is of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -112,7 +107,7 @@ impl Rows {
 /// A frame, and what is asked of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct View {
-    /// The frame's name, or [`HAND`].
+    /// The frame's name, or [`HAND`](crate::robot::HAND).
     pub frame: &'static str,
     /// In which axes.
     pub axes: Axes,
@@ -176,37 +171,6 @@ impl<S> Frames<S> {
             joint: self.joint,
             axes: self.axes,
             rows: self.rows,
-        }
-    }
-}
-
-impl<S: Clone> Arm<S> {
-    /// Returns the same arm whose hand is a frame of this name, in these axes and
-    /// components; `None` where there is no such frame.
-    pub fn seen(&self, view: &View) -> Option<Arm<S>> {
-        let mut arm = self.clone();
-        if view.frame != HAND {
-            let mut named = self.frames.named.iter();
-            let frame = named.find(|frame| frame.name == view.frame)?;
-            arm.tool = Some(frame.pose.clone());
-            arm.frames.joint = Some(frame.joint);
-        }
-        (arm.frames.axes, arm.frames.rows) = (view.axes, view.rows);
-        Some(arm)
-    }
-
-    /// The arm and its position without the links behind the hand.
-    pub(super) fn to_hand<'a>(
-        &'a self,
-        at: &'a [DhVariables<S>],
-    ) -> (Cow<'a, Arm<S>>, &'a [DhVariables<S>]) {
-        match self.frames.joint {
-            Some(joint) if joint + 1 < self.links.len() => {
-                let mut arm = self.clone();
-                arm.links.truncate(joint + 1);
-                (Cow::Owned(arm), &at[..at.len().min(joint + 1)])
-            }
-            _ => (Cow::Borrowed(self), at),
         }
     }
 }

@@ -15,7 +15,7 @@ use core::hash::{Hash, Hasher};
 
 use super::bundle::{BundleError, check_name, kept};
 use super::function::Definition;
-use super::quantity::Facts;
+use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::Arm;
 use crate::equations::frames::{Axes, Rows, View};
@@ -26,19 +26,6 @@ use crate::scalar::Divide;
 const AT: char = '@';
 /// The sign before a word.
 const OF: char = ':';
-
-/// What may be chosen of an output's frame; each choice includes those before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum FrameChoice {
-    /// Nothing: it is of the joints, or of all links.
-    None,
-    /// Which frame.
-    Frame,
-    /// In which axes.
-    Axes,
-    /// Which of six components.
-    Rows,
-}
 
 /// A quantity at a frame. What it says of itself is kept for as long as the process runs,
 /// as that of a [`Bundle`](super::Bundle) is.
@@ -249,11 +236,6 @@ impl Function {
         }
         frames
     }
-}
-
-/// Returns whether functions can be called after a frame of this name.
-pub fn is_frame_name(name: &str) -> bool {
-    check_name(&format!("{}_{name}", Function::Jacobian)).is_ok()
 }
 
 /// The words of a view, each with a sign before it.

@@ -2,12 +2,12 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia::damped_mobility;
 use super::operational_inertia_inverse::{OF_FACTORS, space, written_space};
 use super::quantity::Facts;
+use super::quantity::FrameChoice;
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 

@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::forward_dynamics::accelerations;
 use super::function::Definition;
 use super::inverse_dynamics_with_wrench::{less, of_wrench};
+use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, Motion, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;

@@ -2,10 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
+use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::minus;

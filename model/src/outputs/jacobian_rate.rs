@@ -2,10 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::Facts;
+use super::quantity::FrameChoice;
 use super::{Argument, Axis, Index, Quantity, Shape, Written};
 use crate::scalar::Divide;
 

@@ -63,7 +63,7 @@ mod reaction_wrenches;
 mod regressor;
 
 pub use argument::Argument;
-pub use at::{FunctionAt, QuantityAt, is_frame_name};
+pub use at::{FunctionAt, QuantityAt};
 pub use bundle::{Bundle, BundleError};
 pub use formula::{Motion, Regrouped, Written};
 pub use function::Columns;

@@ -3,12 +3,12 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::operational_inertia::damped_mobility;
 use super::operational_inertia_inverse::{chain_jacobian, factor};
+use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::zeros;

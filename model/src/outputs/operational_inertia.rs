@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia_inverse::{OF_FACTORS, angular, space, written_space};
 use super::quantity::Facts;
+use super::quantity::FrameChoice;
 use super::{Argument, Axis, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 

@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::formula::Formula;
 use super::function::Definition;
+use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::factor::{Factor, submatrix};

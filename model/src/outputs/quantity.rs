@@ -4,10 +4,22 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::at::FrameChoice;
 use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
+
+/// What may be chosen of an output's frame; each choice includes those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum FrameChoice {
+    /// Nothing: it is of the joints, or of all links.
+    None,
+    /// Which frame.
+    Frame,
+    /// In which axes.
+    Axes,
+    /// Which of six components.
+    Rows,
+}
 
 /// The conversion of a result's entries, with q̇, into those of given states.
 pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;

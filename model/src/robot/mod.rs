@@ -16,6 +16,7 @@
 
 mod body;
 mod findings;
+mod frame;
 mod place;
 mod placement;
 pub(crate) mod reach;
@@ -35,6 +36,7 @@ use crate::number::{Angle, Rational};
 
 pub use body::Defect;
 pub use findings::{Finding, Severity};
+pub use frame::{HAND, is_frame_name};
 pub use place::{Field, Place};
 pub use placement::Placement;
 pub use warning::RobotWarning;

@@ -14,14 +14,13 @@ use num_traits::{Signed, Zero};
 
 use super::body::Defect;
 use super::findings::{Finding, Findings};
+use super::frame::{HAND, is_frame_name};
 use super::{
     Convention, Field, Joint, JointKind, Place, Placement, Position, Robot, RobotWarning, reach,
     units,
 };
-use crate::equations::frames::HAND;
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
-use crate::outputs::is_frame_name;
 
 /// The widths over which the sign of Coulomb friction may be smoothed.
 const WIDTHS: core::ops::RangeInclusive<f64> = 1e-9..=1e9;

@@ -81,9 +81,13 @@ pub struct Divided {
     pub refused: Option<GenerateError>,
 }
 
-/// The functions of one quantity or several that invert D.
+/// The functions of one quantity or several that invert D, and nothing else: what is damped
+/// inverts other matrices, which are near singular at other states.
 pub fn functions() -> Vec<Function> {
-    let inverts = |function: &Function| function.inverts_inertia();
+    let inverts = |function: &Function| {
+        let arguments = function.arguments();
+        function.inverts_inertia() && !arguments.contains(&Argument::Damping)
+    };
     Function::ALL.into_iter().filter(inverts).collect()
 }
 
