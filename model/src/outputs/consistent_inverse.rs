@@ -69,11 +69,11 @@ impl Formula for ConsistentInverse {
             |i: usize, r: usize| sum(&mut (0..m).map(|s| inverse[i * m + s].mul(&matrix[s][r])));
         let moving = (0..moves.len()).filter(|&i| moves[i]);
         let mut residual = Vec::new();
-        for r in 0..m {
+        for (r, row) in j.iter().enumerate() {
             let column: Vec<S> = (0..moves.len()).map(|k| given(k, r)).collect();
             for i in moving.clone() {
                 let left = sum(&mut column.iter().zip(&d[i]).map(|(x, d)| d.mul(x)));
-                residual.push(left.sub(&j[r][i]));
+                residual.push(left.sub(&row[i]));
             }
         }
         residual
