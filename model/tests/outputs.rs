@@ -466,7 +466,7 @@ fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -
     for formulation in Formulation::ALL {
         let by = Written {
             formulation,
-            ..written.clone()
+            ..written
         };
         assert_eq!(
             function.quantities()[0].written(&by),
@@ -573,7 +573,7 @@ fn operational_space_fits_together() {
             (0..m).for_each(|i| damped[i * m + i] = damped[i * m + i].add(&damping));
             let one = |n: usize| -> Vec<Field> {
                 let entry = |at: usize| {
-                    if at % (n + 1) == 0 {
+                    if at.is_multiple_of(n + 1) {
                         Field::ONE
                     } else {
                         Field::ZERO

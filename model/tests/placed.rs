@@ -33,7 +33,8 @@ fn the_same_arm_is_the_same_robot() {
         puma.short_hash(),
         reading(&checked_in("puma560")).robot.short_hash()
     );
-    let scara = reading(&data("scara_placed")).robot;
+    let mut scara = reading(&data("scara_placed")).robot;
+    scara.joints.iter_mut().for_each(|joint| joint.frame = None);
     assert_eq!(scara, reading(&data("scara")).robot);
 }
 

@@ -4,6 +4,8 @@
 //! - [`cycle`]: what a microcontroller does every millisecond
 //!
 //! Nothing here needs std, an allocator or f64.
+// The SO-101's file has an angle of 5e-8 rad, of which the macro warns.
+#![allow(deprecated)]
 #![no_std]
 #![forbid(unsafe_code)]
 
