@@ -59,6 +59,11 @@ fn short(name: &str) -> String {
         ("equation", "eq"),
         ("kinetic", "kin"),
         ("energy", "en"),
+        ("potential", "pot"),
+        ("momentum", "mom"),
+        ("operational", "oper"),
+        ("projector", "proj"),
+        ("wrench", "wr"),
     ];
     let shortened = |name: String, (long, short): (&str, &str)| name.replace(long, short);
     pairs.into_iter().fold(name.to_owned(), shortened)
