@@ -73,7 +73,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let at = self.pose(*node, 0);
         let mass = self.reader.required(*node, "mass");
         let [diagonal, full] = ["diaginertia", "fullinertia"].map(|key| node.has_attribute(key));
-        let inertia = match (diagonal, full) {
+        let moments = match (diagonal, full) {
             (true, true) => {
                 let message = format!("body `{body}` has two inertias");
                 self.error(*node, message, "`diaginertia` or `fullinertia`, not both");
@@ -81,32 +81,25 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             }
             (_, true) => {
                 let (text, span) = self.reader.attribute(*node, "fullinertia")?;
-                let [xx, yy, zz, xy, xz, yz] = self.reader.list("fullinertia", text, span)?;
-                Some(Inertia {
-                    xx,
-                    yy,
-                    zz,
-                    xy,
-                    yz,
-                    xz,
-                })
+                self.reader.list("fullinertia", text, span)
             }
             (is_given, false) => {
                 let [xx, yy, zz] = match is_given {
                     true => self.reader.triple(*node, "diaginertia")?,
                     false => self.reader.constant(*node, ["0", "0", "0"]),
                 };
-                let [xy, yz, xz] = self.reader.constant(*node, ["0", "0", "0"]);
-                Some(Inertia {
-                    xx,
-                    yy,
-                    zz,
-                    xy,
-                    yz,
-                    xz,
-                })
+                let [xy, xz, yz] = self.reader.constant(*node, ["0", "0", "0"]);
+                Some([xx, yy, zz, xy, xz, yz])
             }
         };
+        let inertia = moments.map(|[xx, yy, zz, xy, xz, yz]| Inertia {
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
+        });
         let (at, mass, inertia) = (at?, mass?, inertia?);
         if mass.value.is_negative() {
             let message = format!("the mass of body `{body}` is negative");
