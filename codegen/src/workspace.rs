@@ -23,7 +23,7 @@ pub mod language {
         pub use crate::language::names::Names;
     }
     pub mod entries {
-        pub use crate::language::entries::Around;
+        pub use crate::language::entries::{Around, places};
         pub mod angles {
             pub use crate::language::entries::angles::Angles;
         }

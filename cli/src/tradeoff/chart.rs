@@ -1,5 +1,5 @@
-//! The front as SVG: operations, those of polynomials for sines included, over
-//! certified error, both logarithmic.
+//! The front as SVG: operations, those of polynomials for sines included, or the
+//! nanoseconds of a call over certified error, both logarithmic.
 //!
 //! Each variant is a mark at its certified error with a whisker to what was
 //! observed. A line joins the front of each kind; dominated variants are grey,
@@ -22,18 +22,17 @@ const KINDS: [(&str, Shape); 4] = [
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Dot {
     kind: usize,
-    operations: f64,
+    cost: f64,
     certified: f64,
     observed: Option<f64>,
     dominated: bool,
 }
 
 impl Dot {
-    fn of(point: &Point) -> Dot {
-        let counts = point.counts();
+    fn of(point: &Point, cost: f64) -> Dot {
         Dot {
             kind: point.kind(),
-            operations: (counts.operations() + counts.trig_mul + counts.trig_add) as f64,
+            cost,
             certified: point.certified,
             observed: point.observed,
             dominated: point.dominated,
@@ -41,28 +40,43 @@ impl Dot {
     }
 }
 
-/// The chart's text.
-pub fn svg(title: &str, relative_to: &str, points: &[Point]) -> String {
-    let dots: Vec<Dot> = points.iter().map(Dot::of).collect();
-    front(title, relative_to, &dots)
+/// What the chart of operations counts.
+const OPERATIONS: &str = "operations, polynomials' included";
+
+/// Returns the chart of operations.
+pub fn of_operations(title: &str, relative_to: &str, points: &[Point]) -> String {
+    let dots = points.iter().map(|point| {
+        let counts = point.counts();
+        let operations = counts.operations() + counts.trig_mul + counts.trig_add;
+        Dot::of(point, operations as f64)
+    });
+    let dots: Vec<Dot> = dots.collect();
+    front(title, [relative_to, OPERATIONS], &dots)
 }
 
-fn front(title: &str, relative_to: &str, dots: &[Dot]) -> String {
+/// Returns the chart of times, of the variants that were timed.
+pub fn of_times(title: &str, relative_to: &str, points: &[Point], processor: &str) -> String {
+    let timed = points.iter().filter_map(|point| {
+        let time = point.time?;
+        Some(Dot::of(point, time.nanoseconds))
+    });
+    let dots: Vec<Dot> = timed.collect();
+    let cost = format!("ns of a call, {processor}");
+    front(title, [relative_to, &cost], &dots)
+}
+
+fn front(title: &str, [relative_to, cost]: [&str; 2], dots: &[Dot]) -> String {
     let observed = || dots.iter().filter_map(|dot| dot.observed);
     let certified = dots.iter().map(|dot| dot.certified);
     let x = Picture::across(certified.chain(observed()));
-    let y = Picture::upward(dots.iter().map(|dot| dot.operations));
+    let y = Picture::upward(dots.iter().map(|dot| dot.cost));
     let whiskers = match observed().next() {
         Some(_) => "; whiskers: observed",
         None => "",
     };
     let below = format!("certified error, relative to {relative_to}{whiskers}");
-    let mut picture = Picture::new(
-        title,
-        [&x, &y],
-        [&below, "operations, polynomials' included"],
-    );
-    let place = |dot: &Dot| [x.place(dot.certified), y.place(dot.operations)];
+    let mut picture = Picture::new(title, [&x, &y], [&below, cost]);
+    let place = |dot: &Dot| [x.place(dot.certified), y.place(dot.cost)];
 
     let (dominated, best): (Vec<Dot>, Vec<Dot>) = dots.iter().partition(|dot| dot.dominated);
     // A variant that several tolerances lead to is dominated by itself.
@@ -119,7 +133,7 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use super::{Dot, front};
+    use super::{Dot, OPERATIONS, front};
 
     /// A ladder as a robot gives it: both scalars, both kinds of sines, and
     /// exact programs that several tolerances lead to.
@@ -131,7 +145,7 @@ mod tests {
                 let certified = tolerance * [0.93, 0.94, 0.97, 0.98][kind];
                 dots.push(Dot {
                     kind,
-                    operations: (260 - 20 * rung) as f64 + if kind > 1 { 60.0 } else { 0.0 },
+                    cost: (260 - 20 * rung) as f64 + if kind > 1 { 60.0 } else { 0.0 },
                     certified,
                     observed: Some(certified * 0.1),
                     dominated: rung == 4,
@@ -157,7 +171,11 @@ mod tests {
     /// Every name is on the paper, and no two are in the same place.
     #[test]
     fn a_full_ladder_is_legible() {
-        let svg = front("arm: inverse_dynamics", "the actuators' limits", &ladder());
+        let svg = front(
+            "arm: inverse_dynamics",
+            ["the actuators' limits", OPERATIONS],
+            &ladder(),
+        );
         let (xs, ys) = (numbers(&svg, "x"), numbers(&svg, "y"));
         assert_eq!(xs.len(), ys.len());
         // What stands beside the axis is turned, and alone there.
@@ -187,7 +205,7 @@ mod tests {
     #[test]
     fn one_variant_and_none() {
         for dots in [&ladder()[..1], &[]] {
-            let svg = front("arm: gravity", "the largest torques", dots);
+            let svg = front("arm: gravity", ["the largest torques", OPERATIONS], dots);
             assert!(!svg.contains("NaN") && !svg.contains("inf"));
             assert!(numbers(&svg, "x").len() > 6);
         }
@@ -200,7 +218,7 @@ mod tests {
         Dot {
             kind: usize::from(cell("scalar") == "f32")
                 + 2 * usize::from(cell("sincos_by") == "polynomials"),
-            operations: operations.iter().sum(),
+            cost: operations.iter().sum(),
             certified: number("certified"),
             observed: cell("observed").parse().ok(),
             dominated: cell("front") != "yes",
@@ -216,7 +234,11 @@ mod tests {
         let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
         let head = rows.next().unwrap();
         let dots: Vec<Dot> = rows.map(|row| dot(&row, &head)).collect();
-        let svg = front("puma560: inverse_dynamics", "the actuators' limits", &dots);
+        let svg = front(
+            "puma560: inverse_dynamics",
+            ["the actuators' limits", OPERATIONS],
+            &dots,
+        );
         let file = folder.join("puma560.svg");
         if fs::read_to_string(&file).unwrap() != svg {
             fs::write(&file, svg).unwrap();

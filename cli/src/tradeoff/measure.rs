@@ -4,7 +4,9 @@
 //! All of them are in one program, which calls each in turn, many times over:
 //! whatever slows the machine down for a while slows all of them down. What
 //! counts is the median over the rounds of the ratio to the first variant in
-//! the same round.
+//! the same round. It is compiled for the processor that it runs on. Where no sine
+//! is called, the lanes of a loop over [`LANES`] states become vectors, as the
+//! `lanes` of generated modules do.
 
 use std::env;
 use std::fmt::Write;
@@ -13,11 +15,14 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use dalembert_codegen::workspace::function::Argument;
+use dalembert_codegen::workspace::language::entries::places;
 use dalembert_codegen::workspace::language::result::structure;
-use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_report::sweep::{Point, Time};
 
 use crate::outcome::Failure;
+
+/// States at once, as many f64 as the widest vectors have.
+pub const LANES: usize = 8;
 
 /// A compiler that was found.
 pub struct Compiler {
@@ -56,15 +61,18 @@ fn state<const N: usize>(seed: u64, reach: f64) -> [f64; N] {
 }
 
 fn main() {
-    let mut rounds = vec![Vec::new(); VARIANTS.len()];
+    let mut rounds = vec![[Vec::new(), Vec::new()]; VARIANTS.len()];
     for round in 0..ROUNDS + 2 {
         for (variant, times) in VARIANTS.iter().zip(&mut rounds) {
-            let start = std::time::Instant::now();
-            variant();
-            let time = start.elapsed().as_secs_f64() * 1e9 / CALLS as f64;
-            // Caches and clocks settle in the first two.
-            if round >= 2 {
-                times.push(time);
+            for (run, times) in variant.iter().zip(times) {
+                let Some(run) = run else { continue };
+                let start = std::time::Instant::now();
+                run();
+                let time = start.elapsed().as_secs_f64() * 1e9 / CALLS as f64;
+                // Caches and clocks settle in the first two.
+                if round >= 2 {
+                    times.push(time);
+                }
             }
         }
     }
@@ -72,9 +80,13 @@ fn main() {
         values.sort_by(f64::total_cmp);
         values[values.len() / 2]
     };
-    for times in &rounds {
-        let ratios = times.iter().zip(&rounds[0]).map(|(a, b)| a / b).collect();
-        println!(\"{} {}\", median(times.clone()), median(ratios));
+    for [times, lanes] in &rounds {
+        let ratios = times.iter().zip(&rounds[0][0]).map(|(a, b)| a / b).collect();
+        print!(\"{} {}\", median(times.clone()), median(ratios));
+        match lanes.is_empty() {
+            true => println!(),
+            false => println!(\" {}\", median(lanes.clone())),
+        }
     }
 }
 ";
@@ -116,6 +128,7 @@ impl Compiler {
             Some(Time {
                 nanoseconds: numbers.next()?,
                 ratio: numbers.next()?,
+                in_lanes: numbers.next(),
             })
         });
         for point in points {
@@ -136,8 +149,9 @@ impl Compiler {
             // What the caller's environment says of its own builds is not for this.
             command
                 .current_dir(&folder.0)
-                .env("CARGO_TARGET_DIR", folder.0.join("target"));
-            for variable in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
+                .env("CARGO_TARGET_DIR", folder.0.join("target"))
+                .env("RUSTFLAGS", "-Ctarget-cpu=native");
+            for variable in ["CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
                 command.env_remove(variable);
             }
             match command.output() {
@@ -190,61 +204,119 @@ impl Drop for Folder {
     }
 }
 
-/// Every variant in a module of its own, with a loop that calls it.
+/// Returns the program: every variant in a module of its own, with loops that call it.
 fn source(points: &[Point]) -> String {
     let mut text = String::from("#![allow(clippy::all, unused)]\n");
     let mut names = Vec::new();
     for (index, point) in points.iter().enumerate() {
-        let certificate = &point.certificate;
-        let program = &certificate.emitted;
-        let scalar = certificate.scalar;
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "mod v{index} {{");
-        if let Some(structure) = structure(program.function, program.sizes(), scalar) {
-            text += &structure;
-        }
-        text += "#[inline(never)]\n";
-        text += &certificate.text;
-        let mut calls = Vec::new();
-        for argument in &program.arguments {
-            let name = argument.name();
-            let (seed, reach) = match argument {
-                Argument::Position => (1, 3.0),
-                Argument::Velocity => (2, 2.0),
-                Argument::Acceleration => (3, 10.0),
-                other => (other.index() + 1, other.reach()),
-            };
-            let cast = match scalar {
-                ScalarType::F64 => "",
-                ScalarType::F32 => ".map(|x| x as f32)",
-            };
-            let n = program.joints;
-            let _ = writeln!(
-                text,
-                "fn all_{name}() -> &'static [[{scalar}; {n}]; crate::STATES] {{\n\
-                 static ALL: std::sync::OnceLock<[[{scalar}; {n}]; crate::STATES]> = std::sync::OnceLock::new();\n\
-                 ALL.get_or_init(|| std::array::from_fn(|i| crate::state::<{n}>(3 * i as u64 + {seed}, {reach:?}){cast}))\n}}"
-            );
-            calls.push(format!("black_box(&{name}[call % crate::STATES])"));
-        }
-        text += "pub fn run() {\nuse std::hint::black_box;\n";
-        for argument in &program.arguments {
-            let name = argument.name();
-            let _ = writeln!(text, "let {name} = all_{name}();");
+        let _ = writeln!(
+            text,
+            "mod v{index} {{\n{}{}}}",
+            function(point, "never"),
+            calls(point)
+        );
+        let calls_sines = !point.certificate.emitted.trig.is_empty();
+        if calls_sines && point.certificate.sines.is_empty() {
+            names.push(format!("[Some(v{index}::run), None]"));
+            continue;
         }
         let _ = writeln!(
             text,
-            "for call in 0..crate::CALLS {{ black_box({}({})); }}\n}}\n}}",
-            program.function,
-            calls.join(", ")
+            "mod l{index} {{\n{}{}}}",
+            function(point, "always"),
+            lanes(point)
         );
-        names.push(format!("v{index}::run"));
+        names.push(format!("[Some(v{index}::run), Some(l{index}::run)]"));
     }
     let _ = writeln!(
         text,
-        "const VARIANTS: [fn(); {}] = [{}];",
+        "const LANES: usize = {LANES};\nconst VARIANTS: [[Option<fn()>; 2]; {}] = [{}];",
         names.len(),
         names.join(", ")
     );
     text + HARNESS
+}
+
+/// Returns a variant's text after the struct that it returns, if it does, and the states
+/// of its arguments.
+fn function(point: &Point, inline: &str) -> String {
+    let certificate = &point.certificate;
+    let (program, scalar) = (&certificate.emitted, certificate.scalar);
+    let mut text = structure(program.function, program.sizes(), scalar).unwrap_or_default();
+    let _ = write!(text, "#[inline({inline})]\n{}", certificate.text);
+    for argument in &program.arguments {
+        let name = argument.name();
+        let (seed, reach) = match argument {
+            Argument::Position => (1, 3.0),
+            Argument::Velocity => (2, 2.0),
+            Argument::Acceleration => (3, 10.0),
+            other => (other.index() + 1, other.reach()),
+        };
+        let n = program.joints;
+        let _ = writeln!(
+            text,
+            "fn all_{name}() -> [[{scalar}; {n}]; crate::STATES] {{\n\
+             std::array::from_fn(|i| crate::state::<{n}>(3 * i as u64 + {seed}, {reach:?}).map(|x| x as {scalar}))\n}}"
+        );
+    }
+    text
+}
+
+/// Returns a loop that calls a variant with one state after the other.
+fn calls(point: &Point) -> String {
+    let program = &point.certificate.emitted;
+    let names = program.arguments.iter().map(|argument| argument.name());
+    let all: String = names
+        .clone()
+        .map(|name| format!("let {name} = all_{name}();\n"))
+        .collect();
+    let states = names.map(|name| format!("black_box(&{name}[call % crate::STATES])"));
+    let states: Vec<String> = states.collect();
+    format!(
+        "pub fn run() {{\nuse std::hint::black_box;\n{all}\
+         for call in 0..crate::CALLS {{ black_box({}({})); }}\n}}\n",
+        program.function,
+        states.join(", ")
+    )
+}
+
+/// Returns a loop over states in columns, some at once.
+fn lanes(point: &Point) -> String {
+    let program = &point.certificate.emitted;
+    let scalar = point.certificate.scalar;
+    let mut text = String::from("pub fn run() {\nuse std::hint::black_box;\nuse crate::LANES;\n");
+    let mut states = Vec::new();
+    for argument in &program.arguments {
+        let (name, n) = (argument.name(), program.joints);
+        let _ = writeln!(
+            text,
+            "let {name} = all_{name}();\n\
+             let {name}: [[[{scalar}; LANES]; {n}]; crate::STATES / LANES] = \
+             std::array::from_fn(|k| std::array::from_fn(|i| std::array::from_fn(|l| {name}[k * LANES + l][i])));"
+        );
+        let entries: Vec<String> = (0..n).map(|i| format!("{name}[{i}][l]")).collect();
+        states.push(format!("&[{}]", entries.join(", ")));
+    }
+    let places = places(program.function, program.sizes());
+    let _ = writeln!(
+        text,
+        "for call in 0..crate::CALLS / LANES {{\nlet k = call % (crate::STATES / LANES);\n\
+         let mut results = [[0.0; LANES]; {}];",
+        places.len()
+    );
+    for argument in &program.arguments {
+        let name = argument.name();
+        let _ = writeln!(text, "let {name} = black_box(&{name}[k]);");
+    }
+    let _ = writeln!(
+        text,
+        "for l in 0..LANES {{\nlet result = {}({});",
+        program.function,
+        states.join(", ")
+    );
+    for (index, place) in places.iter().enumerate() {
+        let _ = writeln!(text, "results[{index}][l] = result{place};");
+    }
+    text + "}\nblack_box(&results);\n}\n}\n"
 }

@@ -37,6 +37,7 @@ const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2,
 /// The files that are written.
 const CSV: &str = "tradeoff.csv";
 const SVG: &str = "tradeoff.svg";
+const TIME: &str = "time.svg";
 const CERTIFICATES: &str = "certificates";
 /// The folder of what a run that is ended leaves for the next one.
 const RUNGS: &str = "rungs";
@@ -52,7 +53,7 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let output = match &args.output {
         None => None,
         Some(folder) => {
-            let output = Folder::at(folder, &[CSV, SVG], Some(&args.robot))?;
+            let output = Folder::at(folder, &[CSV, SVG, TIME], Some(&args.robot))?;
             for inner in [CERTIFICATES, RUNGS] {
                 Folder::at(&folder.join(inner), &[], None)?;
             }
@@ -114,13 +115,24 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         false => {
             output::print(&report::table(&points))?;
             if let Some(processor) = &processor {
-                output::print(&format!("\nns: a call in a loop, on {processor}\n"))?;
+                output::print(&format!(
+                    "\nns: a call in a loop, and of a state where {} are run at once and no sine is called,\n\
+                     compiled for this processor: {processor}\n",
+                    measure::LANES
+                ))?;
             }
         }
     }
     if let Some(folder) = &output {
-        let chart = chart(&reading, scene, exact.function, relative_to, &points);
-        folder.write(&files(chart, &points))?;
+        let charts = charts(
+            &reading,
+            scene,
+            exact.function,
+            relative_to,
+            &points,
+            processor,
+        );
+        folder.write(&files(charts, &points))?;
         if let Some(rungs) = &rungs {
             rungs.forget(tolerances.iter().copied().chain([0.0]));
         }
@@ -150,9 +162,10 @@ fn identity(
     format!("{robot}\n{scene:?}\n{relative_to:?}\n{options:?}\n{exact:?}")
 }
 
-/// The table, the chart and the certificates, by name.
-fn files(chart: String, points: &[Point]) -> Vec<(String, String)> {
-    let mut files = vec![(CSV.into(), report::csv(points)), (SVG.into(), chart)];
+/// The table, the charts and the certificates, by name.
+fn files(charts: Vec<(String, String)>, points: &[Point]) -> Vec<(String, String)> {
+    let mut files = charts;
+    files.push((CSV.into(), report::csv(points)));
     files.extend(points.iter().map(|point| {
         let name = format!("{CERTIFICATES}/{}", point.file());
         (name, point.certificate.to_json())
@@ -201,20 +214,27 @@ fn word(scale: Scale) -> &'static str {
     found.map_or("", |(word, _)| word)
 }
 
-fn chart(
+/// Returns the chart of operations and, where variants were timed, that of times, by name.
+fn charts(
     reading: &Reading,
     scene: Option<&Scene>,
     function: Function,
     scale: Scale,
     points: &[Point],
-) -> String {
+    processor: Option<String>,
+) -> Vec<(String, String)> {
     let scene = scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name));
     let title = format!("{}{scene}: {function}", reading.robot.name);
     let scale = match scale {
         Scale::Actuator => "the actuators' limits",
         Scale::Range => "the largest torques",
     };
-    chart::svg(&title, scale, points)
+    let mut charts = vec![(SVG.into(), chart::of_operations(&title, scale, points))];
+    charts.extend(processor.map(|processor| {
+        let chart = chart::of_times(&title, scale, points, &processor);
+        (TIME.into(), chart)
+    }));
+    charts
 }
 
 /// The exact program, which tolerances are applied to: from the plan if there is

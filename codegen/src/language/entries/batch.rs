@@ -75,7 +75,7 @@ fn marker(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, kind: &
          fn state<const L: usize>(results: &{in_lanes}, l: usize) -> {result} {{",
     );
     let (function, sizes) = (printed.function, printed.sizes);
-    let places = places(printed);
+    let places = places(printed.function, printed.sizes);
     let items = places.iter().map(|place| format!("results{place}[l]"));
     let mut state = String::new();
     result::write(&mut state, function, function.structure(), sizes, items);

@@ -68,7 +68,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
         "    for l in 0..L {{\n        \
          let result = {name}_with_sincos({columns}&{sin}, &{cos});"
     );
-    for place in places(printed) {
+    for place in places(printed.function, printed.sizes) {
         let _ = writeln!(text, "        results{place}[l] = result{place};");
     }
     text.push_str("    }\n    results\n}\n");

@@ -16,7 +16,7 @@ mod given;
 mod lanes;
 mod single;
 
-use crate::function::Function;
+use crate::function::{Function, Sizes};
 use crate::language::Printed;
 use crate::words::words;
 use angles::Angles;
@@ -77,10 +77,9 @@ fn arguments(printed: &Printed<'_>) -> Vec<&'static str> {
     arguments.map(|argument| argument.name()).collect()
 }
 
-/// The entries of a result in their order, as they are written after its name:
+/// Returns the entries of a result in their order, as they are written after its name:
 /// `.d[0][1]`.
-fn places(printed: &Printed<'_>) -> Vec<String> {
-    let (function, sizes) = (printed.function, printed.sizes);
+pub fn places(function: Function, sizes: Sizes) -> Vec<String> {
     let mut places = Vec::new();
     for quantity in function.quantities() {
         let field = match function.structure() {
