@@ -22,6 +22,7 @@ mod greedy;
 mod omissions;
 mod price;
 mod search;
+mod spares;
 mod tally;
 
 use super::motions::{self, Motions};
@@ -195,6 +196,9 @@ const RAMP: [f64; 2] = [0.5, 0.8];
 /// much of the allowances.
 const MAX_MORE: usize = 3;
 
+/// Stages in which multiples may stand in for values, once nothing else does.
+const MORE_WITH_SPARES: usize = 2;
+
 /// An output that uses less of its allowance leaves much.
 const MUCH: f64 = 0.8;
 
@@ -251,17 +255,33 @@ pub(crate) fn watched(
     } else {
         search::SHARE
     };
+    let mut spares = false;
+    let mut more = 0;
     for stage in 0..settings.stages + MAX_MORE {
         // What is left of the allowances may do for one more.
         if stage >= settings.stages && !leaves(&best, allowances) {
+            spares = is_direct;
+        }
+        if spares {
+            more += 1;
+        } else if stage >= settings.stages && !leaves(&best, allowances) {
+            break;
+        }
+        if more > MORE_WITH_SPARES {
             break;
         }
         // What a smaller model left may be used at once.
         let part = if is_direct { 1.0 } else { settings.part(stage) };
         let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
+        let mut base = best.clone();
+        let paid = search::cost(&base.program);
+        if spares {
+            base.program = spares::spared(&base.program, &motions, &motions.states(&positions));
+        }
         let search = Search {
             full: program,
-            base: best.clone(),
+            base,
+            paid,
             limits,
             allowances: &allowances,
             settings,
@@ -274,6 +294,7 @@ pub(crate) fn watched(
         match search.run(&mut positions, &mut share, &mut random) {
             Some(found) => best = found,
             None if part < 1.0 => {}
+            None if is_direct && !spares => spares = true,
             None => break,
         }
     }
@@ -342,6 +363,7 @@ pub(crate) fn appraise(
             program: program.clone(),
             errors: Vec::new(),
         },
+        paid: 0,
         limits,
         allowances,
         settings,

@@ -48,6 +48,8 @@ pub(super) struct Search<'a> {
     pub full: &'a Program,
     /// What was edited before.
     pub base: Pruned,
+    /// What its program costs.
+    pub paid: usize,
     pub limits: &'a InputBox,
     pub allowances: &'a [f64],
     pub settings: &'a PruneSettings,
@@ -111,7 +113,7 @@ impl Search<'_> {
         }
         let mut best = self.again(found, positions, &prices, random);
         best.program = finish(&best.stages, self.settings.effort, true);
-        (cost(&best.program) < cost(&self.base.program)).then_some(best)
+        (cost(&best.program) < self.paid).then_some(best)
     }
 
     fn guess(
