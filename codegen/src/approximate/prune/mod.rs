@@ -14,6 +14,7 @@
 //! - `columns`: programs at many states
 //! - `fit`: constants corrected for what is left out
 //! - `price`: operations that stay
+//! - `spares`: multiples of values that others could be replaced by
 //! - `omissions`: what was left out, for reports; `tally`: rounds, for who watches
 
 mod columns;
@@ -197,7 +198,7 @@ const RAMP: [f64; 2] = [0.5, 0.8];
 const MAX_MORE: usize = 3;
 
 /// Stages in which multiples may stand in for values, once nothing else does.
-const MORE_WITH_SPARES: usize = 2;
+const WITH_SPARES: usize = 2;
 
 /// An output that uses less of its allowance leaves much.
 const MUCH: f64 = 0.8;
@@ -255,33 +256,19 @@ pub(crate) fn watched(
     } else {
         search::SHARE
     };
-    let mut spares = false;
-    let mut more = 0;
-    for stage in 0..settings.stages + MAX_MORE {
-        // What is left of the allowances may do for one more.
-        if stage >= settings.stages && !leaves(&best, allowances) {
-            spares = is_direct;
-        }
-        if spares {
-            more += 1;
-        } else if stage >= settings.stages && !leaves(&best, allowances) {
-            break;
-        }
-        if more > MORE_WITH_SPARES {
-            break;
-        }
+    let mut edited = |best: &Pruned, stage: usize, spares: bool| {
         // What a smaller model left may be used at once.
         let part = if is_direct { 1.0 } else { settings.part(stage) };
         let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
         let mut base = best.clone();
-        let paid = search::cost(&base.program);
         if spares {
-            base.program = spares::spared(&base.program, &motions, &motions.states(&positions));
+            let states = motions.states(&positions);
+            base.program = spares::spared(&base.program, &motions, &states);
         }
         let search = Search {
             full: program,
             base,
-            paid,
+            paid: search::cost(&best.program),
             limits,
             allowances: &allowances,
             settings,
@@ -291,11 +278,24 @@ pub(crate) fn watched(
             retries: settings.retries(stage),
             is_direct,
         };
-        match search.run(&mut positions, &mut share, &mut random) {
-            Some(found) => best = found,
-            None if part < 1.0 => {}
-            None if is_direct && !spares => spares = true,
-            None => break,
+        (search.run(&mut positions, &mut share, &mut random), part)
+    };
+    for stage in 0..settings.stages + MAX_MORE {
+        // What is left of the allowances may do for one more.
+        if stage >= settings.stages && !leaves(&best, allowances) {
+            break;
+        }
+        match edited(&best, stage, false) {
+            (Some(found), _) => best = found,
+            (None, part) if part < 1.0 => {}
+            (None, _) => break,
+        }
+    }
+    // Edits of the exact program are known by the places in it; others need not be.
+    for _ in 0..if is_direct { WITH_SPARES } else { 0 } {
+        match edited(&best, settings.stages, true) {
+            (Some(found), _) => best = found,
+            (None, _) => break,
         }
     }
     if is_direct {
