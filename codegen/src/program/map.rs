@@ -15,7 +15,7 @@ impl<C, I> Operand<C, I> {
 
 impl<C: Clone, I: Clone> Operand<C, I> {
     /// The operand where steps have moved to these places.
-    pub(super) fn moved(&self, place: &[usize]) -> Self {
+    pub(crate) fn moved(&self, place: &[usize]) -> Self {
         match self {
             Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
             other => other.clone(),

@@ -14,6 +14,7 @@
 //! - `columns`: programs at many states
 //! - `fit`: constants corrected for what is left out
 //! - `price`: operations that stay
+//! - `spares`: multiples of values that others could be replaced by
 //! - `omissions`: what was left out, for reports; `tally`: rounds, for who watches
 
 mod columns;
@@ -22,6 +23,7 @@ mod greedy;
 mod omissions;
 mod price;
 mod search;
+mod spares;
 mod tally;
 
 use super::motions::{self, Motions};
@@ -195,6 +197,9 @@ const RAMP: [f64; 2] = [0.5, 0.8];
 /// much of the allowances.
 const MAX_MORE: usize = 3;
 
+/// Stages in which multiples may stand in for values, once nothing else does.
+const WITH_SPARES: usize = 2;
+
 /// An output that uses less of its allowance leaves much.
 const MUCH: f64 = 0.8;
 
@@ -251,17 +256,19 @@ pub(crate) fn watched(
     } else {
         search::SHARE
     };
-    for stage in 0..settings.stages + MAX_MORE {
-        // What is left of the allowances may do for one more.
-        if stage >= settings.stages && !leaves(&best, allowances) {
-            break;
-        }
+    let mut edited = |best: &Pruned, stage: usize, spares: bool| {
         // What a smaller model left may be used at once.
         let part = if is_direct { 1.0 } else { settings.part(stage) };
         let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
+        let mut base = best.clone();
+        if spares {
+            let states = motions.states(&positions);
+            base.program = spares::spared(&base.program, &motions, &states);
+        }
         let search = Search {
             full: program,
-            base: best.clone(),
+            base,
+            paid: search::cost(&best.program),
             limits,
             allowances: &allowances,
             settings,
@@ -271,10 +278,24 @@ pub(crate) fn watched(
             retries: settings.retries(stage),
             is_direct,
         };
-        match search.run(&mut positions, &mut share, &mut random) {
-            Some(found) => best = found,
-            None if part < 1.0 => {}
-            None => break,
+        (search.run(&mut positions, &mut share, &mut random), part)
+    };
+    for stage in 0..settings.stages + MAX_MORE {
+        // What is left of the allowances may do for one more.
+        if stage >= settings.stages && !leaves(&best, allowances) {
+            break;
+        }
+        match edited(&best, stage, false) {
+            (Some(found), _) => best = found,
+            (None, part) if part < 1.0 => {}
+            (None, _) => break,
+        }
+    }
+    // Edits of the exact program are known by the places in it; others need not be.
+    for _ in 0..if is_direct { WITH_SPARES } else { 0 } {
+        match edited(&best, settings.stages, true) {
+            (Some(found), _) => best = found,
+            (None, _) => break,
         }
     }
     if is_direct {
@@ -342,6 +363,7 @@ pub(crate) fn appraise(
             program: program.clone(),
             errors: Vec::new(),
         },
+        paid: 0,
         limits,
         allowances,
         settings,

@@ -48,6 +48,8 @@ pub(super) struct Search<'a> {
     pub full: &'a Program,
     /// What was edited before.
     pub base: Pruned,
+    /// What its program costs.
+    pub paid: usize,
     pub limits: &'a InputBox,
     pub allowances: &'a [f64],
     pub settings: &'a PruneSettings,
@@ -111,7 +113,7 @@ impl Search<'_> {
         }
         let mut best = self.again(found, positions, &prices, random);
         best.program = finish(&best.stages, self.settings.effort, true);
-        (cost(&best.program) < cost(&self.base.program)).then_some(best)
+        (cost(&best.program) < self.paid).then_some(best)
     }
 
     fn guess(
@@ -273,7 +275,12 @@ impl Search<'_> {
         let budget = self.settings.budget;
         pruned.errors = magnitude::judged(&error, self.limits, self.allowances, budget);
         let pairs = pruned.errors.iter().zip(self.allowances);
-        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
+        // What is shown to be at most its allowance is within, however the ratio is rounded.
+        let ratio = |(&e, &a): (&f64, &f64)| match e <= a {
+            true => magnitude::relative(e, a).min(1.0),
+            false => magnitude::relative(e, a),
+        };
+        let mut ratios: Vec<f64> = pairs.map(ratio).collect();
         // Too much went as well if D may become singular: the next guess
         // leaves out less.
         if within(&ratios) && !self.is_definite(&pruned.program) {

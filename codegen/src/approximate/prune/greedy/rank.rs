@@ -5,6 +5,7 @@ use super::measure::Attempt;
 use super::{Greedy, Ranked, State};
 use crate::approximate::prune::columns::Value;
 use crate::approximate::prune::fit::{Fit, LANES};
+use crate::approximate::prune::spares::MOST;
 use crate::program::Operand;
 use crate::random::Random;
 
@@ -32,6 +33,7 @@ impl Greedy<'_> {
         let live = self.scratch.live().to_vec();
         let alike = Alike::new(&state.nodes, columns, &live, self.motions, self.alike);
         let mut all = Vec::new();
+        let inputs = state.nodes.inputs.len();
         for node in 0..state.nodes.len() {
             if state.edits[node].is_some() || !live[node] || refused[node] {
                 continue;
@@ -42,12 +44,14 @@ impl Greedy<'_> {
                     values.push(value);
                 }
             }
+            let before = (inputs..node).rev().take_while(|&before| !live[before]);
+            values.extend(before.take(MOST).map(|n| Value::Node(n as u32, false)));
             let hopeless = &self.hopeless[node];
             values.retain(|value| !hopeless.iter().any(|other| value.is_like(other)));
             all.extend(values.into_iter().map(|value| (node, value)));
         }
         let scores = self.scores(state, columns, fit, &all, (before, paid));
-        let (pairs, inputs) = (all.into_iter().zip(scores), state.nodes.inputs.len());
+        let pairs = all.into_iter().zip(scores);
         let ranked = pairs.filter_map(|((node, value), score)| {
             let score = score? * (1.0 + noise * random.unit());
             // An edit puts no input in an input's place: over narrow ranges they are alike.

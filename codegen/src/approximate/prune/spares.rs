@@ -1,0 +1,146 @@
+//! Multiples of values that other values could be replaced by.
+//!
+//! An edit puts a value or a constant in a value's place. For one operation a multiple of a
+//! value would do as well, and often runs much more alike. So before each value stands the
+//! multiple of an earlier one that is nearest to it. Nothing reads it, and it costs nothing,
+//! until an edit puts it in the value's place.
+
+use super::columns::{Nodes, short};
+use super::fit::dot;
+use crate::approximate::motions::Motions;
+use crate::program::{Operand, Operation, Output, Program, Step};
+use crate::states::JointState;
+use dalembert_model::number::{Exact, Rational};
+
+/// Values that run less alike are no use.
+const LEAST: f64 = 0.6;
+
+/// Spares before a step at most.
+pub(super) const MOST: usize = 2;
+
+/// Returns the program with spares before its steps, by the values at states.
+pub(super) fn spared(program: &Program, motions: &Motions, states: &[JointState]) -> Program {
+    let nodes = Nodes::new(program, states);
+    let columns = nodes.run(&vec![None; nodes.len()]);
+    let directions: Vec<(Vec<f64>, f64)> = columns
+        .chunks_exact(nodes.samples)
+        .map(|column| {
+            let mut column = column.to_vec();
+            motions.monomials(&mut column);
+            let size = dot(&column, &column).sqrt();
+            (column, size)
+        })
+        .collect();
+    let inputs = nodes.inputs.len();
+    let mut places: Vec<usize> = Vec::with_capacity(program.steps.len());
+    let mut steps: Vec<Step> = Vec::new();
+    for (index, step) in program.steps.iter().enumerate() {
+        let is_multiple = step.operation == Operation::Mul
+            && [&step.left, &step.right]
+                .iter()
+                .any(|operand| matches!(operand, Operand::Constant(_)));
+        // A multiple in place of another saves nothing.
+        let (mine, size) = &directions[inputs + index];
+        let before = if is_multiple { 0 } else { inputs + index };
+        let mut alike: Vec<(f64, usize, f64)> = Vec::new();
+        for (other, (theirs, length)) in directions[..before].iter().enumerate() {
+            let product = dot(mine, theirs);
+            let cosine = product.abs() / (size * length);
+            if cosine > LEAST {
+                alike.push((cosine, other, product / (length * length)));
+            }
+        }
+        alike.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, other, factor) in alike.into_iter().take(MOST) {
+            let factor = Rational::from_float(short(factor)).unwrap_or_default();
+            steps.push(Step {
+                operation: Operation::Mul,
+                left: Operand::Constant(Exact::from(factor)),
+                right: match other.checked_sub(inputs) {
+                    Some(step) => Operand::Step(places[step]),
+                    None => Operand::Input(nodes.inputs[other]),
+                },
+            });
+        }
+        places.push(steps.len());
+        steps.push(Step {
+            operation: step.operation,
+            left: step.left.moved(&places),
+            right: step.right.moved(&places),
+        });
+    }
+    let outputs = program.outputs.iter().map(|output| Output {
+        negative: output.negative,
+        value: output.value.moved(&places),
+    });
+    Program {
+        outputs: outputs.collect(),
+        steps,
+        ..program.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::approximate::motions::positions;
+    use crate::bound::input_box::InputBox;
+    use crate::function::{Argument, Function};
+    use crate::graph::{Builder, Folding};
+    use crate::interval::Interval;
+    use crate::program::{AngleSum, Input};
+    use crate::random::Random;
+    use crate::verify::exact::prove_same;
+    use dalembert_model::number::Rounded;
+
+    /// 3·c₁ + ⅛·s₁ is nearly a multiple of c₁: before the sum stands that multiple, and the
+    /// program computes what it did.
+    #[test]
+    fn the_nearest_multiple_stands_before_a_sum() {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let [sine, cosine] = [Input::Sin, Input::Cos].map(|of| of(AngleSum::joint(0)));
+        let [sine, cosine] = [sine, cosine].map(|input| builder.input(input));
+        let number = |n: i64, d: i64| {
+            let number = Rational::new(n.into(), d.into());
+            crate::graph::builder::Value::Constant(Exact::from(number))
+        };
+        let large = builder.mul(&number(3, 1), &cosine);
+        let small = builder.mul(&number(1, 8), &sine);
+        let sum = builder.add(&large, &small);
+        let program = Program {
+            function: Function::Gravity,
+            joints: 1,
+            rows: vec![0],
+            arguments: vec![Argument::Position],
+            load: 0,
+            trig: Vec::new(),
+            speeds: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        }
+        .with_graph(&builder.finish(&[sum]));
+        let limits = InputBox {
+            position: vec![Interval::symmetric(3.0)],
+            velocity: vec![Interval::ZERO],
+            acceleration: vec![Interval::ZERO],
+        };
+        let motions = Motions::new(&program, &limits);
+        let states = motions.states(&positions(&limits, 40, &mut Random::new(1)));
+        let spared = spared(&program, &motions, &states);
+        assert!(prove_same(&program, &spared).is_ok());
+        let last = spared.steps.len() - 1;
+        assert_eq!(spared.steps[last].operation, Operation::Add);
+        let factors = spared.steps[last - MOST..last].iter().map(|step| {
+            assert_eq!(step.operation, Operation::Mul);
+            match &step.left {
+                Operand::Constant(factor) => f64::nearest(factor),
+                other => panic!("{other:?}"),
+            }
+        });
+        // Of c₁ itself, and of 3·c₁.
+        let mut factors: Vec<f64> = factors.collect();
+        factors.sort_by(f64::total_cmp);
+        assert!((factors[0] - 1.0).abs() < 0.1, "{factors:?}");
+        assert!((factors[1] - 3.0).abs() < 0.3, "{factors:?}");
+    }
+}
