@@ -3,6 +3,7 @@
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 
+use super::following::Following;
 use super::frames::{Frames, View};
 use super::friction::Friction;
 use super::matrix::{Columns, Vector, plus, zero_vector};
@@ -22,6 +23,8 @@ pub struct Arm<S> {
     pub tool: Option<Columns<S>>,
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
+    /// Those of them whose joints follow others.
+    pub following: Vec<Following<S>>,
     /// Frames that are fixed to them, and the one that is the hand.
     pub frames: Frames<S>,
 }
@@ -180,6 +183,7 @@ impl<S> Arm<S> {
             base: self.base.as_ref().map(|pose| pose.map(&mut f)),
             tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
             links: self.links.iter().map(|link| link.map(&mut f)).collect(),
+            following: (self.following.iter()).map(|own| own.map(&mut f)).collect(),
             frames: self.frames.map(f),
         }
     }

@@ -156,9 +156,10 @@ pub fn driven_by<S: Divide>(
 }
 
 impl Formulation {
-    /// J of the components that the arm is asked for, m×n.
+    /// J of the components that the arm is asked for, m×n, gathered at the leaders of
+    /// joints that follow.
     pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
-        arm.frames.rows.pick(&self.jacobian(arm, at))
+        arm.gathered_rows(arm.frames.rows.pick(&self.jacobian(arm, at)))
     }
 
     /// What follows from J and D.

@@ -58,7 +58,7 @@ impl Formula for ConsistentInverse {
     /// D J̄ (Λ⁻¹ + λ² 1) − Jᵀ over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
-        let d = at.formulation.inertia(at.arm, at.at);
+        let d = at.formulation.gathered_inertia(at.arm, at.at);
         let j = at.formulation.task_jacobian(at.arm, at.at);
         let (m, moves) = (j.len(), &at.motion.moves);
         let sum = |products: &mut dyn Iterator<Item = S>| {

@@ -68,7 +68,8 @@ fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
 
 /// D X + S over the joints that move, for the slopes X of q̈ and S of τ.
 fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
-    let d = at.formulation.inertia(at.arm, at.at);
+    let d = at.formulation.gathered_inertia(at.arm, at.at);
+    let slopes = at.arm.gathered_columns(slopes.to_vec());
     let (free, n) = (free(&at.motion.moves), d.len());
     let entry = |i: usize, k: usize| {
         let products = free.iter().map(|&j| d[i][j].mul(&x[j * n + k]));
@@ -111,6 +112,7 @@ impl Formula for AccelerationByPosition {
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
         let qdd = form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
+        let qdd = at.arm.spread(qdd);
         let slopes = form.torque_by_position(at.arm, at.at, &motion.qd, &qdd);
         defect(at, values, &slopes)
     }

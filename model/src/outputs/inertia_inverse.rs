@@ -65,7 +65,7 @@ impl Formula for InertiaInverse {
 
     /// D D⁻¹ − 1 over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
-        let d = at.formulation.inertia(at.arm, at.at);
+        let d = at.formulation.gathered_inertia(at.arm, at.at);
         let (free, n) = (free(&at.motion.moves), d.len());
         let entry = |i: usize, k: usize| {
             let one = if i == k { S::one() } else { S::zero() };

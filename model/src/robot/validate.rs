@@ -182,9 +182,10 @@ impl Findings {
                 let message = format!("frame {} is called {name:?} already", first + 1);
                 self.error(place, message, "give every frame a name of its own");
             }
-            if frame.joint >= robot.joints.len() {
+            let rows = robot.rows().len();
+            if frame.joint >= rows {
                 let message = format!("frame {name:?} is fixed to no link of the robot");
-                let help = format!("links are counted from 1 to {}", robot.joints.len());
+                let help = format!("links are counted from 1 to {rows}");
                 self.error(place, message, &help);
             }
             self.placement(place, &frame.placement);
