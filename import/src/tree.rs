@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use dalembert_model::robot::Position;
+use dalembert_model::number::Rational;
+use dalembert_model::robot::{Follower, Position};
+use num_traits::{Signed, Zero};
 
 use crate::Options;
 use crate::lock::{self, OTHERS};
@@ -111,7 +113,7 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
     let mut before = Vec::new();
     let mut good = true;
     for joint in &path {
-        good &= tree.can_move(*joint);
+        good &= tree.can_move(*joint, &path);
         match tree.step(*joint) {
             Some(step) => before.push(step),
             None => moving.push(Moving {
@@ -305,13 +307,14 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
     /// The joint as a step that stays, or none if it moves.
     pub(crate) fn step(&self, joint: usize) -> Option<Step> {
         let at = self.locks.get(&joint).cloned();
+        let at = at.or_else(|| self.follows_held(joint));
         let stays = at.is_some() || self.urdf.joints[joint].kind == Kind::Fixed;
         stays.then_some(Step { joint, at })
     }
 
-    /// Returns whether a joint of the chain moves by itself about or along one
-    /// axis.
-    fn can_move(&mut self, joint: usize) -> bool {
+    /// Returns whether a joint of a chain moves about or along one axis, by itself or after
+    /// another of the chain.
+    fn can_move(&mut self, joint: usize, path: &[usize]) -> bool {
         let Joint {
             name,
             span,
@@ -328,19 +331,46 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             self.problems.error(span, message, &help);
             return false;
         }
-        match mimic {
-            Some(Mimic {
-                joint: other, span, ..
-            }) if !self.locks.contains_key(&joint) => {
-                let message = format!("joint `{name}` of the chain mimics `{other}`");
-                let at = lock::advised(&self.urdf.joints[joint]);
-                let help =
-                    format!("each joint moves by itself: add --lock {name}={at}, or end before it");
-                self.problems.error(span, message, &help);
-                false
-            }
-            _ => true,
+        let Some(mimic) = mimic.as_ref().filter(|_| self.step(joint).is_none()) else {
+            return true;
+        };
+        let Some(why) = self.cannot_follow(joint, mimic, path) else {
+            return true;
+        };
+        let message = format!("joint `{name}` of the chain mimics `{}`{why}", mimic.joint);
+        let at = lock::advised(&self.urdf.joints[joint]);
+        let help = format!("hold it, --lock {name}={at}, or end before it");
+        self.problems.error(&mimic.span, message, &help);
+        false
+    }
+
+    /// Returns why a joint cannot follow another in a robot file; none where it can.
+    fn cannot_follow(&self, joint: usize, mimic: &Mimic, path: &[usize]) -> Option<String> {
+        let on_path = |other: &&usize| self.urdf.joints[**other].name == mimic.joint;
+        let Some(leader) = path.iter().find(on_path) else {
+            return Some(", which is not in the chain".to_owned());
+        };
+        let [own, other] = [joint, *leader].map(|joint| self.urdf.joints[joint].kind);
+        let Some([multiplier, _]) = &mimic.line else {
+            return Some(", and not along a line".to_owned());
+        };
+        let slides = own == Kind::Prismatic;
+        if slides != (other == Kind::Prismatic) {
+            let words = if slides {
+                ["slides", "turns"]
+            } else {
+                ["turns", "slides"]
+            };
+            return Some(format!(", and {} where that {}", words[0], words[1]));
         }
+        let most = Rational::from_integer(Follower::MAX_TURNS.into());
+        let is_whole = multiplier.is_integer() && multiplier.abs() <= most;
+        if multiplier.is_zero() || !slides && !is_whole {
+            return Some(format!(
+                ", {multiplier} times as far: sines are of whole multiples of an angle, up to {most}"
+            ));
+        }
+        None
     }
 
     /// The joints from the base to the tip.
