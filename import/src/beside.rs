@@ -37,24 +37,26 @@ impl Tree<'_, '_, '_> {
         Some(Step { joint, at })
     }
 
-    /// Returns where a joint is that follows one that is held, or would be as the others are.
+    /// Returns where a joint is that follows one which is held as all beside the chain are.
     fn follows(&mut self, joint: usize) -> Option<Position> {
         let (leader, lines) = self.leader(joint)?;
-        let at = match self.locks.get(&leader) {
-            Some(at) => at.clone(),
-            None => {
-                let text = self.others.clone()?;
-                lock::nearest(&self.urdf.joints[leader], &text, self.problems)?
-            }
-        };
+        let text = self.others.clone()?;
+        let at = lock::nearest(&self.urdf.joints[leader], &text, self.problems)?;
         Some(self.along(joint, at, &lines))
     }
 
-    /// Returns where a joint is that follows one that `--lock` holds, directly or by others.
-    pub(crate) fn follows_held(&self, joint: usize) -> Option<Position> {
-        let (leader, lines) = self.leader(joint)?;
-        let at = self.locks.get(&leader)?.clone();
-        Some(self.along(joint, at, &lines))
+    /// Locks the joints that follow one that is locked, directly or by others.
+    pub(crate) fn hold_followers(&mut self) {
+        let free = 0..self.urdf.joints.len();
+        let follows = |joint: usize| {
+            let (leader, lines) = self.leader(joint)?;
+            let at = self.locks.get(&leader)?.clone();
+            Some((joint, self.along(joint, at, &lines)))
+        };
+        let free = free.filter(|joint| !self.locks.contains_key(joint));
+        let held: Vec<(usize, Position)> = free.filter_map(follows).collect();
+        self.following = held.iter().map(|(joint, _)| *joint).collect();
+        self.locks.extend(held);
     }
 
     /// Returns the joint that a joint follows in the end, the first that is held or follows
@@ -172,8 +174,12 @@ impl Tree<'_, '_, '_> {
         good
     }
 
-    /// Lists the joints beside the chain that are held, once.
-    pub(crate) fn say_held(&mut self) {
+    /// Lists the joints beside the chain that are held, and those of these that follow a
+    /// locked one, once.
+    pub(crate) fn say_held(&mut self, joints: &BTreeSet<usize>) {
+        let following = self.following.iter().filter(|joint| joints.contains(joint));
+        let following = following.map(|joint| (*joint, self.locks[joint].clone()));
+        self.held.extend(following.collect::<Vec<_>>());
         self.held.sort_by_key(|(joint, _)| *joint);
         let Some((first, _)) = self.held.first() else {
             return;

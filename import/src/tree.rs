@@ -80,6 +80,8 @@ pub(crate) struct Tree<'u, 'p, 's> {
     /// Where joints beside the chain are held.
     pub(crate) others: Option<String>,
     pub(crate) held: Vec<(usize, Position)>,
+    /// The joints that are held since one that leads them is locked.
+    pub(crate) following: Vec<usize>,
     pub(crate) without: BTreeSet<usize>,
 }
 
@@ -143,8 +145,6 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         .iter()
         .all(|moving| tree.leads_nothing_beside(moving.joint));
     tree.beside_the_base(base, &on_path);
-    tree.say_held();
-    let held = std::mem::take(&mut tree.held);
     if tree.above.contains_key(&base) {
         let link = &urdf.links[base];
         let message = format!("link `{}` is the base, and not the root", link.name);
@@ -158,13 +158,16 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         };
         tree.problems.note(&link.span, message, help);
     }
-    good.then_some(Chain {
+    let mut chain = Chain {
         base,
         tip,
         moving,
         tool: before,
-        held,
-    })
+        held: Vec::new(),
+    };
+    tree.say_held(&chain.joints());
+    chain.held = std::mem::take(&mut tree.held);
+    good.then_some(chain)
 }
 
 impl<'u, 'p, 's> Tree<'u, 'p, 's> {
@@ -184,6 +187,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             locks: BTreeMap::new(),
             others: None,
             held: Vec::new(),
+            following: Vec::new(),
             without: BTreeSet::new(),
         };
         let mut good = true;
@@ -219,6 +223,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             good &= at.is_some();
             self.locks.extend(at.map(|at| (joint, at)));
         }
+        self.hold_followers();
         let without = options.without.iter().filter_map(|name| self.link(name));
         self.without = without.collect();
         good.then_some(())
@@ -307,7 +312,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
     /// The joint as a step that stays, or none if it moves.
     pub(crate) fn step(&self, joint: usize) -> Option<Step> {
         let at = self.locks.get(&joint).cloned();
-        let at = at.or_else(|| self.follows_held(joint));
         let stays = at.is_some() || self.urdf.joints[joint].kind == Kind::Fixed;
         stays.then_some(Step { joint, at })
     }

@@ -38,6 +38,7 @@ def known(own, free, state):
     pin.framesForwardKinematics(free, data, q)
     j = pin.getFrameJacobian(free, data, hand, AXES) @ S
     rate = pin.getFrameJacobianTimeVariation(free, data, hand, AXES) @ qd
+    pose = data.oMf[hand].copy()
     m = pin.crba(free, free.createData(), q)
     m = S.T @ (np.triu(m) + np.triu(m, 1).T) @ S
     torques = lambda rates, growth: S.T @ pin.rnea(free, free.createData(), q, rates, growth)
@@ -55,16 +56,19 @@ def known(own, free, state):
     theirs = own.createData()
     near(pin.computeFrameJacobian(own, theirs, c, own.getFrameId("blade"), AXES), j)
 
-    by_q, by_qd, _ = pin.computeRNEADerivatives(free, free.createData(), q, qd, qdd)
+    def derivatives(growth):
+        data = free.createData()
+        return [by.copy() for by in pin.computeRNEADerivatives(free, data, q, qd, growth)[:2]]
+
+    by_q, by_qd = derivatives(qdd)
     slopes = lambda by, more=0: S.T @ (by + more) @ S
     acceleration = lambda tau: np.linalg.solve(m, tau - bias - damping)
     at = S @ acceleration(tau)
-    by_q_at, by_qd_at, _ = pin.computeRNEADerivatives(free, free.createData(), q, qd, at)
+    by_q_at, by_qd_at = derivatives(at)
     mobility = j @ np.linalg.solve(m, j.T)
     damped = mobility + square * np.eye(6)
     inverse = np.linalg.solve(m, np.linalg.solve(damped, j).T)
-    coriolis = pin.computeCoriolisMatrix(free, free.createData(), q, qd)
-    pose = data.oMf[hand]
+    coriolis = pin.computeCoriolisMatrix(free, data, q, qd).copy()
     return {
         "tau": torques(qd, qdd) + damping,
         "D": m,

@@ -156,10 +156,14 @@ pub fn driven_by<S: Divide>(
 }
 
 impl Formulation {
-    /// J of the components that the arm is asked for, m×n, gathered at the leaders of
-    /// joints that follow.
+    /// J of the components that the arm is asked for, m×n.
     pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
-        arm.gathered_rows(arm.frames.rows.pick(&self.jacobian(arm, at)))
+        arm.frames.rows.pick(&self.jacobian(arm, at))
+    }
+
+    /// The same gathered at the leaders of joints that follow.
+    pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+        arm.gathered_rows(self.task_jacobian(arm, at))
     }
 
     /// What follows from J and D.
@@ -170,7 +174,7 @@ impl Formulation {
         moves: &[bool],
     ) -> TaskSpace<S> {
         let inverse = self.inertia_inverse(arm, at, moves);
-        TaskSpace::by_inverse(self.task_jacobian(arm, at), &inverse)
+        TaskSpace::by_inverse(self.gathered_jacobian(arm, at), &inverse)
     }
 
     /// μ

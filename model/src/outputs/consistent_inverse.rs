@@ -59,7 +59,7 @@ impl Formula for ConsistentInverse {
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
         let d = at.formulation.gathered_inertia(at.arm, at.at);
-        let j = at.formulation.task_jacobian(at.arm, at.at);
+        let j = at.formulation.gathered_jacobian(at.arm, at.at);
         let (m, moves) = (j.len(), &at.motion.moves);
         let sum = |products: &mut dyn Iterator<Item = S>| {
             products.fold(S::zero(), |sum, product| sum.add(&product))
