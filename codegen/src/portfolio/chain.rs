@@ -59,13 +59,14 @@ pub fn trace_chain(
         form,
         textbook: arm.as_ref().map(|arm| textbook(arm, &position, &whole)),
         joints: rows,
+        following: &following
+            .iter()
+            .filter_map(|own| own.among(rows))
+            .collect::<Vec<_>>(),
     };
     let mut outputs = Vec::new();
     for &quantity in function.quantities() {
-        // Of what divides by D only the textbook gathers it first.
-        let gathers = scene_robot.has_followers() && quantity.inverts_inertia();
-        let values = (!gathers).then(|| quantity.regrouped(&regrouped)).flatten();
-        let (rows, values) = match values {
+        let (rows, values) = match quantity.regrouped(&regrouped) {
             Some(values) => (rows.clone(), values),
             None => (
                 (0..whole.q.len()).collect(),

@@ -263,11 +263,6 @@ impl SceneRobot {
         &self.chained
     }
 
-    /// Whether joints follow others.
-    pub fn has_followers(&self) -> bool {
-        !self.robot.followers.is_empty()
-    }
-
     /// The joints that follow others, multipliers sent through `scalar`.
     pub fn following<S>(&self, mut scalar: impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
         Following::of(&self.robot, &mut scalar)

@@ -54,6 +54,18 @@ impl<S> Following<S> {
     }
 }
 
+impl<S: Clone> Following<S> {
+    /// The same among these rows alone, by their places there; none if it is not one.
+    pub fn among(&self, rows: &[usize]) -> Option<Following<S>> {
+        let place = |row: usize| rows.iter().position(|own| *own == row);
+        Some(Following {
+            row: place(self.row)?,
+            leader: place(self.leader)?,
+            ..self.clone()
+        })
+    }
+}
+
 impl<S: Scalar> Following<S> {
     /// Where the joint is, but for its offset, which is its row's.
     pub fn position(&self, leader: &JointPosition<S>) -> JointPosition<S> {
@@ -86,59 +98,65 @@ pub fn gather<S: Scalar>(
     stride: usize,
     values: &mut [S],
 ) {
-    let place = |row: usize| rows.iter().position(|own| *own == row);
+    let following = following.iter().filter_map(|own| own.among(rows));
+    let following: Vec<Following<S>> = following.collect();
     for block in values.chunks_mut((rows.len() * stride).max(1)) {
-        for own in following {
-            let Some((from, to)) = place(own.row).zip(place(own.leader)) else {
-                continue;
-            };
+        for own in &following {
             for i in 0..stride {
-                let part = own.motion(&block[from * stride + i]);
-                block[to * stride + i] = plus(&block[to * stride + i], &part);
+                let part = own.motion(&block[own.row * stride + i]);
+                let sum = plus(&block[own.leader * stride + i], &part);
+                block[own.leader * stride + i] = sum;
             }
         }
     }
 }
 
-impl<S: Scalar> Arm<S> {
-    /// Sᵀ b
-    pub fn gathered(&self, mut loads: Vec<S>) -> Vec<S> {
-        for own in &self.following {
-            let part = own.motion(&loads[own.row]);
-            loads[own.leader] = plus(&loads[own.leader], &part);
-        }
-        loads
+/// Sᵀ b
+pub fn gathered<S: Scalar>(following: &[Following<S>], mut loads: Vec<S>) -> Vec<S> {
+    for own in following {
+        let part = own.motion(&loads[own.row]);
+        loads[own.leader] = plus(&loads[own.leader], &part);
     }
+    loads
+}
 
-    /// M S
-    pub fn gathered_rows(&self, rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
-        rows.into_iter().map(|row| self.gathered(row)).collect()
-    }
+/// M S
+pub fn gathered_rows<S: Scalar>(following: &[Following<S>], rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    let rows = rows.into_iter();
+    rows.map(|row| gathered(following, row)).collect()
+}
 
-    /// Sᵀ M
-    pub fn gathered_columns(&self, mut rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
-        for own in &self.following {
-            let part = rows[own.row].iter().map(|x| own.motion(x));
-            let part: Vec<S> = part.collect();
-            for (entry, part) in rows[own.leader].iter_mut().zip(&part) {
-                *entry = plus(entry, part);
-            }
+/// Sᵀ M
+pub fn gathered_columns<S: Scalar>(
+    following: &[Following<S>],
+    mut rows: Vec<Vec<S>>,
+) -> Vec<Vec<S>> {
+    for own in following {
+        let part = rows[own.row].iter().map(|x| own.motion(x));
+        let part: Vec<S> = part.collect();
+        for (entry, part) in rows[own.leader].iter_mut().zip(&part) {
+            *entry = plus(entry, part);
         }
-        rows
     }
+    rows
+}
 
-    /// S ċ, from rates whose entries of followers mean nothing.
-    pub fn spread(&self, mut rates: Vec<S>) -> Vec<S> {
-        for own in &self.following {
-            rates[own.row] = own.motion(&rates[own.leader]);
-        }
-        rates
+/// Sᵀ D S, symmetric.
+pub fn gathered_square<S: Scalar>(following: &[Following<S>], d: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    gathered_columns(following, gathered_rows(following, d))
+}
+
+/// S ċ, from rates whose entries of followers mean nothing.
+pub fn spread<S: Scalar>(following: &[Following<S>], mut rates: Vec<S>) -> Vec<S> {
+    for own in following {
+        rates[own.row] = own.motion(&rates[own.leader]);
     }
+    rates
 }
 
 impl Formulation {
     /// Sᵀ D S, n×n.
     pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
-        arm.gathered_columns(arm.gathered_rows(self.inertia(arm, at)))
+        gathered_square(&arm.following, self.inertia(arm, at))
     }
 }

@@ -7,6 +7,7 @@ use super::articulated;
 use super::derivatives::columns;
 use super::energy::moving;
 use super::factor::{Factor, scatter, submatrix};
+use super::following::{gathered, gathered_columns, spread};
 use super::from_torques::weightless;
 use super::matrix::{minus, negative, times, total, zeros};
 use super::{Arm, DhVariables, Formulation};
@@ -78,7 +79,7 @@ impl Formulation {
         }
         let d = self.gathered_inertia(arm, at);
         let bias = self.inverse_dynamics(arm, at, qd, &zeros(qd.len()));
-        let [bias, tau] = [bias, tau.to_vec()].map(|loads| arm.gathered(loads));
+        let [bias, tau] = [bias, tau.to_vec()].map(|loads| gathered(&arm.following, loads));
         solved(&d, &bias, &tau, moves)
     }
 
@@ -119,11 +120,14 @@ impl Formulation {
     ) -> [Vec<Vec<S>>; 2] {
         if self.has_closed_form() || !arm.following.is_empty() {
             let inverse = self.inertia_inverse(arm, at, moves);
-            let qdd = arm.spread(self.forward_dynamics(arm, at, qd, tau, moves));
+            let qdd = spread(
+                &arm.following,
+                self.forward_dynamics(arm, at, qd, tau, moves),
+            );
             let by_position = self.torque_by_position(arm, at, qd, &qdd);
             let by_velocity = self.torque_by_velocity(arm, at, qd);
             return [by_position, by_velocity]
-                .map(|slopes| against(&inverse, &arm.gathered_columns(slopes)));
+                .map(|slopes| against(&inverse, &gathered_columns(&arm.following, slopes)));
         }
         let n = at.len();
         let rubbed = rubbed(arm, qd);

@@ -15,6 +15,7 @@
 use alloc::vec::Vec;
 
 use super::factor::{Factor, scatter};
+use super::following::gathered_rows;
 use super::forward::free;
 use super::matrix::{minus, negative, plus, symmetric, times, total};
 use super::{Arm, DhVariables, Formulation};
@@ -163,7 +164,7 @@ impl Formulation {
 
     /// The same gathered at the leaders of joints that follow.
     pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
-        arm.gathered_rows(self.task_jacobian(arm, at))
+        gathered_rows(&arm.following, self.task_jacobian(arm, at))
     }
 
     /// What follows from J and D.

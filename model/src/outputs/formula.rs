@@ -6,7 +6,7 @@ use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
-use crate::equations::following::Following;
+use crate::equations::following::{Following, gathered_square};
 use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
@@ -216,9 +216,16 @@ pub struct Regrouped<'a, S> {
     pub textbook: Option<Written<'a, S>>,
     /// The joints of the chain among those of the arm.
     pub joints: &'a [usize],
+    /// Those of the chain that follow others, by their places in it.
+    pub following: &'a [Following<S>],
 }
 
 impl<S: Scalar> Regrouped<'_, S> {
+    /// D of the chain, gathered at the leaders of joints that follow.
+    pub(super) fn gathered_inertia(&self) -> Vec<Vec<S>> {
+        gathered_square(self.following, self.composite.inertia(self.form.travel))
+    }
+
     /// Values over all joints of the arm, over those of the chain.
     pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
         let joints = self.joints.iter();

@@ -25,9 +25,9 @@ pub(super) struct InertiaInverse;
 /// D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
-    match EliminatedTip::new(&at.composite, moves) {
+    match EliminatedTip::new(&at.composite, moves).filter(|_| at.following.is_empty()) {
         Some(unspun) => unspun.inertia_inverse(moves, travel),
-        None => inverted(&at.composite.inertia(travel), moves),
+        None => inverted(&at.gathered_inertia(), moves),
     }
 }
 

@@ -11,6 +11,7 @@ use super::operational_inertia_inverse::{chain_jacobian, factor};
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::following::gathered;
 use crate::equations::matrix::zeros;
 use crate::equations::operational::{TaskSpace, driven_by};
 use crate::scalar::Divide;
@@ -73,7 +74,7 @@ impl Formula for OperationalBias {
             chain: &chain,
             ..at.clone()
         };
-        let loads = torques(&free, &zeros(motion.qd.len()));
+        let loads = gathered(at.following, torques(&free, &zeros(motion.qd.len())));
         let (jacobian, factor) = (chain_jacobian(at)?, factor(at));
         let driven = driven_by(&jacobian, &factor, &loads, &motion.moves);
         let (arm, qd) = (textbook.arm, &textbook.motion.qd);
