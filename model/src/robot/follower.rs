@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::{Joint, Position, Robot};
+use super::{Joint, JointKind, Position, Robot};
 use crate::number::{Angle, Rational};
 
 /// A row of the table whose joint follows another: q = multiplier · q_leader + offset.
@@ -138,6 +138,26 @@ impl Robot {
             rows.insert(follower.row.min(rows.len()), &follower.joint);
         }
         rows
+    }
+
+    /// Returns whether its followers are in the order of their rows, each after a joint of
+    /// its kind and in a way that equations have.
+    pub(super) fn follow(&self) -> bool {
+        let ascends = self.followers.windows(2).all(|two| two[0].row < two[1].row);
+        let rows = self.joints.len() + self.followers.len();
+        let most = Rational::from_integer(Follower::MAX_TURNS.into());
+        let can = |own: &Follower| {
+            let turns = own.joint.kind == JointKind::Revolute;
+            let leader = self.joints.get(own.leader);
+            let is_whole = own.multiplier.is_integer() && own.multiplier.abs() <= most;
+            own.row < rows
+                && leader.is_some_and(|leader| leader.kind == own.joint.kind)
+                && matches!(own.offset, Position::Angle(_)) == turns
+                && !own.multiplier.is_zero()
+                && (is_whole || !turns)
+                && !own.joint.has_coulomb()
+        };
+        ascends && self.followers.iter().all(can)
     }
 
     /// Returns the last row, to be changed.
