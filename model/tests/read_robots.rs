@@ -258,7 +258,7 @@ fn what_cannot_follow_is_refused() {
             "joint = \"c\"",
             "one of both joints turns, and the other slides",
         ),
-        ("joint = \"d\"", "there is no link \"d\""),
+        ("joint = \"d\"", "there is no link `d`"),
         (
             "joint = 1, multiplier = 0",
             "a multiplier of 0: the joint never moves",
@@ -271,7 +271,7 @@ fn what_cannot_follow_is_refused() {
             "joint = 1, multiplier = 17",
             "sines are of whole multiples of an angle, up to 16",
         ),
-        ("joint = 1, factor = 2", "unknown key \"factor\""),
+        ("joint = 1, factor = 2", "unknown key `factor`"),
         ("multiplier = 1", "mimic has no `joint`"),
         (
             "joint = 1 }\ncoulomb = 1\ncoulomb_width = 0.1\nframe = { xyz = [0, 0, 0]",

@@ -289,7 +289,7 @@ impl SceneRobot {
         }
         for own in &following {
             let leader = merged[own.leader].as_ref();
-            merged[own.row] = leader.map(|leader| own.position(leader));
+            merged[own.row] = leader.map(|leader| leader.followed_by(own));
         }
         merged
     }

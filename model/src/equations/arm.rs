@@ -65,6 +65,26 @@ pub enum JointPosition<S> {
     Prismatic(S),
 }
 
+impl<S: Scalar> JointPosition<S> {
+    /// Where a joint is that follows one here, but for its offset, which is its row's.
+    #[must_use]
+    pub fn followed_by(&self, follower: &Following<S>) -> JointPosition<S> {
+        match self {
+            JointPosition::Prismatic(q) => JointPosition::Prismatic(follower.motion(q)),
+            JointPosition::Revolute(pair) => {
+                let mut turned = pair.clone();
+                for _ in 1..follower.turns.unsigned_abs() {
+                    turned = turned.compose(pair);
+                }
+                if follower.turns < 0 {
+                    turned.sin = turned.sin.neg();
+                }
+                JointPosition::Revolute(turned)
+            }
+        }
+    }
+}
+
 /// θ_i as a pair and d_i of one row, offsets applied.
 #[derive(Clone, Debug)]
 pub struct DhVariables<S> {

@@ -12,7 +12,6 @@
 use alloc::vec::Vec;
 
 use super::matrix::{plus, times};
-use super::{Arm, DhVariables, Formulation, JointPosition};
 use crate::number::Exact;
 use crate::robot::Robot;
 use crate::scalar::Scalar;
@@ -67,23 +66,6 @@ impl<S: Clone> Following<S> {
 }
 
 impl<S: Scalar> Following<S> {
-    /// Where the joint is, but for its offset, which is its row's.
-    pub fn position(&self, leader: &JointPosition<S>) -> JointPosition<S> {
-        match leader {
-            JointPosition::Prismatic(q) => JointPosition::Prismatic(times(&self.multiplier, q)),
-            JointPosition::Revolute(pair) => {
-                let mut turned = pair.clone();
-                for _ in 1..self.turns.unsigned_abs() {
-                    turned = turned.compose(pair);
-                }
-                if self.turns < 0 {
-                    turned.sin = turned.sin.neg();
-                }
-                JointPosition::Revolute(turned)
-            }
-        }
-    }
-
     /// Its motion, from that of its leader.
     pub fn motion(&self, leader: &S) -> S {
         times(&self.multiplier, leader)
@@ -152,11 +134,4 @@ pub fn spread<S: Scalar>(following: &[Following<S>], mut rates: Vec<S>) -> Vec<S
         rates[own.row] = own.motion(&rates[own.leader]);
     }
     rates
-}
-
-impl Formulation {
-    /// Sᵀ D S, n×n.
-    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
-        gathered_square(&arm.following, self.inertia(arm, at))
-    }
 }

@@ -7,7 +7,7 @@ use super::articulated;
 use super::derivatives::columns;
 use super::energy::moving;
 use super::factor::{Factor, scatter, submatrix};
-use super::following::{gathered, gathered_columns, spread};
+use super::following::{gathered, gathered_columns, gathered_square, spread};
 use super::from_torques::weightless;
 use super::matrix::{minus, negative, times, total, zeros};
 use super::{Arm, DhVariables, Formulation};
@@ -64,6 +64,11 @@ fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
 }
 
 impl Formulation {
+    /// Sᵀ D S, n×n: D gathered at the leaders of joints that follow.
+    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+        gathered_square(&arm.following, self.inertia(arm, at))
+    }
+
     /// q̈ of the joints that move under τ, zero of the others, which are held
     /// where they are, or follow.
     pub fn forward_dynamics<S: Divide>(

@@ -156,7 +156,7 @@ impl<S: Scalar> Motion<S> {
             }
         }
         for own in following {
-            motion.q[own.row] = own.position(&motion.q[own.leader]);
+            motion.q[own.row] = motion.q[own.leader].followed_by(own);
             for argument in Argument::JOINTS {
                 let Some(entries) = motion.of_mut(argument) else {
                     continue;
