@@ -243,6 +243,13 @@ pub(super) fn header(
             decimal(&joint.mass)
         ));
     }
+    if !robot.followers.is_empty() {
+        lines.push(String::new());
+        lines.push(
+            "Of joints that follow others there are no entries; parameters count links by rows."
+                .into(),
+        );
+    }
     let tilted = robot.rows().into_iter().enumerate();
     let tilted: Vec<String> = tilted
         .filter(|(_, joint)| !joint.beta.is_zero())
