@@ -5,10 +5,9 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{OF_FACTORS, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, space, written_space};
 use super::quantity::Facts;
-use super::quantity::FrameChoice;
-use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -37,11 +36,7 @@ impl Formula for ConsistentInverse {
             _ => "1",
         },
         given: Some("consistent_inverse"),
-        choices: Some(OF_FACTORS),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -6,9 +6,10 @@ use super::formula::Formula;
 use super::forward_dynamics::{accelerations, rest};
 use super::function::Definition;
 use super::inverse_dynamics_with_wrench::of_wrench;
+use super::operational_inertia_inverse::OF_HAND;
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Motion, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Motion, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::matrix::plus;
 use crate::scalar::{Divide, Scalar};
@@ -53,11 +54,9 @@ impl Formula for ContactAcceleration {
             travel: true,
             flows: false,
         }),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         frame: FrameChoice::Axes,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -25,11 +25,17 @@ pub(super) const FUNCTION: Definition = Definition {
 /// (Λ⁻¹)_rs
 pub(super) struct OperationalInertiaInverse;
 
-/// The choices of quantities that are made of D's factors.
-pub(super) const OF_FACTORS: Choices = Choices {
-    recursion: false,
-    travel: true,
-    flows: false,
+/// The facts of most quantities of the hand.
+pub(super) const OF_HAND: Facts = Facts {
+    choices: Some(Choices {
+        recursion: false,
+        travel: true,
+        flows: false,
+    }),
+    depends_on_base: true,
+    payload_dependence: PayloadDependence::Torque,
+    frame: FrameChoice::Rows,
+    ..Facts::PLAIN
 };
 
 /// What follows from J and D by the textbook.
@@ -83,11 +89,7 @@ impl Formula for OperationalInertiaInverse {
             _ => "1/(kg·m²)",
         },
         given: Some("operational_inertia_inverse"),
-        choices: Some(OF_FACTORS),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;
