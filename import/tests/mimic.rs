@@ -57,7 +57,7 @@ fn the_runtime_gives_what_pinocchio_gives() {
             };
             let found = runtime.entries(quantity, &at).unwrap();
             let error = relative(&found, &numbers(known));
-            assert!(error < 1e-11, "{quantity:?}: {error:e}");
+            assert!(error < 1e-12, "{quantity:?}: {error:e}");
             compared += 1;
         }
     }
