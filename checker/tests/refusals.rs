@@ -14,7 +14,7 @@ fn fault_of_robot(robot: &str) -> String {
 #[test]
 fn keys_that_are_not_audited() {
     let robot = file(ROBOT);
-    for key in ["springs = {}", "gear = 2"] {
+    for key in ["springs = {}", "gear = 2", "mimic = { joint = 1 }"] {
         let with = robot.replacen("mass = 1\n", &format!("mass = 1\n{key}\n"), 1);
         let name = key.split(' ').next().unwrap();
         assert!(

@@ -118,7 +118,8 @@ fn json(imported: &Imported, name: &str, source: &Text) -> Value {
     let change = imported.change.as_ref().map(|change| {
         let limits = change.limits();
         let bounds = change.torques(limits);
-        let joints = robot.joints.iter().zip(bounds).enumerate();
+        // Of each row, those that follow others too.
+        let joints = robot.rows().into_iter().zip(bounds).enumerate();
         let joints = joints.map(|(i, (joint, bound))| {
             json!({
                 "joint": joint.name,

@@ -58,8 +58,8 @@ fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
     };
     let poses = runtime.poses(&q)?;
     let links = robot
-        .joints
-        .iter()
+        .rows()
+        .into_iter()
         .zip(&poses)
         .map(|(joint, pose)| json!({ "joint": joint.name, "pose": rows(pose) }));
     Ok(json!({

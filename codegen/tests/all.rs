@@ -24,6 +24,7 @@ mod fused;
 mod fuzz_tokens;
 mod fuzz_verified;
 mod libm_ulps;
+mod mimic;
 mod options;
 mod overflow;
 mod placements;

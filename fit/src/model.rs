@@ -93,6 +93,12 @@ impl Model {
                 "`coulomb_width` has to be a positive number, such as 0.01 rad/s",
             ));
         }
+        if !robot.followers.is_empty() {
+            return Err(Error::Option(
+                "joints that follow others (`mimic`) are not identified: fit the arm without them, \
+                 locked",
+            ));
+        }
         let limits = Limits::of(robot);
         if !limits.iter().all(Limits::moves) {
             return Err(Error::Option(

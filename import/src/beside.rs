@@ -37,28 +37,50 @@ impl Tree<'_, '_, '_> {
         Some(Step { joint, at })
     }
 
-    /// Returns where a joint is that follows one that is held, directly or by others.
+    /// Returns where a joint is that follows one which is held as all beside the chain are.
     fn follows(&mut self, joint: usize) -> Option<Position> {
+        let (leader, lines) = self.leader(joint)?;
+        let text = self.others.clone()?;
+        let at = lock::nearest(&self.urdf.joints[leader], &text, self.problems)?;
+        Some(self.along(joint, at, &lines))
+    }
+
+    /// Locks the joints that follow one that is locked, directly or by others.
+    pub(crate) fn hold_followers(&mut self) {
+        let free = 0..self.urdf.joints.len();
+        let follows = |joint: usize| {
+            let (leader, lines) = self.leader(joint)?;
+            let at = self.locks.get(&leader)?.clone();
+            Some((joint, self.along(joint, at, &lines)))
+        };
+        let free = free.filter(|joint| !self.locks.contains_key(joint));
+        let held: Vec<(usize, Position)> = free.filter_map(follows).collect();
+        self.following = held.iter().map(|(joint, _)| *joint).collect();
+        self.locks.extend(held);
+    }
+
+    /// Returns the joint that a joint follows in the end, the first that is held or follows
+    /// none, and the lines on the way there.
+    fn leader(&self, joint: usize) -> Option<(usize, Vec<[Rational; 2]>)> {
         let mut lines: Vec<[Rational; 2]> = Vec::new();
         let mut leader = joint;
-        let at = loop {
-            let Joint { mimic, .. } = &self.urdf.joints[leader];
-            let own = self.locks.get(&leader).filter(|_| leader != joint);
-            match (own, mimic) {
-                (Some(at), _) => break at.clone(),
-                // Longer than all joints is a circle, in which nothing leads.
-                (None, Some(mimic)) if lines.len() <= self.urdf.joints.len() => {
-                    let mut joints = self.urdf.joints.iter();
-                    lines.push(mimic.line.clone()?);
-                    leader = joints.position(|other| other.name == mimic.joint)?;
-                }
-                (None, _) if leader == joint || mimic.is_some() => return None,
-                (None, _) => {
-                    let text = self.others.clone()?;
-                    break lock::nearest(&self.urdf.joints[leader], &text, self.problems)?;
-                }
+        while let Some(mimic) = &self.urdf.joints[leader].mimic {
+            if leader != joint && self.locks.contains_key(&leader) {
+                break;
             }
-        };
+            // Longer than all joints is a circle, in which nothing leads.
+            if lines.len() > self.urdf.joints.len() {
+                return None;
+            }
+            let mut joints = self.urdf.joints.iter();
+            lines.push(mimic.line.clone()?);
+            leader = joints.position(|other| other.name == mimic.joint)?;
+        }
+        (leader != joint).then_some((leader, lines))
+    }
+
+    /// Returns where a joint is whose leader, by these lines, is there.
+    fn along(&self, joint: usize, at: Position, lines: &[[Rational; 2]]) -> Position {
         let along = |at: Rational| {
             let lines = lines.iter().rev();
             lines.fold(at, |at, [multiplier, offset]| multiplier * at + offset)
@@ -70,17 +92,17 @@ impl Tree<'_, '_, '_> {
                 let bare = along(Rational::zero());
                 if bare.is_zero() {
                     let unit = along(value);
-                    return Some(Position::Angle(Angle::PiTimes(unit)));
+                    return Position::Angle(Angle::PiTimes(unit));
                 }
                 along(Angle::PiTimes(value).radians())
             }
             Position::Angle(angle) => along(angle.radians()),
             Position::Length(length) => along(length),
         };
-        Some(match slides {
+        match slides {
             true => Position::Length(value),
             false => Position::Angle(Angle::Radians(value).canonical()),
-        })
+        }
     }
 
     /// Returns whether nothing beside the chain follows a joint of it, after saying what does.
@@ -152,8 +174,12 @@ impl Tree<'_, '_, '_> {
         good
     }
 
-    /// Lists the joints beside the chain that are held, once.
-    pub(crate) fn say_held(&mut self) {
+    /// Lists the joints beside the chain that are held, and those of these that follow a
+    /// locked one, once.
+    pub(crate) fn say_held(&mut self, joints: &BTreeSet<usize>) {
+        let following = self.following.iter().filter(|joint| joints.contains(joint));
+        let following = following.map(|joint| (*joint, self.locks[joint].clone()));
+        self.held.extend(following.collect::<Vec<_>>());
         self.held.sort_by_key(|(joint, _)| *joint);
         let Some((first, _)) = self.held.first() else {
             return;

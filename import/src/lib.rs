@@ -30,8 +30,9 @@
 //! lines that bring it, and left out: a URDF has no width to smooth it over. Links that are fixed to each
 //! other become one; what hangs on a link moves with it. A movable joint beside the
 //! chain must be [locked](Options::lock) or [left away](Options::without), unless it
-//! hangs on the base, which feels nothing of it. Joints that mimic others, planar and
-//! floating ones are refused where they would move.
+//! hangs on the base, which feels nothing of it. One that mimics another is
+//! held where that is, and follows it in the chain, where both are one coordinate. Planar and floating joints are
+//! refused where they would move.
 //!
 //! Every link that moves is a frame of the robot file by its name, so outputs can be had
 //! at any of them (`jacobian@tool0`). A name that cannot be a function's is written in small

@@ -219,10 +219,30 @@ impl Tree<'_, '_, '_> {
         self.above.get(&link).map(|joint| self.ends[*joint][0])
     }
 
+    /// Returns whether a joint follows another that does not move it.
+    fn follows_beside(&self, joint: usize) -> bool {
+        let Some(mimic) = &self.urdf.joints[joint].mimic else {
+            return false;
+        };
+        let mut link = self.ends[joint][0];
+        // In a circle there is no end.
+        for _ in 0..self.ends.len() {
+            let Some(above) = self.above.get(&link) else {
+                break;
+            };
+            if self.urdf.joints[*above].name == mimic.joint {
+                return false;
+            }
+            link = self.ends[*above][0];
+        }
+        true
+    }
+
     /// Returns whether a joint moves a finger.
     fn is_finger(&self, joint: usize) -> bool {
+        let follows = self.follows_beside(joint);
         let joint = &self.urdf.joints[joint];
-        joint.mimic.is_some()
+        follows
             || has_one_of(&joint.name, &["grip"])
             || has_one_of(&joint.name, &FINGERS)
             || has_one_of(&joint.child.0, &FINGERS)

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use dalembert_model::robot::Position;
+use dalembert_model::number::Rational;
+use dalembert_model::robot::{Follower, Position};
+use num_traits::{Signed, Zero};
 
 use crate::Options;
 use crate::lock::{self, OTHERS};
@@ -78,6 +80,8 @@ pub(crate) struct Tree<'u, 'p, 's> {
     /// Where joints beside the chain are held.
     pub(crate) others: Option<String>,
     pub(crate) held: Vec<(usize, Position)>,
+    /// The joints that are held since one that leads them is locked.
+    pub(crate) following: Vec<usize>,
     pub(crate) without: BTreeSet<usize>,
 }
 
@@ -111,7 +115,7 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
     let mut before = Vec::new();
     let mut good = true;
     for joint in &path {
-        good &= tree.can_move(*joint);
+        good &= tree.can_move(*joint, &path);
         match tree.step(*joint) {
             Some(step) => before.push(step),
             None => moving.push(Moving {
@@ -141,8 +145,6 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         .iter()
         .all(|moving| tree.leads_nothing_beside(moving.joint));
     tree.beside_the_base(base, &on_path);
-    tree.say_held();
-    let held = std::mem::take(&mut tree.held);
     if tree.above.contains_key(&base) {
         let link = &urdf.links[base];
         let message = format!("link `{}` is the base, and not the root", link.name);
@@ -156,13 +158,16 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         };
         tree.problems.note(&link.span, message, help);
     }
-    good.then_some(Chain {
+    let mut chain = Chain {
         base,
         tip,
         moving,
         tool: before,
-        held,
-    })
+        held: Vec::new(),
+    };
+    tree.say_held(&chain.joints());
+    chain.held = std::mem::take(&mut tree.held);
+    good.then_some(chain)
 }
 
 impl<'u, 'p, 's> Tree<'u, 'p, 's> {
@@ -182,6 +187,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             locks: BTreeMap::new(),
             others: None,
             held: Vec::new(),
+            following: Vec::new(),
             without: BTreeSet::new(),
         };
         let mut good = true;
@@ -217,6 +223,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             good &= at.is_some();
             self.locks.extend(at.map(|at| (joint, at)));
         }
+        self.hold_followers();
         let without = options.without.iter().filter_map(|name| self.link(name));
         self.without = without.collect();
         good.then_some(())
@@ -309,9 +316,9 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         stays.then_some(Step { joint, at })
     }
 
-    /// Returns whether a joint of the chain moves by itself about or along one
-    /// axis.
-    fn can_move(&mut self, joint: usize) -> bool {
+    /// Returns whether a joint of a chain moves about or along one axis, by itself or after
+    /// another of the chain.
+    fn can_move(&mut self, joint: usize, path: &[usize]) -> bool {
         let Joint {
             name,
             span,
@@ -328,19 +335,46 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             self.problems.error(span, message, &help);
             return false;
         }
-        match mimic {
-            Some(Mimic {
-                joint: other, span, ..
-            }) if !self.locks.contains_key(&joint) => {
-                let message = format!("joint `{name}` of the chain mimics `{other}`");
-                let at = lock::advised(&self.urdf.joints[joint]);
-                let help =
-                    format!("each joint moves by itself: add --lock {name}={at}, or end before it");
-                self.problems.error(span, message, &help);
-                false
-            }
-            _ => true,
+        let Some(mimic) = mimic.as_ref().filter(|_| self.step(joint).is_none()) else {
+            return true;
+        };
+        let Some(why) = self.cannot_follow(joint, mimic, path) else {
+            return true;
+        };
+        let message = format!("joint `{name}` of the chain mimics `{}`{why}", mimic.joint);
+        let at = lock::advised(&self.urdf.joints[joint]);
+        let help = format!("hold it, --lock {name}={at}, or end before it");
+        self.problems.error(&mimic.span, message, &help);
+        false
+    }
+
+    /// Returns why a joint cannot follow another in a robot file; none where it can.
+    fn cannot_follow(&self, joint: usize, mimic: &Mimic, path: &[usize]) -> Option<String> {
+        let on_path = |other: &&usize| self.urdf.joints[**other].name == mimic.joint;
+        let Some(leader) = path.iter().find(on_path) else {
+            return Some(", which is not in the chain".to_owned());
+        };
+        let [own, other] = [joint, *leader].map(|joint| self.urdf.joints[joint].kind);
+        let Some([multiplier, _]) = &mimic.line else {
+            return Some(", and not along a line".to_owned());
+        };
+        let slides = own == Kind::Prismatic;
+        if slides != (other == Kind::Prismatic) {
+            let words = if slides {
+                ["slides", "turns"]
+            } else {
+                ["turns", "slides"]
+            };
+            return Some(format!(", and {} where that {}", words[0], words[1]));
         }
+        let most = Rational::from_integer(Follower::MAX_TURNS.into());
+        let is_whole = multiplier.is_integer() && multiplier.abs() <= most;
+        if multiplier.is_zero() || !slides && !is_whole {
+            return Some(format!(
+                ", {multiplier} times as far: sines are of whole multiples of an angle, up to {most}"
+            ));
+        }
+        None
     }
 
     /// The joints from the base to the tip.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use dalembert_model::number::Angle;
 use dalembert_model::robot::values::{list, number, placement, position, quoted};
 use dalembert_model::robot::{
     HAND, Placement, Position, Robot, is_frame_name, suggested_name, write_frame,
@@ -14,8 +15,8 @@ use crate::lock::{OTHERS, right};
 use crate::merge::{Arm, Link};
 use crate::problems::Problems;
 use crate::snap::Snap;
-use crate::tree::Chain;
-use crate::urdf::{Joint, Kind, Number, Urdf};
+use crate::tree::{Chain, Moving};
+use crate::urdf::{Joint, Kind, Mimic, Number, Urdf};
 
 /// Writes the robot file, and says what of the URDF is not in it.
 pub(crate) fn file(
@@ -95,6 +96,22 @@ pub(crate) fn file(
         let name = name_of(own, index, problems);
         line(&mut text, "name", &quoted(&name));
         joint(&mut text, own, link, &mut left_out);
+        if let Some(Mimic {
+            joint: leader,
+            line: Some([multiplier, offset]),
+            ..
+        }) = &own.mimic
+        {
+            let name = |moving: &Moving| urdf.joints[moving.joint].name == *leader;
+            let row = chain.moving.iter().position(name).unwrap_or_default() + 1;
+            let offset = match own.kind {
+                Kind::Prismatic => Position::Length(offset.clone()),
+                _ => Position::Angle(right(Angle::Radians(offset.clone()).canonical())),
+            };
+            let (by, at) = (number(multiplier), position(&offset));
+            let mimic = format!("{{ joint = {row}, multiplier = {by}, offset = {at} }}");
+            line(&mut text, "mimic", &mimic);
+        }
     }
     left_out.say(problems);
     frames(&mut text, urdf, arm);

@@ -2,6 +2,7 @@
 
 mod fuzz;
 mod golden;
+mod mimic;
 mod mjcf;
 mod mjcf_refusals;
 mod refusals;

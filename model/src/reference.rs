@@ -185,6 +185,7 @@ fn none<T: Float>() -> DVector<T> {
 ///         friction: Friction { viscous: 0.1, coulomb: None },
 ///         armature: 0.0,
 ///     }],
+///     following: Vec::new(),
 ///     frames: Frames::default(),
 /// };
 /// let pendulum = Reference::new(arm);
@@ -226,9 +227,9 @@ impl<T: Float> Reference<T> {
         &self.arm
     }
 
-    /// n
+    /// n, without the joints that follow others.
     pub fn joints(&self) -> usize {
-        self.arm.links.len()
+        self.arm.links.len() - self.arm.following.len()
     }
 
     /// Computes the entries of a quantity, row by row, by its own formula.
@@ -255,18 +256,25 @@ impl<T: Float> Reference<T> {
             true => &self.whole,
             false => &self.arm,
         };
+        let motion = motion.of_rows(&arm.following);
         let arm = at_speeds(arm, &motion.qd);
         let columns = match quantity.shape().0.contains(&Axis::LinkParameters) {
-            true => &of_links(self.joints()),
+            true => &of_links(arm.links.len()),
             false => &at.columns,
         };
-        Ok(quantity.written(&Written {
+        let values = quantity.written(&Written {
             formulation: Formulation::NewtonEulerLinkDifferences,
             at: &arm.at(&motion.q),
             arm: &arm,
             motion: &motion,
             columns,
-        }))
+        });
+        let rows: Vec<usize> = (0..arm.links.len()).collect();
+        let sizes = Sizes {
+            base: columns.len(),
+            ..self.sizes()
+        };
+        Ok(quantity.selected(values, [&rows, &self.rows()], &arm.following, sizes))
     }
 
     /// Computes τ = D q̈ + h + c + (b + F∘r)∘q̇, r_i = 1/√(q̇_i² + w_i²).
@@ -379,7 +387,9 @@ impl<T: Float> Reference<T> {
 
     fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
         let q = self.values(Argument::Position, q)?;
-        Ok(self.whole.at(&self.positions(q)))
+        let motion = Motion::new(self.positions(q), |_| zeros(q.len()));
+        let motion = motion.of_rows(&self.whole.following);
+        Ok(self.whole.at(&motion.q))
     }
 
     fn matrix(&self, rows: &[T]) -> DMatrix<T> {
@@ -394,7 +404,16 @@ impl<T: Float> Reference<T> {
             }
             JointKind::Prismatic => JointPosition::Prismatic(*q),
         };
-        self.arm.links.iter().zip(q).map(position).collect()
+        let rows = self.rows().into_iter();
+        let links = rows.map(|row| &self.arm.links[row]);
+        links.zip(q).map(position).collect()
+    }
+
+    /// The rows whose joints follow none.
+    fn rows(&self) -> Vec<usize> {
+        let mut rows: Vec<usize> = (0..self.arm.links.len()).collect();
+        rows.retain(|row| self.arm.following.iter().all(|own| own.row != *row));
+        rows
     }
 
     fn values<'a>(

@@ -44,6 +44,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
         base: None,
         tool: None,
         links: (0..n).map(|_| link()).collect(),
+        following: Vec::new(),
         frames: Frames::default(),
     };
     torques(formulation, &arm, &counter)

@@ -212,3 +212,87 @@ fn known_robots_are_not_far_off() {
     }
     assert!(seen > 25, "{seen}");
 }
+
+const TIED: &str = "name = \"tied\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n\
+    [[joint]]\nname = \"a\"\nkind = \"revolute\"\nmass = 1\ncom = [0.1, 0, 0]\ninertia = [0.1, 0.1, 0.1, 0, 0, 0]\n\
+    [[joint]]\nname = \"b\"\nkind = \"revolute\"\na = 0.4\nmass = 0\nMIMIC\n\
+    [[joint]]\nname = \"c\"\nkind = \"prismatic\"\nmass = 2\ncom = [0, 0, 0]\ninertia = [0.1, 0.1, 0.1, 0, 0, 0]\n";
+
+/// A follower of a follower is its leader's, and the text says so.
+#[test]
+fn followers_read_back() {
+    let chained = "limits = { position = [-2, 1], velocity = 3 }\nmimic = { joint = 3, multiplier = -2, offset = \"pi/2\" }";
+    let text = TIED.replace("MIMIC", chained).replace(
+        "kind = \"prismatic\"",
+        "kind = \"revolute\"\nmimic = { joint = \"a\", multiplier = 3, offset = \"-pi/4\" }",
+    );
+    let robot = parse(&text, &Options::default()).unwrap().robot;
+    let [b, c] = &robot.followers[..] else {
+        panic!("{:?}", robot.followers)
+    };
+    assert_eq!((b.leader, b.turns(), c.leader, c.turns()), (0, -6, 0, 3));
+    assert_eq!(b.offset, Position::Angle(Angle::PiTimes(ratio(1, 1))));
+    assert_eq!(robot.joints[0].limits.velocity, Some(ratio(1, 2)));
+    let again = parse(&write(&robot), &Options::default()).unwrap().robot;
+    assert_eq!(again, robot);
+    assert!(
+        robot
+            .validate()
+            .iter()
+            .all(|finding| finding.warning.is_some())
+    );
+    let mut torn = robot;
+    torn.followers.swap(0, 1);
+    assert!(
+        torn.validate()
+            .iter()
+            .any(|finding| finding.warning.is_none())
+    );
+}
+
+#[test]
+fn what_cannot_follow_is_refused() {
+    for (mimic, says) in [
+        ("joint = 2", "a joint that follows itself"),
+        (
+            "joint = \"c\"",
+            "one of both joints turns, and the other slides",
+        ),
+        ("joint = \"d\"", "there is no link `d`"),
+        (
+            "joint = 1, multiplier = 0",
+            "a multiplier of 0: the joint never moves",
+        ),
+        (
+            "joint = 1, multiplier = -0.5",
+            "let that joint mimic this one, with multiplier = -2",
+        ),
+        (
+            "joint = 1, multiplier = 17",
+            "sines are of whole multiples of an angle, up to 16",
+        ),
+        ("joint = 1, factor = 2", "unknown key `factor`"),
+        ("multiplier = 1", "mimic has no `joint`"),
+        (
+            "joint = 1 }\ncoulomb = 1\ncoulomb_width = 0.1\nframe = { xyz = [0, 0, 0]",
+            "`coulomb` of a joint that follows another",
+        ),
+    ] {
+        let text = TIED.replace("MIMIC", &format!("mimic = {{ {mimic} }}"));
+        let errors = parse(&text, &Options::default()).unwrap_err();
+        let shown = errors.render("tied.toml", &text);
+        assert!(shown.contains(says), "{says}: {shown}");
+    }
+    let circle = TIED.replace("MIMIC", "mimic = { joint = 1 }");
+    let circle = circle.replacen("mass = 1\n", "mass = 1\nmimic = { joint = 2 }\n", 1);
+    let shown = parse(&circle, &Options::default()).unwrap_err();
+    assert!(shown.render("tied.toml", &circle).contains("in a circle"));
+    let scene = TIED.replace("MIMIC", "mimic = { joint = 1 }") + "[scene.s]\nlock = { b = 0 }\n";
+    let shown = parse(&scene, &Options::default())
+        .unwrap_err()
+        .render("tied.toml", &scene);
+    assert!(
+        shown.contains("follows another") && shown.contains("joint 1 (a)"),
+        "{shown}"
+    );
+}

@@ -226,7 +226,7 @@ fn link_text(robot: &Robot, link: &LinkParameters, before: Option<&LinkParameter
             joints(more)
         )),
     }
-    if robot.joints[link.joint].armature != Default::default() {
+    if robot.rows()[link.joint].armature != Default::default() {
         line("its armature stays at the joint: it adds to D_ii alone".to_owned());
     }
     text

@@ -60,6 +60,8 @@ pub enum Unbounded {
     Friction,
     /// It is a regressor: what multiplies its entries is not known.
     Parameters,
+    /// Joints of the robot follow others.
+    Follows,
 }
 
 impl Unbounded {
@@ -92,6 +94,13 @@ impl fmt::Display for Unbounded {
                     "it has Coulomb friction in it, which divides by a root, so its errors have \
                      no certified bound: leave `coulomb` out of the robot file and add the friction \
                      to the torques yourself, or leave the tolerance out of the scene",
+                );
+            }
+            Unbounded::Follows => {
+                return f.write_str(
+                    "joints of the robot follow others (`mimic`), and what may be left out of \
+                     links that share a coordinate is not bounded: leave the tolerance out of the \
+                     scene",
                 );
             }
             Unbounded::Divides => f.write_str("it divides by what depends on the state")?,

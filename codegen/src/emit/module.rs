@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Write};
 
-use dalembert_model::robot::{Convention, JointKind, Robot};
+use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 
 use super::escape::escaped;
 use super::figures::{decimal, placed};
@@ -160,6 +160,19 @@ pub(crate) fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
     Angles::of(joints, functions.iter().map(|generated| &generated.program))
 }
 
+/// The position of a joint that follows, from the number of the one that leads.
+fn followed(own: &Follower, number: usize) -> String {
+    let by = decimal(&own.multiplier);
+    let offset = match &own.offset {
+        Position::Angle(angle) => angle.to_string(),
+        Position::Length(length) => decimal(length),
+    };
+    match offset.as_str() {
+        "0" => format!("{by} q{number}"),
+        offset => format!("{by} q{number} + ({offset})"),
+    }
+}
+
 /// Robot, conventions, DH table, counts and proof.
 pub(super) fn header(
     robot: &Robot,
@@ -199,12 +212,17 @@ pub(super) fn header(
         "| joint | kind | α | a | d | θ | mass |".into(),
         "|---|---|---|---|---|---|---|".into(),
     ]);
-    for (index, joint) in robot.joints.iter().enumerate() {
-        let label = match &joint.name {
-            Some(name) => format!("{} {}", index + 1, escaped(name)),
-            None => (index + 1).to_string(),
+    for (row, joint) in robot.rows().into_iter().enumerate() {
+        let mut followers = robot.followers.iter();
+        let own = followers.find(|own| own.row == row);
+        let number = robot.mover_of(row) + 1;
+        let label = match (own, &joint.name) {
+            (Some(_), Some(name)) => format!("follows {number}: {}", escaped(name)),
+            (Some(_), None) => format!("follows {number}"),
+            (None, Some(name)) => format!("{number} {}", escaped(name)),
+            (None, None) => number.to_string(),
         };
-        let q = format!("q{}", index + 1);
+        let q = own.map_or_else(|| format!("q{number}"), |own| followed(own, number));
         let plus = |constant: String| match constant.as_str() {
             "0" => q.clone(),
             negative if negative.starts_with('-') => format!("{q} - {}", &negative[1..]),
@@ -225,7 +243,14 @@ pub(super) fn header(
             decimal(&joint.mass)
         ));
     }
-    let tilted = robot.joints.iter().enumerate();
+    if !robot.followers.is_empty() {
+        lines.push(String::new());
+        lines.push(
+            "Of joints that follow others there are no entries; parameters count links by rows."
+                .into(),
+        );
+    }
+    let tilted = robot.rows().into_iter().enumerate();
     let tilted: Vec<String> = tilted
         .filter(|(_, joint)| !joint.beta.is_zero())
         .map(|(index, joint)| format!("{} by {}", index + 1, joint.beta))

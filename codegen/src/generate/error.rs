@@ -47,6 +47,8 @@ pub enum GenerateError {
         /// The likely fix.
         fix: String,
     },
+    /// It has something of each link, and joints of the robot follow others.
+    Follows(Function),
     /// The scene is none of this robot.
     Scene(SceneError),
     /// A constant is beyond the scalar's range, or rounds to zero.
@@ -113,6 +115,7 @@ impl GenerateError {
             | GenerateError::Singular { function, .. }
             | GenerateError::TooLarge { function, .. }
             | GenerateError::Base(function, _)
+            | GenerateError::Follows(function)
             | GenerateError::Defect(function, ..)
             | GenerateError::SinCos(function, _)
             | GenerateError::Disproved(function, _)
@@ -143,6 +146,12 @@ impl fmt::Display for GenerateError {
                 f,
                 "`{}`: the robot has no frame `{frame}`: {fix}",
                 function.text()
+            ),
+            GenerateError::Follows(function) => write!(
+                f,
+                "`{function}` has entries of each link, and where joints follow others (`mimic`) \
+                 there are more links than coordinates: ask for `forward_kinematics@FRAME` of \
+                 frames on links, or `regressor` in place of `full_regressor`"
             ),
             GenerateError::Contents => f.write_str(
                 "a file without modules has one scalar: choose f64 or f32, and write a file for each",

@@ -165,6 +165,10 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     }
     for &function in &functions {
         frames::check(robot, function)?;
+        let mut quantities = function.quantities().iter();
+        if !robot.followers.is_empty() && quantities.any(|quantity| quantity.is_of_links()) {
+            return Err(GenerateError::Follows(function));
+        }
     }
     language::check(robot, request, &functions)
         .map_err(|why| GenerateError::Language(request.language, why))?;
@@ -180,7 +184,8 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     let scene = request.scene.as_ref();
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
     let mut unbounded = request.functions.iter();
-    let refusal = unbounded.find_map(|&f| Some((f, Unbounded::of(f)?)));
+    let follows = (!robot.followers.is_empty()).then_some(Unbounded::Follows);
+    let refusal = unbounded.find_map(|&f| Some((f, follows.or_else(|| Unbounded::of(f))?)));
     match refusal.filter(|_| has_tolerance) {
         Some((function, why)) => {
             let why = ToleranceError::Function(why);

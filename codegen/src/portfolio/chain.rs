@@ -42,7 +42,9 @@ pub fn trace_chain(
     }
     drop(numbers);
     let whole = symbols(scene_robot, &function.arguments(), &builder);
-    let motion = &whole.of_joints(scene_robot.chained());
+    let rows = &scene_robot.chained_rows();
+    let following = &scene_robot.following(|x: &Exact| Symbol::from(x.clone()));
+    let motion = &whole.of_joints(rows);
     let chain = chain.at_speeds(&motion.per_speed);
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
@@ -56,18 +58,22 @@ pub fn trace_chain(
         motion,
         form,
         textbook: arm.as_ref().map(|arm| textbook(arm, &position, &whole)),
-        joints: scene_robot.chained(),
+        joints: rows,
+        following: &following
+            .iter()
+            .filter_map(|own| own.among(rows))
+            .collect::<Vec<_>>(),
     };
     let mut outputs = Vec::new();
     for &quantity in function.quantities() {
-        let selected = match quantity.regrouped(&regrouped) {
-            Some(values) => scene_robot.select_of(quantity, scene_robot.chained(), values),
-            None => scene_robot.select_of(
-                quantity,
-                scene_robot.joints(),
+        let (rows, values) = match quantity.regrouped(&regrouped) {
+            Some(values) => (rows.clone(), values),
+            None => (
+                (0..whole.q.len()).collect(),
                 written(scene_robot, quantity, &whole, gravity.as_ref()),
             ),
         };
+        let selected = scene_robot.select_of(quantity, &rows, following, values);
         let mut builder = builder.borrow_mut();
         outputs.extend(selected.iter().map(|output| output.value(&mut builder)));
     }
@@ -139,7 +145,7 @@ pub fn skeleton_for(scene_robot: &SceneRobot, function: Function) -> Skeleton<Ex
     if !scene_robot.takes(function, RuntimeParameter::Payload) {
         return with_columns(scene_robot, &scene_robot.columns(function, Exact::clone));
     }
-    let last = scene_robot.joints().len().saturating_sub(1);
+    let last = scene_robot.robot().rows().len().saturating_sub(1);
     let columns = LinkParameter::ALL.map(|parameter| Column::Body {
         joint: last,
         body: parameter.unit(),

@@ -32,10 +32,20 @@ pub(crate) fn angle_sums(scene_robot: &SceneRobot, sums: Sums) -> Graph {
     let chain = Chain::new(&arm, &Regrouping::base(&arm));
     let groups = chain.parallel();
     let chain = chain.map(|constant| Symbol::from(constant.clone()));
-    let motion = symbols(scene_robot, &[], &builder).of_joints(scene_robot.chained());
+    let rows = scene_robot.chained_rows();
+    let motion = symbols(scene_robot, &[], &builder).of_joints(&rows);
     let (_, at) = chain.posed(&motion.q);
     let mut outputs = Vec::new();
     for group in &groups {
+        // Angles of joints that follow are no inputs.
+        let follows = |link: usize| {
+            let mut all = scene_robot.robot().followers.iter();
+            all.any(|own| own.row == rows[link])
+        };
+        let sums = match group.iter().any(|(link, _)| follows(*link)) {
+            true => Sums::Products,
+            false => sums,
+        };
         for first in 0..group.len() {
             let mut product: Option<SinCosPair<Symbol>> = None;
             let mut input: Option<AngleSum> = None;
@@ -52,7 +62,7 @@ pub(crate) fn angle_sums(scene_robot: &SceneRobot, sums: Sums) -> Graph {
                     },
                     cos: pair.cos.clone(),
                 };
-                let joint = scene_robot.chained()[link];
+                let joint = scene_robot.robot().mover_of(rows[link]);
                 input = match input {
                     None => Some(AngleSum::joint(joint)),
                     Some(sum) => sum.with(joint, opposite != group[first].1),

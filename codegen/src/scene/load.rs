@@ -89,8 +89,12 @@ impl SceneRobot {
     /// The angles of the table, the frames and the locks, with their opposites.
     fn constant_angles(&self) -> Vec<(Angle, Angle)> {
         let robot = self.robot();
-        let rows = robot.joints.iter();
+        let rows = robot.rows().into_iter();
         let rows = rows.flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
+        let offsets = robot.followers.iter().filter_map(|own| match &own.offset {
+            Position::Angle(angle) => Some(angle),
+            Position::Length(_) => None,
+        });
         let frames = robot
             .placements()
             .into_iter()
@@ -101,7 +105,7 @@ impl SceneRobot {
             Position::Angle(angle) => Some(angle),
             Position::Length(_) => None,
         });
-        let all = rows.chain(frames).chain(locks);
+        let all = rows.chain(offsets).chain(frames).chain(locks);
         all.map(|angle| (angle.clone(), angle.negate())).collect()
     }
 }

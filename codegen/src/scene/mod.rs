@@ -33,6 +33,7 @@ use std::sync::OnceLock;
 
 use dalembert_model::equations::JointPosition;
 use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::following::Following;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Axis, Columns, Motion, RuntimeParameter, Sizes};
@@ -262,13 +263,35 @@ impl SceneRobot {
         &self.chained
     }
 
-    /// The locks that merge links: those of joints without a torque to show.
+    /// The joints that follow others, multipliers sent through `scalar`.
+    pub fn following<S>(&self, mut scalar: impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
+        Following::of(&self.robot, &mut scalar)
+    }
+
+    /// The rows of the table that a chain needs: those of its joints, and of what follows
+    /// them.
+    pub fn chained_rows(&self) -> Vec<usize> {
+        let rows = 0..self.robot.rows().len();
+        rows.filter(|&row| self.chained.contains(&self.robot.mover_of(row)))
+            .collect()
+    }
+
+    /// The locks that merge links, a row each: those of joints without a torque to show.
     pub fn merged(&self) -> Vec<Option<JointPosition<Exact>>> {
         let merges = |(i, lock): (usize, &Option<_>)| match self.chained.contains(&i) {
             true => None,
             false => lock.clone(),
         };
-        self.locks.iter().enumerate().map(merges).collect()
+        let mut merged: Vec<_> = self.locks.iter().enumerate().map(merges).collect();
+        let following = self.following(Exact::clone);
+        for own in &following {
+            merged.insert(own.row, None);
+        }
+        for own in &following {
+            let leader = merged[own.leader].as_ref();
+            merged[own.row] = leader.map(|leader| leader.followed_by(own));
+        }
+        merged
     }
 
     /// The position a joint is locked at.
@@ -296,8 +319,8 @@ impl SceneRobot {
         })
     }
 
-    /// The motion of all joints from the values of a program's inputs, with
-    /// the scene's constants in their places.
+    /// The motion of all rows from the values of a program's inputs, with the scene's
+    /// constants in their places.
     pub fn motion<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -331,7 +354,7 @@ impl SceneRobot {
                 entries.fill(S::zero());
             }
         }
-        motion
+        motion.of_rows(&self.following(constant))
     }
 
     /// The base parameters that a quantity is over, which are those of its own
@@ -371,7 +394,7 @@ impl SceneRobot {
     ) -> Vec<Column<S>> {
         match function.columns() {
             Columns::None => Vec::new(),
-            Columns::Links => of_links(self.joints.len()),
+            Columns::Links => of_links(self.robot.rows().len()),
             Columns::Base(quantity) => {
                 let columns = self.base(quantity).map_or(&[][..], |base| &base.columns);
                 columns.iter().map(|c| c.map(&mut constant)).collect()
@@ -403,52 +426,39 @@ impl SceneRobot {
         }
     }
 
-    /// The results over the rows, from results over these joints; both flat,
-    /// in the order of the function's quantities.
-    pub fn select<S: Clone>(
+    /// The results over the scene's joints, from results over these rows; both flat, in the
+    /// order of the function's quantities. Loads of joints that follow are gathered.
+    pub fn select<S: Scalar>(
         &self,
         function: Function,
-        joints: &[usize],
+        rows: &[usize],
+        following: &[Following<S>],
         mut outputs: Vec<S>,
     ) -> Vec<S> {
-        if joints == self.rows {
-            return outputs;
-        }
         let sizes = self.sizes(function);
         let mut selected = Vec::with_capacity(function.outputs(sizes));
         for &quantity in function.quantities() {
-            let rest = outputs.split_off(quantity.len(sizes.over(joints.len())));
-            selected.extend(self.select_of(quantity, joints, outputs));
+            let rest = outputs.split_off(quantity.len(sizes.over(rows.len())));
+            selected.extend(self.select_of(quantity, rows, following, outputs));
             outputs = rest;
         }
         selected
     }
 
-    /// The entries of one quantity over the rows, from those over these joints.
-    pub fn select_of<S: Clone>(
+    /// The entries of one quantity over the scene's joints, from those over these rows.
+    pub fn select_of<S: Scalar>(
         &self,
         quantity: Quantity,
-        joints: &[usize],
+        rows: &[usize],
+        following: &[Following<S>],
         values: Vec<S>,
     ) -> Vec<S> {
-        if joints == self.rows {
-            return values;
-        }
-        let place = |row: &usize| joints.iter().position(|joint| joint == row);
-        let places: Vec<usize> = self.rows.iter().filter_map(place).collect();
         let shape = quantity.shape();
         let over_base = shape.is_over_base().then_some(quantity);
         let sizes = self.sizes_of(over_base, shape.0.contains(&Axis::Load));
-        let entry = |index: usize| {
-            let axes = shape.0.iter().zip(shape.places(index, sizes));
-            // The place of the entry among those over all joints.
-            let from = axes.fold(0, |from, (axis, place)| match axis {
-                Axis::Joints => from * joints.len() + places[place],
-                other => from * other.length(sizes) + place,
-            });
-            values[from].clone()
-        };
-        (0..shape.len(sizes)).map(entry).collect()
+        let own = self.rows.iter().map(|&joint| self.robot.row_of(joint));
+        let own: Vec<usize> = own.collect();
+        quantity.selected(values, [rows, &own], following, sizes)
     }
 }
 

@@ -24,9 +24,9 @@ pub struct Posed<S> {
     pub motion: Motion<S>,
     /// The columns of the regressor.
     pub columns: Vec<Column<S>>,
-    /// The joints that results are over before rows are selected: with a payload
+    /// The rows that results are over before the scene's are selected: with a payload
     /// one more, behind the last, which does not move.
-    joints: Vec<usize>,
+    rows: Vec<usize>,
 }
 
 /// A value of a formula that is recorded: over a program's inputs and exact numbers.
@@ -71,7 +71,7 @@ impl SceneRobot {
     ) -> Posed<S> {
         let mut motion = self.motion(&mut input, &mut constant);
         arm = arm.at_speeds(&motion.per_speed);
-        let mut joints = self.joints().to_vec();
+        let mut rows: Vec<usize> = (0..arm.links.len()).collect();
         if self.takes(function, RuntimeParameter::Gravity) {
             let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
             arm = arm.with_gravity(&[0, 1, 2].map(entry));
@@ -84,14 +84,14 @@ impl SceneRobot {
                 let link = carried(&self.payload(&mut input), frame.as_ref());
                 arm = arm.with_link(link);
                 motion = motion.with_still_link();
-                joints.push(joints.len());
+                rows.push(rows.len());
             }
         }
         Posed {
             arm,
             motion,
             columns: self.columns(function, constant),
-            joints,
+            rows,
         }
     }
 
@@ -155,7 +155,7 @@ impl<S: Divide> Posed<S> {
 
     /// The results over the scene's rows, from those over all.
     pub fn select(&self, scene_robot: &SceneRobot, function: Function, all: Vec<S>) -> Vec<S> {
-        scene_robot.select(function, &self.joints, all)
+        scene_robot.select(function, &self.rows, &self.arm.following, all)
     }
 
     /// The results over the scene's rows.

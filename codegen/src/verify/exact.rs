@@ -164,7 +164,7 @@ pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Dispr
     if program.rows != scene_robot.rows() || program.speeds != of_robot.speeds {
         return Err(Disproof::Shape);
     }
-    let reference_formulation = if scene_robot.robot().joints.len() <= WRITTEN_LIMIT {
+    let reference_formulation = if scene_robot.robot().rows().len() <= WRITTEN_LIMIT {
         Formulation::LagrangeEuler
     } else {
         Formulation::NewtonEulerLink

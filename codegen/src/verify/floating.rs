@@ -132,7 +132,7 @@ impl Runtime {
         let mut lengths = Vec::new();
         let divisors = |posed: &Posed<Value>| {
             let (arm, motion) = (&posed.arm, &posed.motion);
-            let d = Formulation::NewtonEulerLink.inertia(arm, &arm.at(&motion.q));
+            let d = Formulation::NewtonEulerLink.gathered_inertia(arm, &arm.at(&motion.q));
             let mut all = vec![submatrix(&d, &free(&motion.moves)).concat()];
             all.extend(posed.divisors(function));
             lengths = all.iter().map(Vec::len).collect();

@@ -14,6 +14,7 @@
 use std::collections::BTreeMap;
 
 use dalembert_model::equations::Formulation;
+use dalembert_model::equations::following::gather;
 use dalembert_model::equations::regressor::{Column, of_drives, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
@@ -38,7 +39,7 @@ pub fn prove_base(
     function: Function,
     base: &BaseParameters,
 ) -> Result<(), Disproof> {
-    let formulation = match scene_robot.joints().len() <= WRITTEN_LIMIT {
+    let formulation = match scene_robot.robot().rows().len() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
         false => Formulation::NewtonEulerLink,
     };
@@ -105,8 +106,8 @@ impl Statement<'_> {
     /// All parameters of the robot file, in the order of the full columns.
     fn parameters(&self) -> Vec<Parameter> {
         use dalembert_model::equations::regressor::LinkParameter;
-        let joints = self.scene_robot.joints().iter();
-        let links = joints.flat_map(|&joint| {
+        let rows = 0..self.scene_robot.robot().rows().len();
+        let links = rows.flat_map(|joint| {
             let all = LinkParameter::ALL.into_iter();
             all.map(move |own| Parameter::Link(joint, own))
         });
@@ -140,20 +141,23 @@ impl Statement<'_> {
         let recording = scene_robot.record(self.function, |posed, recorder| {
             let (arm, motion) = (&posed.arm, &posed.motion);
             let by = |columns: &[Column<Value>]| {
-                let entries = self
+                let mut entries = self
                     .function
                     .evaluate(self.formulation, arm, motion, columns);
+                let rows: Vec<usize> = (0..arm.links.len()).collect();
+                gather(&arm.following, &rows, columns.len(), &mut entries);
                 let rows = entries.chunks(columns.len().max(1));
                 rows.map(<[Value]>::to_vec).collect::<Vec<_>>()
             };
-            let mut all = of_links(scene_robot.joints().len());
+            let mut all = of_links(scene_robot.robot().rows().len());
             all.extend(of_drives(scene_robot.robot()));
             let whole = by(&all);
             let constant = |x: &Exact| recorder.constant(x);
             let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
             let own = by(&own);
             let mut found = Vec::new();
-            for &row in scene_robot.rows() {
+            for &joint in scene_robot.rows() {
+                let row = scene_robot.robot().row_of(joint);
                 let mut differences = whole[row].clone();
                 for (entry, terms) in own[row].iter().zip(&combinations) {
                     for (place, factor) in terms {

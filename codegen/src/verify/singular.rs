@@ -54,9 +54,10 @@ fn pivots(scene_robot: &SceneRobot, function: Function) -> Pivots {
             false => Formulation::NewtonEulerLink,
         };
         let free = free(&motion.moves);
-        let d = formulation.inertia(arm, &arm.at(&motion.q));
+        let d = formulation.gathered_inertia(arm, &arm.at(&motion.q));
         let factor = Factor::new(&submatrix(&d, &free));
-        joints = free.into_iter().rev().collect();
+        let mover = |row| scene_robot.robot().mover_of(row);
+        joints = free.into_iter().rev().map(mover).collect();
         factor.pivots().iter().rev().cloned().collect()
     });
     Pivots { joints, values }

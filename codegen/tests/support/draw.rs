@@ -103,6 +103,7 @@ impl Draw {
             tool: None,
             payload_frame: None,
             joints: (0..n).map(|_| self.joint()).collect(),
+            followers: Vec::new(),
             frames: Vec::new(),
         }
     }

@@ -28,7 +28,7 @@ pub fn source(name: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-fn json(name: &str) -> Value {
+pub fn json(name: &str) -> Value {
     let path = format!(
         "{}/tests/data/{name}.golden.json",
         env!("CARGO_MANIFEST_DIR")

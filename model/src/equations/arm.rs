@@ -3,6 +3,7 @@
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 
+use super::following::Following;
 use super::frames::{Frames, View};
 use super::friction::Friction;
 use super::matrix::{Columns, Vector, plus, zero_vector};
@@ -22,6 +23,8 @@ pub struct Arm<S> {
     pub tool: Option<Columns<S>>,
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
+    /// Those of them whose joints follow others.
+    pub following: Vec<Following<S>>,
     /// Frames that are fixed to them, and the one that is the hand.
     pub frames: Frames<S>,
 }
@@ -60,6 +63,26 @@ pub enum JointPosition<S> {
     Revolute(SinCosPair<S>),
     /// q_i
     Prismatic(S),
+}
+
+impl<S: Scalar> JointPosition<S> {
+    /// Where a joint is that follows one here, but for its offset, which is its row's.
+    #[must_use]
+    pub fn followed_by(&self, follower: &Following<S>) -> JointPosition<S> {
+        match self {
+            JointPosition::Prismatic(q) => JointPosition::Prismatic(follower.motion(q)),
+            JointPosition::Revolute(pair) => {
+                let mut turned = pair.clone();
+                for _ in 1..follower.turns.unsigned_abs() {
+                    turned = turned.compose(pair);
+                }
+                if follower.turns < 0 {
+                    turned.sin = turned.sin.neg();
+                }
+                JointPosition::Revolute(turned)
+            }
+        }
+    }
 }
 
 /// θ_i as a pair and d_i of one row, offsets applied.
@@ -180,6 +203,7 @@ impl<S> Arm<S> {
             base: self.base.as_ref().map(|pose| pose.map(&mut f)),
             tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
             links: self.links.iter().map(|link| link.map(&mut f)).collect(),
+            following: (self.following.iter()).map(|own| own.map(&mut f)).collect(),
             frames: self.frames.map(f),
         }
     }

@@ -65,7 +65,7 @@ impl Formulation {
         at: &[DhVariables<S>],
         moves: &[bool],
     ) -> Vec<Vec<S>> {
-        let mut j = self.task_jacobian(arm, at);
+        let mut j = self.gathered_jacobian(arm, at);
         for row in &mut j {
             for (entry, _) in row.iter_mut().zip(moves).filter(|(_, moves)| !**moves) {
                 *entry = S::zero();

@@ -7,6 +7,7 @@ use super::articulated;
 use super::derivatives::columns;
 use super::energy::moving;
 use super::factor::{Factor, scatter, submatrix};
+use super::following::{gathered, gathered_columns, gathered_square, spread};
 use super::from_torques::weightless;
 use super::matrix::{minus, negative, times, total, zeros};
 use super::{Arm, DhVariables, Formulation};
@@ -63,8 +64,13 @@ fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
 }
 
 impl Formulation {
+    /// Sᵀ D S, n×n: D gathered at the leaders of joints that follow.
+    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+        gathered_square(&arm.following, self.inertia(arm, at))
+    }
+
     /// q̈ of the joints that move under τ, zero of the others, which are held
-    /// where they are.
+    /// where they are, or follow.
     pub fn forward_dynamics<S: Divide>(
         self,
         arm: &Arm<S>,
@@ -73,12 +79,13 @@ impl Formulation {
         tau: &[S],
         moves: &[bool],
     ) -> Vec<S> {
-        if !self.has_closed_form() {
+        if !self.has_closed_form() && arm.following.is_empty() {
             return articulated::forward_dynamics(arm, at, qd, tau, moves);
         }
-        let d = self.inertia(arm, at);
+        let d = self.gathered_inertia(arm, at);
         let bias = self.inverse_dynamics(arm, at, qd, &zeros(qd.len()));
-        solved(&d, &bias, tau, moves)
+        let [bias, tau] = [bias, tau.to_vec()].map(|loads| gathered(&arm.following, loads));
+        solved(&d, &bias, &tau, moves)
     }
 
     /// D⁻¹ over the joints that move; zero in the rows and columns of the
@@ -90,8 +97,8 @@ impl Formulation {
         at: &[DhVariables<S>],
         moves: &[bool],
     ) -> Vec<Vec<S>> {
-        if self.has_closed_form() {
-            return inverted(&self.inertia(arm, at), moves);
+        if self.has_closed_form() || !arm.following.is_empty() {
+            return inverted(&self.gathered_inertia(arm, at), moves);
         }
         let n = at.len();
         let arm = weightless(arm).without_friction();
@@ -116,12 +123,16 @@ impl Formulation {
         tau: &[S],
         moves: &[bool],
     ) -> [Vec<Vec<S>>; 2] {
-        if self.has_closed_form() {
+        if self.has_closed_form() || !arm.following.is_empty() {
             let inverse = self.inertia_inverse(arm, at, moves);
-            let qdd = self.forward_dynamics(arm, at, qd, tau, moves);
+            let qdd = spread(
+                &arm.following,
+                self.forward_dynamics(arm, at, qd, tau, moves),
+            );
             let by_position = self.torque_by_position(arm, at, qd, &qdd);
             let by_velocity = self.torque_by_velocity(arm, at, qd);
-            return [&by_position, &by_velocity].map(|slopes| against(&inverse, slopes));
+            return [by_position, by_velocity]
+                .map(|slopes| against(&inverse, &gathered_columns(&arm.following, slopes)));
         }
         let n = at.len();
         let rubbed = rubbed(arm, qd);

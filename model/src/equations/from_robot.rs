@@ -1,11 +1,12 @@
 //! From a robot with exact parameters to an arm in any scalar.
 
+use super::following::Following;
 use super::frames::{Frames, NamedFrame};
 use super::friction::{Coulomb, Friction};
 use super::matrix::Columns;
 use super::{Arm, Link, SinCosPair};
 use crate::number::{Angle, Exact, Rational};
-use crate::robot::{Placement, Robot};
+use crate::robot::{Placement, Position, Robot};
 use crate::scalar::Scalar;
 
 impl<S> Arm<S> {
@@ -22,16 +23,25 @@ impl<S> Arm<S> {
         };
         let gravity = gravity.each_ref().map(&mut *scalar);
         let [base, tool] = [base, tool].map(|pose| pose.map(|pose| pose.map(&mut *scalar)));
-        let links = robot.joints.iter().map(|joint| {
-            let mut pair = |angle| {
+        let (following, rows) = (Following::of(robot, scalar), robot.rows());
+        let links = rows.iter().enumerate().map(|(row, joint)| {
+            let mut followers = robot.followers.iter();
+            let offset = followers.find(|follower| follower.row == row);
+            let (turn, shift) = match offset.map(|follower| &follower.offset) {
+                Some(Position::Angle(turn)) => (Some(turn), None),
+                Some(Position::Length(shift)) => (None, Some(shift)),
+                None => (None, None),
+            };
+            let mut pair = |angle: &Angle, more: Option<&Angle>| {
                 let pair = Exact::sincos(angle);
+                let pair = more.map_or(pair.clone(), |more| pair.compose(&Exact::sincos(more)));
                 SinCosPair {
                     sin: scalar(&pair.sin),
                     cos: scalar(&pair.cos),
                 }
             };
-            let (alpha, theta) = (pair(&joint.alpha), pair(&joint.theta));
-            let beta = (!joint.beta.is_zero()).then(|| pair(&joint.beta));
+            let (alpha, theta) = (pair(&joint.alpha, None), pair(&joint.theta, turn));
+            let beta = (!joint.beta.is_zero()).then(|| pair(&joint.beta, None));
             let mut number = |value: &Rational| scalar(&Exact::from(value.clone()));
             Link {
                 kind: joint.kind,
@@ -39,7 +49,7 @@ impl<S> Arm<S> {
                 beta,
                 theta,
                 a: number(&joint.a),
-                d: number(&joint.d),
+                d: number(&shift.map_or(joint.d.clone(), |shift| &joint.d + shift)),
                 mass: number(&joint.mass),
                 com: [0, 1, 2].map(|axis| number(&joint.com[axis])),
                 inertia: joint.inertia.map(&mut number),
@@ -56,7 +66,7 @@ impl<S> Arm<S> {
         });
         let links = links.collect();
         let mut posed = |placement: &Placement| exact_pose(placement).map(&mut *scalar);
-        let own = robot.joints.iter();
+        let own = rows.iter();
         let own = own.map(|joint| joint.frame.as_ref().map(&mut posed));
         let own = own.collect();
         let named = robot.frames.iter().map(|frame| NamedFrame {
@@ -70,6 +80,7 @@ impl<S> Arm<S> {
             base,
             tool,
             links,
+            following,
             frames: Frames {
                 named: named.collect(),
                 links: own,

@@ -9,6 +9,7 @@
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
 //! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
 //! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
+//! | [`following`] | joints that follow others, by the chain rule |
 //! | [`friction`] | what joints take of torque while they move |
 //! | [`factor`] | D = U diag(d) Uᵀ, solved and inverted |
 //! | [`articulated`] | q̈ by articulated bodies |
@@ -41,6 +42,7 @@ pub mod dalembert;
 pub mod derivatives;
 pub mod energy;
 pub mod factor;
+pub mod following;
 mod formulation;
 pub mod forward;
 pub mod frames;

@@ -15,6 +15,7 @@
 use alloc::vec::Vec;
 
 use super::factor::{Factor, scatter};
+use super::following::gathered_rows;
 use super::forward::free;
 use super::matrix::{minus, negative, plus, symmetric, times, total};
 use super::{Arm, DhVariables, Formulation};
@@ -161,6 +162,11 @@ impl Formulation {
         arm.frames.rows.pick(&self.jacobian(arm, at))
     }
 
+    /// The same gathered at the leaders of joints that follow.
+    pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+        gathered_rows(&arm.following, self.task_jacobian(arm, at))
+    }
+
     /// What follows from J and D.
     pub fn task_space<S: Divide>(
         self,
@@ -169,7 +175,7 @@ impl Formulation {
         moves: &[bool],
     ) -> TaskSpace<S> {
         let inverse = self.inertia_inverse(arm, at, moves);
-        TaskSpace::by_inverse(self.task_jacobian(arm, at), &inverse)
+        TaskSpace::by_inverse(self.gathered_jacobian(arm, at), &inverse)
     }
 
     /// μ

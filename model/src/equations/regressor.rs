@@ -117,7 +117,7 @@ pub fn of_links<S: Scalar>(joints: usize) -> Vec<Column<S>> {
 /// then viscous friction, where these are not zero.
 pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
     use num_traits::Zero;
-    let joints = || robot.joints.iter().enumerate();
+    let joints = || robot.rows().into_iter().enumerate();
     let armatures = joints().filter(|(_, joint)| !joint.armature.is_zero());
     let viscous = joints().filter(|(_, joint)| !joint.viscous.is_zero());
     let armatures = armatures.map(|(i, _)| Column::Armature(i));

@@ -5,10 +5,9 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{OF_FACTORS, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, space, written_space};
 use super::quantity::Facts;
-use super::quantity::FrameChoice;
-use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -37,11 +36,7 @@ impl Formula for ConsistentInverse {
             _ => "1",
         },
         given: Some("consistent_inverse"),
-        choices: Some(OF_FACTORS),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;
@@ -58,8 +53,8 @@ impl Formula for ConsistentInverse {
     /// D J̄ (Λ⁻¹ + λ² 1) − Jᵀ over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
-        let d = at.formulation.inertia(at.arm, at.at);
-        let j = at.formulation.task_jacobian(at.arm, at.at);
+        let d = at.formulation.gathered_inertia(at.arm, at.at);
+        let j = at.formulation.gathered_jacobian(at.arm, at.at);
         let (m, moves) = (j.len(), &at.motion.moves);
         let sum = |products: &mut dyn Iterator<Item = S>| {
             products.fold(S::zero(), |sum, product| sum.add(&product))

@@ -6,6 +6,7 @@ use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
+use crate::equations::following::{Following, gathered_square};
 use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
@@ -64,7 +65,8 @@ pub struct Motion<S> {
     /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
     /// that of a joint at rest ([`friction`](crate::equations::friction)).
     pub per_speed: Vec<Option<S>>,
-    /// For each joint, true if it moves; one that does not is held where it is.
+    /// For each joint, true if it moves by itself; one that does not is held where it is,
+    /// or follows another.
     pub moves: Vec<bool>,
     /// The payload at the hand, where that is an argument.
     pub loading: Option<Loading<S>>,
@@ -132,6 +134,41 @@ impl<S: Clone> Motion<S> {
 }
 
 impl<S: Scalar> Motion<S> {
+    /// The motion of all rows of an arm from that of the joints that move by themselves:
+    /// those that follow move with their leaders, and no torque is theirs.
+    #[must_use]
+    pub fn of_rows(self, following: &[Following<S>]) -> Motion<S> {
+        if following.is_empty() {
+            return self;
+        }
+        let mut motion = self;
+        for own in following {
+            // In their order, so that each stands at its own row at last.
+            motion
+                .q
+                .insert(own.row, JointPosition::Prismatic(S::zero()));
+            motion.moves.insert(own.row, false);
+            motion.per_speed.insert(own.row, None);
+            for argument in Argument::JOINTS {
+                if let Some(entries) = motion.of_mut(argument) {
+                    entries.insert(own.row, S::zero());
+                }
+            }
+        }
+        for own in following {
+            motion.q[own.row] = motion.q[own.leader].followed_by(own);
+            for argument in Argument::JOINTS {
+                let Some(entries) = motion.of_mut(argument) else {
+                    continue;
+                };
+                if argument != Argument::Torque {
+                    entries[own.row] = own.motion(&entries[own.leader]);
+                }
+            }
+        }
+        motion
+    }
+
     /// The motion of an arm with one more link, that does not move.
     #[must_use]
     pub fn with_still_link(mut self) -> Motion<S> {
@@ -179,9 +216,16 @@ pub struct Regrouped<'a, S> {
     pub textbook: Option<Written<'a, S>>,
     /// The joints of the chain among those of the arm.
     pub joints: &'a [usize],
+    /// Those of the chain that follow others, by their places in it.
+    pub following: &'a [Following<S>],
 }
 
 impl<S: Scalar> Regrouped<'_, S> {
+    /// D of the chain, gathered at the leaders of joints that follow.
+    pub(super) fn gathered_inertia(&self) -> Vec<Vec<S>> {
+        gathered_square(self.following, self.composite.inertia(self.form.travel))
+    }
+
     /// Values over all joints of the arm, over those of the chain.
     pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
         let joints = self.joints.iter();

@@ -5,9 +5,12 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
+use super::inverse_dynamics_with_wrench::less;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::{EliminatedTip, Unknowns};
+use crate::equations::following::{gathered, spread};
+use crate::equations::forward::solved;
 use crate::equations::matrix::zeros;
 use crate::scalar::Divide;
 
@@ -26,6 +29,11 @@ pub(super) struct Acceleration;
 /// q̈ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns) -> Vec<S> {
     let motion = at.motion;
+    if !at.following.is_empty() {
+        let bias = torques(at, &zeros(motion.qd.len()));
+        let [bias, tau] = [bias, motion.tau.clone()].map(|loads| gathered(at.following, loads));
+        return solved(&at.gathered_inertia(), &bias, &tau, &motion.moves);
+    }
     if let Some(unspun) = EliminatedTip::new(&at.composite, &motion.moves) {
         let given = [motion.qd.as_slice(), &motion.tau];
         return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
@@ -34,6 +42,17 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
     let bias = torques(at, &zeros(motion.qd.len()));
     at.chain
         .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
+}
+
+/// Inverse dynamics of a motion less τ, of the joints that move by themselves.
+pub(super) fn rest<S: Divide>(at: &Written<'_, S>, qdd: &[S], tau: &[S]) -> Vec<S> {
+    let (form, motion) = (at.formulation, at.motion);
+    let qdd = spread(&at.arm.following, qdd.to_vec());
+    let taken = form.inverse_dynamics(at.arm, at.at, &motion.qd, &qdd);
+    let rest = gathered(&at.arm.following, less(&taken, tau));
+    let rest = rest.into_iter().zip(&motion.moves);
+    let moving = rest.filter(|(_, moves)| **moves);
+    moving.map(|(rest, _)| rest).collect()
 }
 
 impl Formula for Acceleration {
@@ -69,13 +88,7 @@ impl Formula for Acceleration {
 
     /// Inverse dynamics of the motion less τ, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
-        let motion = at.motion;
-        let taken = at
-            .formulation
-            .inverse_dynamics(at.arm, at.at, &motion.qd, qdd);
-        let torques = taken.iter().zip(&motion.tau).zip(&motion.moves);
-        let moving = torques.filter(|(_, moves)| **moves);
-        moving.map(|((taken, tau), _)| taken.sub(tau)).collect()
+        rest(at, qdd, &at.motion.tau)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

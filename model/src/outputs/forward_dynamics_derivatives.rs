@@ -12,6 +12,7 @@ use super::inertia_inverse::{InertiaInverse, inverse};
 use super::quantity::{Choices, Facts, Index};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
+use crate::equations::following::{gathered_columns, spread};
 use crate::equations::forward::{against, free};
 use crate::scalar::Divide;
 
@@ -48,10 +49,11 @@ pub(super) struct AccelerationByTorque;
 /// By position and by velocity, of the joints that move.
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
     let (motion, form) = (at.motion, at.form);
-    let qdd = accelerations(at, Unknowns::Joints);
+    let qdd = spread(at.following, accelerations(at, Unknowns::Joints));
     let inverse = inverse(at);
     let slopes = at.composite.slopes(&motion.qd, &qdd, form.travel);
-    [&slopes.position, &slopes.velocity].map(|slopes| flat(against(&inverse, slopes)))
+    [slopes.position, slopes.velocity]
+        .map(|slopes| flat(against(&inverse, &gathered_columns(at.following, slopes))))
 }
 
 fn flat<S>(rows: Vec<Vec<S>>) -> Vec<S> {
@@ -68,7 +70,8 @@ fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
 
 /// D X + S over the joints that move, for the slopes X of q̈ and S of τ.
 fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
-    let d = at.formulation.inertia(at.arm, at.at);
+    let d = at.formulation.gathered_inertia(at.arm, at.at);
+    let slopes = gathered_columns(&at.arm.following, slopes.to_vec());
     let (free, n) = (free(&at.motion.moves), d.len());
     let entry = |i: usize, k: usize| {
         let products = free.iter().map(|&j| d[i][j].mul(&x[j * n + k]));
@@ -111,6 +114,7 @@ impl Formula for AccelerationByPosition {
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
         let qdd = form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
+        let qdd = spread(&at.arm.following, qdd);
         let slopes = form.torque_by_position(at.arm, at.at, &motion.qd, &qdd);
         defect(at, values, &slopes)
     }

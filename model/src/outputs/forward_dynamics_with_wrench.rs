@@ -3,12 +3,13 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::forward_dynamics::accelerations;
+use super::forward_dynamics::{accelerations, rest};
 use super::function::Definition;
-use super::inverse_dynamics_with_wrench::{less, of_wrench};
+use super::inverse_dynamics_with_wrench::of_wrench;
+use super::operational_inertia_inverse::OF_HAND;
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, turns};
-use super::{Argument, Motion, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Motion, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::matrix::plus;
 use crate::scalar::{Divide, Scalar};
@@ -53,11 +54,9 @@ impl Formula for ContactAcceleration {
             travel: true,
             flows: false,
         }),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         frame: FrameChoice::Axes,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;
@@ -71,14 +70,7 @@ impl Formula for ContactAcceleration {
 
     /// Inverse dynamics of the motion less τ and Jᵀw, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
-        let motion = at.motion;
-        let taken = at
-            .formulation
-            .inverse_dynamics(at.arm, at.at, &motion.qd, qdd);
-        let rest = less(&less(&taken, &motion.tau), &of_wrench(at));
-        let rest = rest.into_iter().zip(&motion.moves);
-        let moving = rest.filter(|(_, moves)| **moves);
-        moving.map(|(rest, _)| rest).collect()
+        rest(at, qdd, &added(&at.motion.tau, &of_wrench(at)))
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

@@ -25,9 +25,9 @@ pub(super) struct InertiaInverse;
 /// D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
-    match EliminatedTip::new(&at.composite, moves) {
+    match EliminatedTip::new(&at.composite, moves).filter(|_| at.following.is_empty()) {
         Some(unspun) => unspun.inertia_inverse(moves, travel),
-        None => inverted(&at.composite.inertia(travel), moves),
+        None => inverted(&at.gathered_inertia(), moves),
     }
 }
 
@@ -65,7 +65,7 @@ impl Formula for InertiaInverse {
 
     /// D D⁻¹ − 1 over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
-        let d = at.formulation.inertia(at.arm, at.at);
+        let d = at.formulation.gathered_inertia(at.arm, at.at);
         let (free, n) = (free(&at.motion.moves), d.len());
         let entry = |i: usize, k: usize| {
             let one = if i == k { S::one() } else { S::zero() };

@@ -5,9 +5,10 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
+use super::operational_inertia_inverse::OF_HAND;
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, load};
-use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::minus;
 use crate::scalar::{Divide, Scalar};
 
@@ -55,11 +56,9 @@ impl Formula for ContactTorque {
             travel: false,
             flows: false,
         }),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
         frame: FrameChoice::Axes,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

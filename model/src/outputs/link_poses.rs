@@ -35,6 +35,7 @@ impl Formula for LinkPoses {
             _ => "1",
         },
         depends_on_base: true,
+        of_links: true,
         ..Facts::PLAIN
     };
 

@@ -6,6 +6,7 @@
 //! - `at`: one of them at a frame of the robot
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
+//! - `select`: entries over some rows of an arm from those over others
 //! - `argument`: what functions read
 //! - `runtime`: parameters of the arm that are arguments on request
 //! - `formula`: what a quantity's file says, and what its formulas are given
@@ -25,6 +26,7 @@ mod quantity;
 #[macro_use]
 mod registry;
 mod runtime;
+mod select;
 mod shape;
 
 mod consistent_inverse;

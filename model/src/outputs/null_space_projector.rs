@@ -6,10 +6,9 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{OF_FACTORS, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, space, written_space};
 use super::quantity::Facts;
-use super::quantity::FrameChoice;
-use super::{Argument, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Index, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -38,11 +37,7 @@ impl Formula for NullSpace {
             _ => "1",
         },
         given: Some("null_space_projector"),
-        choices: Some(OF_FACTORS),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -7,10 +7,10 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{chain_jacobian, factor};
-use super::quantity::FrameChoice;
+use super::operational_inertia_inverse::{OF_HAND, chain_jacobian, factor};
 use super::quantity::{Choices, Facts};
-use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
+use crate::equations::following::gathered;
 use crate::equations::matrix::zeros;
 use crate::equations::operational::{TaskSpace, driven_by};
 use crate::scalar::Divide;
@@ -45,11 +45,8 @@ impl Formula for OperationalBias {
             travel: true,
             flows: false,
         }),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;
@@ -73,7 +70,7 @@ impl Formula for OperationalBias {
             chain: &chain,
             ..at.clone()
         };
-        let loads = torques(&free, &zeros(motion.qd.len()));
+        let loads = gathered(at.following, torques(&free, &zeros(motion.qd.len())));
         let (jacobian, factor) = (chain_jacobian(at)?, factor(at));
         let driven = driven_by(&jacobian, &factor, &loads, &motion.moves);
         let (arm, qd) = (textbook.arm, &textbook.motion.qd);

@@ -4,10 +4,9 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::operational_inertia_inverse::{OF_FACTORS, angular, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, angular, space, written_space};
 use super::quantity::Facts;
-use super::quantity::FrameChoice;
-use super::{Argument, Axis, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, Axis, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -41,11 +40,7 @@ impl Formula for OperationalInertia {
             _ => "kg·m²",
         },
         given: Some("operational_inertia"),
-        choices: Some(OF_FACTORS),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -8,6 +8,7 @@ use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::factor::{Factor, submatrix};
+use crate::equations::following::gathered_rows;
 use crate::equations::forward::free;
 use crate::equations::operational::TaskSpace;
 use crate::scalar::Divide;
@@ -24,11 +25,17 @@ pub(super) const FUNCTION: Definition = Definition {
 /// (Λ⁻¹)_rs
 pub(super) struct OperationalInertiaInverse;
 
-/// The choices of quantities that are made of D's factors.
-pub(super) const OF_FACTORS: Choices = Choices {
-    recursion: false,
-    travel: true,
-    flows: false,
+/// The facts of most quantities of the hand.
+pub(super) const OF_HAND: Facts = Facts {
+    choices: Some(Choices {
+        recursion: false,
+        travel: true,
+        flows: false,
+    }),
+    depends_on_base: true,
+    payload_dependence: PayloadDependence::Torque,
+    frame: FrameChoice::Rows,
+    ..Facts::PLAIN
 };
 
 /// What follows from J and D by the textbook.
@@ -36,18 +43,19 @@ pub(super) fn written_space<S: Divide>(at: &Written<'_, S>) -> TaskSpace<S> {
     at.formulation.task_space(at.arm, at.at, &at.motion.moves)
 }
 
-/// J of the arm over the joints of the chain.
+/// J of the arm over the joints of the chain, gathered at the leaders of those that follow.
 pub(super) fn chain_jacobian<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<Vec<S>>> {
     let textbook = at.textbook.as_ref()?;
     let jacobian = textbook
         .formulation
         .task_jacobian(textbook.arm, textbook.at);
-    Some(jacobian.iter().map(|row| at.pick(row)).collect())
+    let rows = jacobian.iter().map(|row| at.pick(row));
+    Some(gathered_rows(at.following, rows.collect()))
 }
 
 /// The factors of D over the joints of the chain that move.
 pub(super) fn factor<S: Divide>(at: &Regrouped<'_, S>) -> Factor<S> {
-    let d = at.composite.inertia(at.form.travel);
+    let d = at.gathered_inertia();
     Factor::new(&submatrix(&d, &free(&at.motion.moves)))
 }
 
@@ -81,11 +89,7 @@ impl Formula for OperationalInertiaInverse {
             _ => "1/(kg·m²)",
         },
         given: Some("operational_inertia_inverse"),
-        choices: Some(OF_FACTORS),
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..OF_HAND
     };
 
     const INVERTS_INERTIA: bool = true;

@@ -69,6 +69,9 @@ pub(super) struct Facts {
     pub gravity: bool,
     /// What may be chosen of the frame that it is of.
     pub frame: FrameChoice,
+    /// True if an entry a joint is of the link by itself: where joints follow others there
+    /// are more links than coordinates.
+    pub of_links: bool,
 }
 
 impl Facts {
@@ -93,6 +96,7 @@ impl Facts {
         payload_dependence: PayloadDependence::None,
         gravity: false,
         frame: FrameChoice::None,
+        of_links: false,
     };
 }
 
@@ -226,6 +230,12 @@ impl Quantity {
     /// Returns whether it can be had at any frame.
     pub fn is_of_frame(self) -> bool {
         self.facts().frame != FrameChoice::None
+    }
+
+    /// Returns whether it has something of each link by itself, which no joint that moves
+    /// others stands for.
+    pub fn is_of_links(self) -> bool {
+        self.facts().of_links || self.shape().0.contains(&Axis::LinkParameters)
     }
 
     /// Returns whether it depends on gravity.

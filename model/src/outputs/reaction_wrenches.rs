@@ -41,6 +41,7 @@ impl Formula for Wrench {
         depends_on_base: true,
         payload_dependence: PayloadDependence::Full,
         gravity: true,
+        of_links: true,
         ..Facts::PLAIN
     };
 

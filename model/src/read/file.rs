@@ -12,7 +12,7 @@ use super::places::Places;
 use super::report::Sink;
 use super::table::Keys;
 use super::value::{Context, first_line};
-use super::{Options, allow, frame, guard, joint, outputs, placed, scene, syntax};
+use super::{Options, allow, frame, guard, joint, mimic, outputs, placed, scene, syntax};
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::placed::Placed;
@@ -140,13 +140,19 @@ fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, 
         tool,
         payload_frame,
         joints,
+        followers: Vec::new(),
         frames: Vec::new(),
     };
     robot.frames = keys.get("frame").map_or_else(Vec::new, |list| {
         frame::read(cx, places, &robot.joints, list)
     });
+    let mimics = list
+        .and_then(Value::as_array)
+        .map_or(&[][..], Vec::as_slice);
+    let mimics = mimics.iter().map(|item| item.as_table()?.get("mimic"));
+    let mimics = mimic::read(cx, &robot.joints, &mimics.collect::<Vec<_>>());
     let findings = placed::rows(cx, places, &mut robot, placements);
-    Some((robot, findings))
+    Some((mimic::split(cx, robot, &mimics), findings))
 }
 
 /// A `[[joint]]` table.

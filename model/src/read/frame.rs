@@ -72,7 +72,7 @@ fn one(cx: &mut Context, keys: &Keys, joints: &[Joint]) -> Option<(Frame, Range<
 }
 
 /// The joint that moves a link, by its number, from one, or its name.
-fn joint(cx: &mut Context, joints: &[Joint], link: &Value, help: &str) -> Option<usize> {
+pub(super) fn joint(cx: &mut Context, joints: &[Joint], link: &Value, help: &str) -> Option<usize> {
     let text = match (link.as_str(), link.as_integer()) {
         (Some(name), _) => name.to_string(),
         (None, Some(number)) => number.to_string(),

@@ -15,7 +15,7 @@ use crate::placed::Placed;
 use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Placement, Position};
 
 /// The keys of a joint, in the order that robot files have them.
-const KEYS: [&str; 19] = [
+const KEYS: [&str; 20] = [
     "name",
     "kind",
     "alpha",
@@ -35,6 +35,7 @@ const KEYS: [&str; 19] = [
     "armature",
     "frame",
     "limits",
+    "mimic",
 ];
 /// Those of a row of the DH table.
 const ROW: [Field; 6] = [

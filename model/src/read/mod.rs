@@ -51,6 +51,7 @@ mod foreign;
 mod frame;
 mod guard;
 mod joint;
+mod mimic;
 mod outputs;
 mod placed;
 mod places;

@@ -16,7 +16,7 @@ use super::table::Keys;
 use super::value::{Context, first_line};
 use crate::number::Rational;
 use crate::outputs::Function;
-use crate::robot::{Field, Inertia, Joint, JointKind, Place, Position, Robot};
+use crate::robot::{Field, Follower, Inertia, Joint, JointKind, Place, Position, Robot};
 use crate::scene::{Float, MotionBox, Part, Payload, Scale, Scene, Tolerance};
 
 const KEYS: [&str; 10] = [
@@ -225,9 +225,22 @@ impl Reader<'_, '_, '_> {
     /// A joint by its number, from one, or its name.
     fn joint(&mut self, text: &str, span: Range<usize>) -> Option<usize> {
         let found = find_joint(&self.robot.joints, text);
+        let name = |follower: &&Follower| follower.joint.name.as_deref() == Some(text);
+        let follower = self.robot.followers.iter().find(name);
+        let (message, help) = match follower {
+            Some(follower) => (
+                format!("joint {} follows another", quote(text)),
+                format!(
+                    "name {}, by which it moves",
+                    self.robot.joint_label(follower.leader)
+                ),
+            ),
+            None => (
+                format!("there is no joint {}", quote(text)),
+                for_joint(&self.robot.joints, text),
+            ),
+        };
         if found.is_none() {
-            let help = for_joint(&self.robot.joints, text);
-            let message = format!("there is no joint {}", quote(text));
             self.cx.sink.error(span, message, &help);
         }
         self.noted(found)

@@ -6,6 +6,7 @@
 //! - `placement`: where a frame is in another, [`Placement`]
 //! - `place`: names of the parts of a robot, for findings
 //! - `findings`: what is said of a robot, and how much it matters
+//! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
 //! - `warning`: the names of warnings, by which a file silences them ([`RobotWarning`])
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
 //! - `reach`: how far an arm reaches, and inertias too large for that
@@ -16,6 +17,7 @@
 
 mod body;
 mod findings;
+mod follower;
 mod frame;
 mod place;
 mod placement;
@@ -36,6 +38,7 @@ use crate::number::{Angle, Rational};
 
 pub use body::Defect;
 pub use findings::{Finding, Severity};
+pub use follower::Follower;
 pub use frame::{HAND, is_frame_name};
 pub use place::{Field, Place};
 pub use placement::Placement;
@@ -99,8 +102,11 @@ pub struct Robot {
     /// in the last frame, unless it is that frame. Of an arm by placements it is the
     /// last link's own.
     pub payload_frame: Option<Placement>,
-    /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`].
+    /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`]. Each is a row of the
+    /// table and a coordinate; rows between them may be followers.
     pub joints: Vec<Joint>,
+    /// Rows of the table whose joints follow others, in their order.
+    pub followers: Vec<Follower>,
     /// Frames that are fixed to links, by their names; at most [`Robot::MAX_FRAMES`].
     pub frames: Vec<Frame>,
 }
@@ -110,9 +116,9 @@ pub struct Robot {
 pub struct Frame {
     /// Its name: small letters, digits and single `_`, since functions are called after it.
     pub name: String,
-    /// The joint that moves the link, zero-based.
+    /// The row of the joint that moves the link, zero-based.
     pub joint: usize,
-    /// Where it is in the frame of the joint's row.
+    /// Where it is in the frame of that row.
     pub placement: Placement,
 }
 

@@ -28,11 +28,12 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
         });
         lengths.max().unwrap_or_default()
     };
-    let rows = robot.joints.iter();
+    let all = robot.rows();
+    let rows = all.iter();
     let rows = rows.map(|joint| joint.a.abs() + joint.d.abs() + travel(joint));
     let placements = placed.iter().chain(&robot.tool);
     let steps: Rational = placements.map(|own| largest(&own.xyz)).sum();
-    let bodies = robot.joints.iter().map(|joint| largest(&joint.com));
+    let bodies = all.iter().map(|joint| largest(&joint.com));
     rows.sum::<Rational>() + steps + bodies.max().unwrap_or_default()
 }
 

@@ -50,19 +50,25 @@ impl Robot {
                 findings.doubtful_placement(place, placement);
             }
         }
-        if self.joints.is_empty() || self.joints.len() > Robot::MAX_JOINTS {
+        let rows = self.rows();
+        if self.joints.is_empty() || rows.len() > Robot::MAX_JOINTS {
             findings.error(
                 Place::Joints,
                 format!(
                     "a robot has 1 to {} joints, not {}",
                     Robot::MAX_JOINTS,
-                    self.joints.len()
+                    rows.len()
                 ),
                 "each joint is a [[joint]] table",
             );
         }
+        if !self.follow() {
+            let message = "rows that follow are not in order, or cannot follow as they are to";
+            let help = "each follows a joint of its kind, one that turns by a whole multiple";
+            findings.error(Place::Joints, message.into(), help);
+        }
         let mut names = BTreeMap::new();
-        for (index, joint) in self.joints.iter().enumerate() {
+        for (index, joint) in rows.into_iter().enumerate() {
             findings.joint(index, joint);
             findings.doubtful_joint(index, joint);
             findings.doubtful_inertia(index, joint, &reach);
@@ -182,9 +188,10 @@ impl Findings {
                 let message = format!("frame {} is called {name:?} already", first + 1);
                 self.error(place, message, "give every frame a name of its own");
             }
-            if frame.joint >= robot.joints.len() {
+            let rows = robot.rows().len();
+            if frame.joint >= rows {
                 let message = format!("frame {name:?} is fixed to no link of the robot");
-                let help = format!("links are counted from 1 to {}", robot.joints.len());
+                let help = format!("links are counted from 1 to {rows}");
                 self.error(place, message, &help);
             }
             self.placement(place, &frame.placement);

@@ -35,9 +35,15 @@ pub fn write(robot: &Robot) -> String {
             line(&mut text, key, &placement(value));
         }
     }
-    for joint in &robot.joints {
+    for (row, joint) in robot.rows().into_iter().enumerate() {
         text.push_str("\n[[joint]]\n");
         write_joint(&mut text, joint);
+        if let Some(own) = robot.followers.iter().find(|own| own.row == row) {
+            let leader = robot.row_of(own.leader) + 1;
+            let (by, at) = (number(&own.multiplier), position(&own.offset));
+            let line_of = format!("{{ joint = {leader}, multiplier = {by}, offset = {at} }}");
+            line(&mut text, "mimic", &line_of);
+        }
     }
     for frame in &robot.frames {
         text.push_str("\n[[frame]]\n");

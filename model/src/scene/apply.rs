@@ -18,7 +18,7 @@ impl Scene {
             robot.gravity = gravity.clone();
         }
         let frame = robot.payload_frame.clone();
-        if let (Some(payload), Some(last)) = (&self.payload, robot.joints.last_mut()) {
+        if let (Some(payload), Some(last)) = (&self.payload, robot.last_row_mut()) {
             let own = Body {
                 com: payload.com.clone(),
                 inertia: payload.inertia.clone(),

@@ -109,6 +109,7 @@ impl Extreme {
             base: None,
             tool: None,
             links: types.chars().enumerate().map(link).collect(),
+            following: Vec::new(),
             frames: Frames::default(),
         }
     }

@@ -64,6 +64,7 @@ fn arm(json: &Value) -> Arm<f64> {
         base: None,
         tool: None,
         links: json["links"].as_array().unwrap().iter().map(link).collect(),
+        following: Vec::new(),
         frames: Frames::default(),
     }
 }

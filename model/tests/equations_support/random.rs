@@ -34,6 +34,7 @@ pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) ->
         base: None,
         tool: None,
         links: kinds.iter().map(|kind| link(*kind, points)).collect(),
+        following: Vec::new(),
         frames: Frames::default(),
     };
     let position = |kind: &JointKind| match kind {

@@ -108,7 +108,7 @@ fn bodies(robot: &Robot, frames: &[Columns<f64>]) -> Vec<Body> {
             inertia: [column(0), column(1), column(2)],
         }
     };
-    robot.joints.iter().zip(frames).map(body).collect()
+    robot.rows().into_iter().zip(frames).map(body).collect()
 }
 
 impl Scene<'_> {
@@ -151,7 +151,8 @@ impl Scene<'_> {
         page.chain(&origins.collect::<Vec<_>>());
         let reach = view.reach();
         let mut labels = Labels::default();
-        for (i, (axis, joint)) in self.axes.iter().zip(&self.robot.joints).enumerate() {
+        // Those that follow others have the number of the joint that moves them.
+        for (row, (axis, joint)) in self.axes.iter().zip(self.robot.rows()).enumerate() {
             let end = |by: f64| -> Vector<f64> {
                 core::array::from_fn(|k| axis.through[k] + by * axis.along[k])
             };
@@ -164,7 +165,7 @@ impl Scene<'_> {
                 view.place(&end(0.12 * reach)),
             );
             page.arrow(class, from, to);
-            labels.add(to, i + 1);
+            labels.add(to, self.robot.mover_of(row) + 1);
         }
         labels.write(page);
         view.triad(&Columns::identity(), 0.16, page);

@@ -120,6 +120,7 @@ pub fn chain(n: usize, seed: u64) -> Robot {
         tool: None,
         payload_frame: None,
         joints: (0..n.min(Robot::MAX_JOINTS)).map(joint).collect(),
+        followers: Vec::new(),
         frames: Vec::new(),
     }
 }

@@ -95,6 +95,7 @@ fn robot(json: &Value) -> Robot {
         tool: None,
         payload_frame: None,
         joints: kinds.enumerate().map(joint).collect(),
+        followers: Vec::new(),
         frames: Vec::new(),
     }
 }

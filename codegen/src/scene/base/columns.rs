@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use dalembert_model::equations::following::gather;
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::{Angle, Exact, Rational};
@@ -54,7 +55,8 @@ pub(super) fn values(
         };
         let entries = entries.run(input, constant)?;
         let rows: Vec<&[Field]> = entries.chunks(columns.len().max(1)).collect();
-        for &row in scene_robot.rows() {
+        for &joint in scene_robot.rows() {
+            let row = scene_robot.robot().row_of(joint);
             for (column, entry) in found.iter_mut().zip(rows[row]) {
                 column.push(*entry);
             }
@@ -63,7 +65,8 @@ pub(super) fn values(
     Some(found)
 }
 
-/// Every entry of the regressor, row by row, as a formula.
+/// Every entry of the regressor, row by row, as a formula; those of joints that follow
+/// gathered at their leaders.
 fn entries(
     scene_robot: &SceneRobot,
     quantity: Quantity,
@@ -79,12 +82,14 @@ fn entries(
         arm = arm.with_gravity(&[0, 1, 2].map(entry));
     }
     let arm = arm.at_speeds(&motion.per_speed);
-    let entries = quantity.written(&Written {
+    let mut entries = quantity.written(&Written {
         formulation: Formulation::NewtonEulerLink,
         arm: &arm,
         at: &arm.at(&motion.q),
         motion: &motion,
         columns: &columns,
     });
+    let rows: Vec<usize> = (0..arm.links.len()).collect();
+    gather(&arm.following, &rows, columns.len(), &mut entries);
     recorder.finish(&entries)
 }

@@ -1,0 +1,278 @@
+//! An arm of which three joints follow others: one coordinate each with their leaders, in
+//! code, proofs, scenes and languages, against Pinocchio.
+
+use dalembert_codegen::workspace::function::{Columns, Function, Quantity};
+use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
+use dalembert_codegen::workspace::language::Language;
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::exact::prove;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
+use dalembert_model::number::Rational;
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::read::{self, Reading};
+use dalembert_model::robot::Robot;
+use serde_json::Value;
+
+use crate::support;
+
+/// The bound against the file, normwise.
+const FILE: f64 = 1e-12;
+
+fn reading(more: &str) -> Reading {
+    let source = support::arm_file("wafer") + more;
+    read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn robot() -> Robot {
+    reading("").robot
+}
+
+/// What can be had of an arm whose joints follow others.
+fn functions() -> Vec<Function> {
+    let all = Function::ALL.into_iter();
+    let is_of_links = |function: &Function| {
+        let mut quantities = function.quantities().iter();
+        quantities.any(|quantity| quantity.is_of_links())
+    };
+    // Of base parameters there are none: its axes are turned against each other anyhow.
+    let is_linear = |function: &Function| function.columns() != Columns::None;
+    all.filter(|function| !is_of_links(function) && !is_linear(function))
+        .collect()
+}
+
+fn generated(robot: &Robot, request: Request) -> Generated {
+    generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(list) => list.iter().flat_map(numbers).collect(),
+        other => vec![other.as_f64().unwrap()],
+    }
+}
+
+/// Values, errors in both scalars, and arguments as long as there are
+/// coordinates, of every output; half of them where tests are not optimised.
+#[test]
+fn the_code_gives_what_pinocchio_gives() {
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let file = format!("{folder}/../import/tests/data/wafer.golden.json");
+    let json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let (robot, all) = (robot(), functions());
+    let runtime = Runtime::new(&robot);
+    let scene_robot = SceneRobot::whole(&robot);
+    let truth = Reference::new(&scene_robot);
+    let every = if cfg!(debug_assertions) { 2 } else { 1 };
+    let mut compared = 0;
+    for &function in all.iter().step_by(every) {
+        let request = Request {
+            functions: vec![function],
+            ..Request::default()
+        };
+        let generated = generated(&robot, request);
+        assert!(generated.text.contains("pub const N: usize = 4;"));
+        assert_eq!(generated.functions[0].program.joints, 4);
+        // The runtime's recursion errs more here than the code does.
+        for emitted in &generated.emitted {
+            let u = emitted.scalar.unit_roundoff();
+            for state in scene_robot.states(30, 3) {
+                let state = match emitted.scalar {
+                    ScalarType::F64 => state,
+                    ScalarType::F32 => state.in_single(),
+                };
+                let (found, known) = (emitted.run(&state), truth.run(function, &state));
+                let granted = runtime.granted(function, &state);
+                let mut start = 0;
+                for &quantity in function.quantities() {
+                    let range = start..start + quantity.len(emitted.sizes);
+                    start = range.end;
+                    let known = &known[range.clone()];
+                    let largest = |most: f64, x: f64| most.max(x);
+                    let size = known.iter().map(TrueValue::magnitude).fold(0.0, largest);
+                    let errors = known.iter().zip(&found[range]);
+                    let error = errors.map(|(known, x)| known.error(*x)).fold(0.0, largest);
+                    let units = error / (size * granted.to(quantity) * u).max(f64::MIN_POSITIVE);
+                    assert!(units <= BOUND, "{quantity:?} {}: {units}", emitted.scalar);
+                }
+            }
+        }
+        let emitted = &generated.emitted[0];
+        for known in json["states"].as_array().unwrap() {
+            let state = JointState::new(|argument| match argument.given() {
+                Some(key) => numbers(&known[key]),
+                None => Vec::new(),
+            });
+            let found = emitted.run(&state);
+            let mut rest = found.as_slice();
+            for &quantity in function.quantities() {
+                let (own, others) = rest.split_at(quantity.len(emitted.sizes));
+                rest = others;
+                let (quantity, own) = (quantity.as_given(own, &state.qd).0, own);
+                let key = quantity
+                    .given()
+                    .filter(|_| quantity != Quantity::Christoffel);
+                let Some(known) = key.and_then(|key| known.get(key)).map(numbers) else {
+                    continue;
+                };
+                let own = match own.len() == known.len() {
+                    true => own.to_vec(),
+                    false => Quantity::Christoffel.as_given(own, &state.qd).1,
+                };
+                let size = known.iter().fold(1e-3, |most: f64, x| most.max(x.abs()));
+                let pairs = own.iter().zip(&known);
+                let error = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+                let error = error / size / runtime.granted(function, &state).to(quantity);
+                assert!(error <= FILE, "{quantity:?}: {error:e}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared >= 5 * 23 / every, "{compared}");
+}
+
+/// A joint locked that leads, others asked for alone, payload and gravity as arguments.
+#[test]
+fn scenes_and_arguments_follow() {
+    let reading = reading(
+        "\n[scene.held]\nlock = { shoulder = 0.5 }\n\n[scene.one]\njoints = [\"shoulder\"]\n",
+    );
+    let asked = [
+        Function::InverseDynamics,
+        Function::ManipulatorEquation,
+        Function::ForwardDynamics,
+        Function::Jacobian,
+    ];
+    let scenes = reading.scenes.iter().cloned().map(Some);
+    for scene in scenes.chain([None]) {
+        let parameters = match &scene {
+            Some(_) => Vec::new(),
+            None => RuntimeParameter::ALL.to_vec(),
+        };
+        let request = Request {
+            functions: match parameters.as_slice() {
+                [] => asked.to_vec(),
+                _ => asked[..3].to_vec(),
+            },
+            scene,
+            parameters,
+            scalars: vec![ScalarType::F64],
+            ..Request::default()
+        };
+        let scene_robot = request.scene_robot(&reading.robot).unwrap();
+        let own = generated(&reading.robot, request);
+        let states = scene_robot.states(20, 5);
+        let runtime = Runtime::in_scene(scene_robot);
+        for emitted in own.emitted.iter().filter(|e| e.function != Function::Load) {
+            for measure in emitted.against_runtime(&runtime, &states) {
+                assert!(measure.in_units() <= BOUND, "{measure:?}");
+            }
+        }
+    }
+}
+
+/// A PUMA whose forearm keeps its direction, as a parallelogram has it: base parameters, and
+/// less work than with one joint more.
+#[test]
+fn a_parallelogram_costs_less_than_free_joints() {
+    let free = support::source("puma560", "");
+    let free = free.split("\n[scene").next().unwrap();
+    let tied = free.replace(
+        "name = \"elbow\"\n",
+        "name = \"elbow\"\nmimic = { joint = 2, multiplier = -1 }\n",
+    );
+    let [free, tied] = [free, &tied].map(support::read_robot);
+    assert_eq!(tied.joints.len(), 5);
+    let runtime = Runtime::new(&tied);
+    let states = SceneRobot::whole(&tied).states(30, 9);
+    for function in [
+        Function::InverseDynamics,
+        Function::Inertia,
+        Function::ForwardDynamics,
+        Function::InverseDynamicsDerivatives,
+        Function::OperationalInertia,
+        Function::Regressor,
+        Function::PassivityRegressor,
+    ] {
+        let [one, other] = [&free, &tied].map(|robot| support::one(robot, function));
+        let [one, all] = [&one, &other].map(|own| own.functions[0].counts().operations());
+        assert!(3 * all < 2 * one, "{function}: {all} against {one}");
+        if function.columns() != Columns::None {
+            continue;
+        }
+        for emitted in &other.emitted {
+            for measure in emitted.against_runtime(&runtime, &states) {
+                assert!(measure.in_units() <= BOUND, "{measure:?}");
+            }
+        }
+    }
+}
+
+/// Of another multiplier or leader a program is disproved.
+#[test]
+fn another_multiplier_is_no_proof() {
+    let robot = robot();
+    for function in [Function::InverseDynamics, Function::ForwardDynamics] {
+        let program = support::one(&robot, function).functions.remove(0).program;
+        assert!(prove(&SceneRobot::whole(&robot), &program).is_ok());
+        for follower in 0..3 {
+            let mut other = robot.clone();
+            other.followers[follower].multiplier += Rational::from_integer(1.into());
+            assert!(prove(&SceneRobot::whole(&other), &program).is_err());
+        }
+        let mut other = robot.clone();
+        other.followers[2].leader = 3;
+        assert!(prove(&SceneRobot::whole(&other), &program).is_err());
+    }
+}
+
+#[test]
+fn other_languages_have_as_many_entries() {
+    for language in [Language::C, Language::Cuda] {
+        let request = Request {
+            functions: vec![Function::InverseDynamics],
+            language,
+            ..Request::default()
+        };
+        let text = generated(&robot(), request).text;
+        assert!(
+            text.contains("q[4]") || text.contains("q[static 4]"),
+            "{text}"
+        );
+        assert!(text.contains("-2 q3"), "{text}");
+    }
+}
+
+#[test]
+fn what_does_not_follow_is_refused_by_name() {
+    let refused = |request: Request, robot: &Robot| generate(robot, &request).unwrap_err();
+    for function in [
+        Function::LinkPoses,
+        Function::ReactionWrenches,
+        Function::FullRegressor,
+    ] {
+        let request = Request {
+            functions: vec![function],
+            ..Request::default()
+        };
+        let error = refused(request, &robot());
+        assert_eq!(error, GenerateError::Follows(function));
+        assert!(error.to_string().starts_with(&format!("`{function}` has")));
+    }
+    let reading = reading(
+        "\n[scene.coarse]\ntolerance = { value = 1e-3, relative_to = \"range\" }\nbox = { acceleration = [1, 1, 1, 1] }\n",
+    );
+    let request = Request {
+        functions: vec![Function::InverseDynamics],
+        scene: Some(reading.scenes[0].clone()),
+        ..Request::default()
+    };
+    let error = refused(request, &reading.robot).to_string();
+    assert!(
+        error.contains("joints of the robot follow others (`mimic`)"),
+        "{error}"
+    );
+}

@@ -1,0 +1,160 @@
+//! Joints that mimic others: one coordinate with their leader, against Pinocchio; followers
+//! beside the chain; what is refused by name.
+
+use dalembert_import::Options;
+use dalembert_model::outputs::{Argument, Quantity};
+use dalembert_model::reference::{JointVectors, Reference};
+use nalgebra::DVector;
+use serde_json::Value;
+
+use crate::support;
+use crate::support::{imported, refused, relative, source};
+
+const ARM: &str = "wafer";
+
+fn options() -> Options {
+    Options {
+        file: format!("{ARM}.urdf"),
+        ..Options::default()
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(list) => list.iter().flat_map(numbers).collect(),
+        other => vec![other.as_f64().unwrap()],
+    }
+}
+
+/// Every value of the file, by the runtime; the generator's tests have the same arm.
+#[test]
+fn the_runtime_gives_what_pinocchio_gives() {
+    let imported = imported(ARM, &options());
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let kept = std::fs::read_to_string(format!("{folder}/../codegen/tests/data/{ARM}.toml"));
+    assert_eq!(kept.unwrap(), imported.text);
+    let names: Vec<_> = imported
+        .robot
+        .joints
+        .iter()
+        .map(|j| j.name.clone())
+        .collect();
+    let names: Vec<&str> = names.iter().map(|name| name.as_deref().unwrap()).collect();
+    assert_eq!(names, ["turn", "lift", "shoulder", "tilt"]);
+    let runtime = Reference::<f64>::from_robot(&imported.robot);
+    let json = support::json(ARM);
+    let mut compared = 0;
+    for state in json["states"].as_array().unwrap() {
+        let of = |argument: Argument| {
+            let key = argument.given().unwrap_or_default();
+            DVector::from_vec(state.get(key).map_or_else(Vec::new, numbers))
+        };
+        let mut at = JointVectors::new(Argument::JOINTS.map(of));
+        (at.wrench, at.damping) = (of(Argument::Wrench), of(Argument::Damping));
+        for &quantity in Quantity::ALL {
+            let Some(known) = quantity.given().and_then(|key| state.get(key)) else {
+                continue;
+            };
+            let found = runtime.entries(quantity, &at).unwrap();
+            let error = relative(&found, &numbers(known));
+            assert!(error < 1e-12, "{quantity:?}: {error:e}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 23 * 5);
+}
+
+/// Both are within their limits wherever the leader is.
+#[test]
+fn limits_of_a_follower_are_its_leaders() {
+    let robot = imported(ARM, &options()).robot;
+    let [lift, shoulder] = [1, 2].map(|joint| &robot.joints[joint].limits);
+    let text = dalembert_model::robot::write(&robot);
+    // extend: 0.75 q + 0.02 in 0 to 0.32; elbow: −2 q + 0.1 in −2.7 to 2.9.
+    assert!(
+        text.contains("limits = { position = [0, 0.4], velocity = 0.6"),
+        "{text}"
+    );
+    assert!(
+        text.contains("limits = { position = [-1.4, 1.4], velocity = 2.5"),
+        "{text}"
+    );
+    assert!(lift.position.is_some() && shoulder.position.is_some());
+    let again = dalembert_model::read::parse(&text, &Default::default()).unwrap();
+    assert_eq!(again.robot, robot);
+}
+
+/// A leader that is held holds its followers, those in the chain and those beside it.
+#[test]
+fn followers_are_held_with_their_leader() {
+    let held = Options {
+        lock: vec![("shoulder".into(), "0.25".into())],
+        ..options()
+    };
+    let fixed = Options {
+        lock: [("shoulder", "0.25"), ("elbow", "-0.4"), ("level", "0.25")]
+            .map(|(joint, at)| (joint.into(), at.into()))
+            .into(),
+        ..options()
+    };
+    let [held, fixed] = [held, fixed].map(|options| imported(ARM, &options).robot);
+    assert_eq!(held.joints.len(), 3);
+    assert_eq!(held, fixed);
+    // Beside the chain: a finger that follows one of the hand's.
+    let fingers = r#"<link name="thumb"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
+      <link name="finger"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
+      <joint name="grip" type="prismatic"><parent link="blade"/><child link="thumb"/><axis xyz="0 1 0"/><limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>
+      <joint name="other" type="prismatic"><parent link="blade"/><child link="finger"/><axis xyz="0 1 0"/><mimic joint="grip" multiplier="-1" offset="0.01"/><limit lower="-0.04" upper="0.04" velocity="1" effort="1"/></joint>
+    </robot>"#;
+    let grips = source(ARM).replace("</robot>", fingers);
+    let at = |lock: &[(&str, &str)]| Options {
+        tip: Some("blade".into()),
+        lock: (lock.iter())
+            .map(|(joint, at)| ((*joint).into(), (*at).into()))
+            .collect(),
+        ..options()
+    };
+    let robot = |lock: &[(&str, &str)]| dalembert_import::import(&grips, &at(lock)).unwrap().robot;
+    let follows = robot(&[("grip", "0.03")]);
+    assert_eq!(follows, robot(&[("grip", "0.03"), ("other", "-0.02")]));
+    assert_ne!(follows, robot(&[("grip", "0.03"), ("other", "0.01")]));
+}
+
+#[test]
+fn what_cannot_follow_is_refused_by_name() {
+    let refusal = |from: &str, to: &str, base: Option<&str>| {
+        let changed = source(ARM).replace(from, to);
+        assert_ne!((changed.as_str(), base), (source(ARM).as_str(), None));
+        let base = base.map(str::to_owned);
+        refused(&changed, &Options { base, ..options() })
+    };
+    for (from, to, base, said) in [
+        (
+            "multiplier=\"-2\"",
+            "multiplier=\"-0.5\"",
+            None,
+            "joint `elbow` of the chain mimics `shoulder`, -1/2 times as far: sines are of whole multiples",
+        ),
+        (
+            "<mimic joint=\"shoulder\"/>",
+            "<mimic joint=\"lift\"/>",
+            None,
+            "joint `level` of the chain mimics `lift`, and turns where that slides",
+        ),
+        (
+            "",
+            "",
+            Some("upper"),
+            "joint `elbow` of the chain mimics `shoulder`, which is not in the chain",
+        ),
+        (
+            "lower=\"-2.7\" upper=\"2.9\"",
+            "lower=\"4\" upper=\"5\"",
+            None,
+            "there is no position at which both are within their limits",
+        ),
+    ] {
+        let text = refusal(from, to, base);
+        assert!(text.contains(said), "{text}");
+    }
+}

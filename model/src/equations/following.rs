@@ -1,0 +1,137 @@
+//! Joints that follow others along a line, by the chain rule.
+//!
+//! With c the positions of the joints that move by themselves, q = S c + o, q̇ = S ċ and
+//! q̈ = S c̈, S constant. The work τᵀ q̇ is that of Sᵀ τ at ċ, so loads add up at the
+//! leaders: τ_c = Sᵀ τ, D_c = Sᵀ D S, h_c over all three axes, J_c = J S; derivatives by
+//! position or velocity follow on their second axis.
+//!
+//! Formulas are of all joints of the table. What they give is *gathered* at the leaders,
+//! whose entries then have all; those of followers mean nothing. What divides by D gathers
+//! it first, and leaves zero at followers, so that gathering changes nothing any more.
+
+use alloc::vec::Vec;
+
+use super::matrix::{plus, times};
+use crate::number::Exact;
+use crate::robot::Robot;
+use crate::scalar::Scalar;
+
+/// A joint that follows another.
+#[derive(Clone, Debug)]
+pub struct Following<S> {
+    /// Its row, zero-based.
+    pub row: usize,
+    /// The row of its leader, which follows none.
+    pub leader: usize,
+    /// Its motion for a unit of the leader's.
+    pub multiplier: S,
+    /// The same of a joint that turns, as a whole number.
+    pub turns: i32,
+}
+
+impl<S> Following<S> {
+    /// Those of a robot, multipliers sent through `scalar`.
+    pub fn of(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
+        let followers = robot.followers.iter();
+        let following = followers.map(|follower| Following {
+            row: follower.row,
+            leader: robot.row_of(follower.leader),
+            multiplier: scalar(&Exact::from(follower.multiplier.clone())),
+            turns: follower.turns(),
+        });
+        following.collect()
+    }
+
+    /// The multiplier through `f`.
+    pub fn map<T>(&self, f: impl FnOnce(&S) -> T) -> Following<T> {
+        Following {
+            row: self.row,
+            leader: self.leader,
+            multiplier: f(&self.multiplier),
+            turns: self.turns,
+        }
+    }
+}
+
+impl<S: Clone> Following<S> {
+    /// The same among these rows alone, by their places there; none if it is not one.
+    pub fn among(&self, rows: &[usize]) -> Option<Following<S>> {
+        let place = |row: usize| rows.iter().position(|own| *own == row);
+        Some(Following {
+            row: place(self.row)?,
+            leader: place(self.leader)?,
+            ..self.clone()
+        })
+    }
+}
+
+impl<S: Scalar> Following<S> {
+    /// Its motion, from that of its leader.
+    pub fn motion(&self, leader: &S) -> S {
+        times(&self.multiplier, leader)
+    }
+}
+
+/// Adds the loads of followers to those of their leaders, along an axis of an array whose
+/// neighbours are `stride` apart, over these rows.
+pub fn gather<S: Scalar>(
+    following: &[Following<S>],
+    rows: &[usize],
+    stride: usize,
+    values: &mut [S],
+) {
+    let following = following.iter().filter_map(|own| own.among(rows));
+    let following: Vec<Following<S>> = following.collect();
+    for block in values.chunks_mut((rows.len() * stride).max(1)) {
+        for own in &following {
+            for i in 0..stride {
+                let part = own.motion(&block[own.row * stride + i]);
+                let sum = plus(&block[own.leader * stride + i], &part);
+                block[own.leader * stride + i] = sum;
+            }
+        }
+    }
+}
+
+/// Sᵀ b
+pub fn gathered<S: Scalar>(following: &[Following<S>], mut loads: Vec<S>) -> Vec<S> {
+    for own in following {
+        let part = own.motion(&loads[own.row]);
+        loads[own.leader] = plus(&loads[own.leader], &part);
+    }
+    loads
+}
+
+/// M S
+pub fn gathered_rows<S: Scalar>(following: &[Following<S>], rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    let rows = rows.into_iter();
+    rows.map(|row| gathered(following, row)).collect()
+}
+
+/// Sᵀ M
+pub fn gathered_columns<S: Scalar>(
+    following: &[Following<S>],
+    mut rows: Vec<Vec<S>>,
+) -> Vec<Vec<S>> {
+    for own in following {
+        let part = rows[own.row].iter().map(|x| own.motion(x));
+        let part: Vec<S> = part.collect();
+        for (entry, part) in rows[own.leader].iter_mut().zip(&part) {
+            *entry = plus(entry, part);
+        }
+    }
+    rows
+}
+
+/// Sᵀ D S, symmetric.
+pub fn gathered_square<S: Scalar>(following: &[Following<S>], d: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    gathered_columns(following, gathered_rows(following, d))
+}
+
+/// S ċ, from rates whose entries of followers mean nothing.
+pub fn spread<S: Scalar>(following: &[Following<S>], mut rates: Vec<S>) -> Vec<S> {
+    for own in following {
+        rates[own.row] = own.motion(&rates[own.leader]);
+    }
+    rates
+}

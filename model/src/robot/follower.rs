@@ -1,0 +1,205 @@
+//! Joints that follow others along a line: rows of the table without a coordinate.
+
+use alloc::vec::Vec;
+
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::{Joint, JointKind, Position, Robot};
+use crate::number::{Angle, Rational};
+
+/// A row of the table whose joint follows another: q = multiplier · q_leader + offset.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Follower {
+    /// Its row, zero-based.
+    pub row: usize,
+    /// The joint that it follows, zero-based among those that move by themselves.
+    pub leader: usize,
+    /// Its motion for a unit of the leader's; of a joint that turns a whole number.
+    pub multiplier: Rational,
+    /// Where it is where the leader's position is zero.
+    pub offset: Position,
+    /// What the row says.
+    pub joint: Joint,
+}
+
+impl Follower {
+    /// The largest multiplier of a joint that turns: sines of multiples of an angle are
+    /// polynomials of so high a degree.
+    pub const MAX_TURNS: i32 = 16;
+
+    /// The multiplier of a joint that turns.
+    pub fn turns(&self) -> i32 {
+        self.multiplier.to_integer().to_i32().unwrap_or_default()
+    }
+
+    /// Narrows a leader's limits to those between which its follower stays within its
+    /// own, but for that of torque; `None` if nothing is between them.
+    pub fn narrow(&self, leader: &mut Joint) -> Option<()> {
+        let (own, size) = (&self.joint.limits, self.multiplier.abs());
+        if let Some(range) = &own.position {
+            let mut range = range.each_ref().map(|end| self.at_leader(end));
+            if self.multiplier.is_negative() {
+                range.reverse();
+            }
+            let [low, high] = range;
+            let narrowed = match leader.limits.position.take() {
+                None => [low, high],
+                Some([lowest, highest]) => [lowest.max_of(low), highest.min_of(high)],
+            };
+            let is_empty = !narrowed[0].is_below(&narrowed[1]);
+            leader.limits.position = Some(narrowed);
+            if is_empty {
+                return None;
+            }
+        }
+        let rates = [
+            (&own.velocity, &mut leader.limits.velocity),
+            (&own.acceleration, &mut leader.limits.acceleration),
+        ];
+        for (own, limit) in rates {
+            if let Some(own) = own {
+                let own = own / &size;
+                let narrower = limit.take().filter(|limit| *limit <= own);
+                *limit = Some(narrower.unwrap_or(own));
+            }
+        }
+        Some(())
+    }
+
+    /// Where the leader is where the joint is at a position.
+    fn at_leader(&self, at: &Position) -> Position {
+        let part = Rational::one() / &self.multiplier;
+        let back = self.offset.scaled(&-Rational::one());
+        if let Some(exact) = at.plus(&back) {
+            return exact.scaled(&part);
+        }
+        // π is not rational: the nearest double.
+        let value = (at.number() - self.offset.number()) * part;
+        let nearest = Rational::from_float(Angle::Radians(value.clone()).to_f64());
+        Position::Angle(Angle::Radians(nearest.unwrap_or(value)).canonical())
+    }
+}
+
+impl Position {
+    /// The same times a number.
+    #[must_use]
+    pub fn scaled(&self, by: &Rational) -> Position {
+        match self {
+            Position::Angle(Angle::PiTimes(x)) => Position::Angle(Angle::PiTimes(x * by)),
+            Position::Angle(Angle::Radians(x)) => Position::Angle(Angle::Radians(x * by)),
+            Position::Length(x) => Position::Length(x * by),
+        }
+    }
+
+    /// The sum; `None` of what is a part of π and what is not, and of angles and lengths.
+    pub fn plus(&self, other: &Position) -> Option<Position> {
+        use Position::{Angle as Turn, Length};
+        match (self, other) {
+            (Turn(own), _) if own.is_zero() => Some(other.clone()),
+            (_, Turn(other)) if other.is_zero() => Some(self.clone()),
+            (Turn(Angle::PiTimes(a)), Turn(Angle::PiTimes(b))) => {
+                Some(Turn(Angle::PiTimes(a + b).canonical()))
+            }
+            (Turn(Angle::Radians(a)), Turn(Angle::Radians(b))) => {
+                Some(Turn(Angle::Radians(a + b).canonical()))
+            }
+            (Length(a), Length(b)) => Some(Length(a + b)),
+            _ => None,
+        }
+    }
+
+    /// The number of radians or metres.
+    fn number(&self) -> Rational {
+        match self {
+            Position::Angle(angle) => angle.radians(),
+            Position::Length(length) => length.clone(),
+        }
+    }
+
+    fn is_below(&self, other: &Position) -> bool {
+        self.number() < other.number()
+    }
+
+    fn max_of(self, other: Position) -> Position {
+        if self.is_below(&other) { other } else { self }
+    }
+
+    fn min_of(self, other: Position) -> Position {
+        if other.is_below(&self) { other } else { self }
+    }
+}
+
+impl Robot {
+    /// Returns the rows of the table from the base to the hand: the joints, and between
+    /// them those that follow.
+    pub fn rows(&self) -> Vec<&Joint> {
+        let mut rows: Vec<&Joint> = self.joints.iter().collect();
+        for follower in &self.followers {
+            rows.insert(follower.row.min(rows.len()), &follower.joint);
+        }
+        rows
+    }
+
+    /// Returns whether its followers are in the order of their rows, each after a joint of
+    /// its kind and in a way that equations have.
+    pub(super) fn follow(&self) -> bool {
+        let ascends = self.followers.windows(2).all(|two| two[0].row < two[1].row);
+        let rows = self.joints.len() + self.followers.len();
+        let most = Rational::from_integer(Follower::MAX_TURNS.into());
+        let can = |own: &Follower| {
+            let turns = own.joint.kind == JointKind::Revolute;
+            let leader = self.joints.get(own.leader);
+            let is_whole = own.multiplier.is_integer() && own.multiplier.abs() <= most;
+            own.row < rows
+                && leader.is_some_and(|leader| leader.kind == own.joint.kind)
+                && matches!(own.offset, Position::Angle(_)) == turns
+                && !own.multiplier.is_zero()
+                && (is_whole || !turns)
+                && !own.joint.has_coulomb()
+        };
+        ascends && self.followers.iter().all(can)
+    }
+
+    /// Returns the last row, to be changed.
+    pub fn last_row_mut(&mut self) -> Option<&mut Joint> {
+        let last = self.joints.len() + self.followers.len();
+        match self.followers.last_mut() {
+            Some(follower) if follower.row + 1 == last => Some(&mut follower.joint),
+            _ => self.joints.last_mut(),
+        }
+    }
+
+    /// Returns the row of a joint, both zero-based.
+    pub fn row_of(&self, joint: usize) -> usize {
+        let followers = self.followers.iter();
+        followers.fold(joint, |row, follower| {
+            row + usize::from(follower.row <= row)
+        })
+    }
+
+    /// Returns the joint by whose motion a row moves, both zero-based.
+    pub fn mover_of(&self, row: usize) -> usize {
+        match self.followers.iter().find(|follower| follower.row == row) {
+            Some(follower) => follower.leader,
+            None => {
+                let before = self.followers.iter().filter(|follower| follower.row < row);
+                row - before.count()
+            }
+        }
+    }
+
+    /// Takes rows, given in their order, for followers. Each names its leader by its row,
+    /// which moves by itself.
+    pub fn with_followers(mut self, mut followers: Vec<Follower>) -> Robot {
+        for follower in followers.iter_mut().rev() {
+            follower.joint = self.joints.remove(follower.row);
+        }
+        let rows: Vec<usize> = followers.iter().map(|follower| follower.row).collect();
+        for follower in &mut followers {
+            let before = rows.iter().filter(|row| **row < follower.leader);
+            follower.leader -= before.count();
+        }
+        self.followers = followers;
+        self
+    }
+}
