@@ -7,7 +7,6 @@ use crate::fault::Fault;
 use crate::file::Found;
 use crate::quantity::{FUNCTIONS, Function};
 use crate::scene::Setting;
-use crate::text;
 
 /// The longest file, and the most certificates in it.
 const MOST_BYTES: usize = 16 << 20;
@@ -61,23 +60,14 @@ impl Claim {
         }
     }
 
-    /// The function; where the text returns a struct of another name, the bundle of its fields.
+    /// The function.
     ///
     /// # Errors
-    /// It is none of those that are checked, or returns what they do not.
+    /// It is none of those that are checked.
     pub fn function(&self) -> Result<Function, Fault> {
-        if let Some(known) = Function::named(&self.function) {
-            return Ok(known);
-        }
-        let rows = self.rows.len();
-        let results = text::results(&self.function, &self.text, rows);
-        let names = FUNCTIONS.map(|(name, _)| name).join(", ");
-        let why = match Function::bundle(&results, rows) {
-            Ok(bundle) if !results.is_empty() => return Ok(bundle),
-            Ok(_) => format!("`{}`: expected one of {names}, or a bundle", self.function),
-            Err(result) => format!("`{}` returns `{result}`", self.function),
-        };
-        Err(Fault::certificate(format!("{why}, which is not checked")))
+        let names = FUNCTIONS.map(|function| function.name).join(", ");
+        let missing = || Fault::certificate(format!("`function`: expected one of {names}"));
+        Function::named(&self.function).ok_or_else(missing)
     }
 
     /// The rows, from zero.

@@ -101,8 +101,8 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
 }
 
 fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
-    let of_singles = ["[f32; ", "const float "];
-    let is_single = of_singles.iter().any(|word| found.text.contains(word));
+    let head = found.text.lines().next().unwrap_or("");
+    let is_single = head.contains("[f32; ") || head.contains("const float ");
     let claim = Claim::exact(found, is_single, setting);
     let unknown = |_| Fault::Text(found.line, format!("`{}` is not checked", found.name));
     let places = claim.function().map_err(unknown)?.places(claim.rows.len());

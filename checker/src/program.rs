@@ -37,9 +37,6 @@ pub struct Program {
     pub nodes: Vec<Node>,
     /// Blocks that compute sines; value 0 of each is the angle.
     pub blocks: Vec<Vec<Node>>,
-    /// How far joints may be turned where sines of the library are computed without asking
-    /// whether their angles are far; zero where that is asked.
-    pub near: f64,
     /// The values returned, of a matrix row by row.
     pub outputs: Vec<usize>,
 }

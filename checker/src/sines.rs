@@ -19,8 +19,6 @@ pub struct Scalar {
     pub least: f64,
     /// Where results overflow.
     pub most: f64,
-    /// Up to this angle a header's own sines are within an ulp, rad.
-    pub farthest: f64,
 }
 
 impl Scalar {
@@ -31,13 +29,11 @@ impl Scalar {
                 unit: SINGLE_UNIT,
                 least: 1e-45,
                 most: f64::from(f32::MAX),
-                farthest: 100.0,
             },
             _ => Scalar {
                 unit: UNIT,
                 least: f64::from_bits(1),
                 most: f64::MAX,
-                farthest: 8192.0,
             },
         }
     }

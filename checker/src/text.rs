@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::certificate::Claim;
 use crate::fault::Fault;
-use crate::file::{between, whole};
+use crate::file::between;
 use crate::program::{Node, Program, Source};
 use crate::quantity::Function;
 
@@ -24,7 +24,6 @@ const MOST_NODES: usize = 20_000;
 /// A function that is being read.
 #[derive(Default)]
 pub(crate) struct Parser<'t> {
-    name: &'t str,
     pub(crate) function: Function,
     pub(crate) scalar: &'t str,
     pub(crate) joints: usize,
@@ -47,8 +46,6 @@ pub(crate) struct Parser<'t> {
     /// Of what a call in a header gives the sines: values, or joints.
     pub(crate) angles: Vec<Result<usize, usize>>,
     pub(crate) is_called: bool,
-    /// Names of what holds both sines of a value.
-    pub(crate) pairs: HashMap<&'t str, usize>,
     /// The angle in the names of a block of a header.
     pub(crate) block: Option<&'t str>,
     /// What literals end with.
@@ -62,7 +59,6 @@ pub(crate) struct Parser<'t> {
 pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
     let text = &claim.text;
     let mut parser = Parser {
-        name: &claim.function,
         function: claim.function()?,
         scalar: &claim.scalar,
         joints,
@@ -70,8 +66,7 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
         lines: text.split('\n').collect(),
         ..Parser::default()
     };
-    let of_c = ["static inline ", "typedef struct "];
-    let read = match of_c.iter().any(|start| text.starts_with(start)) {
+    let read = match text.starts_with("static inline ") {
         true => parser.c_function(),
         false => parser.rust_function(),
     };
@@ -88,28 +83,28 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
 
 impl<'t> Parser<'t> {
     pub(crate) fn next(&mut self) -> Option<&'t str> {
-        let left = self.lines.get(self.line..)?;
-        self.line += 1 + left.iter().position(|line| !line.is_empty())?;
-        let line = self.lines[self.line - 1];
+        let line = *self.lines.get(self.line)?;
+        self.line += 1;
         let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
         is_plain.then(|| line.trim_matches(' '))
     }
 
     fn rust_function(&mut self) -> Option<()> {
-        let (scalar, fields) = (self.scalar, self.function.fields.clone());
+        let (function, scalar) = (self.function, self.scalar);
         let (joints, rows) = (self.joints, self.rows);
         let mut line = self.next()?;
         if line == "#[must_use]" {
             line = self.next()?;
         }
+        let fields = function.fields;
         let array =
             |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
         let is_struct = fields.len() > 1;
         let returned = match is_struct {
-            true => structure(self.name),
+            true => structure(function.name),
             false => array(fields.first()?.1.axes()),
         };
-        let head = format!("pub fn {}(", self.name);
+        let head = format!("pub fn {}(", function.name);
         let list = between(line, &head, &format!(") -> {returned} {{"))?;
         for part in list.split(", ") {
             let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
@@ -351,26 +346,6 @@ impl<'t> Parser<'t> {
         }
         Some(())
     }
-}
-
-/// The fields of the struct that a text returns, and how many entries each has; none if it
-/// returns no struct.
-pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t str, usize)> {
-    let declared = |line: &'t str| {
-        let (name, length) = line.split_once(' ')?.1.split_once('[')?;
-        Some((name, whole(length.strip_suffix("];")?)?))
-    };
-    if let Some(fields) = text.strip_prefix("typedef struct {\n") {
-        return fields.lines().map_while(declared).collect();
-    }
-    let listed = |part: &'t str| {
-        let (name, value) = part.trim_start().split_once(": ")?;
-        let open = value.split(|c| !"[ \n".contains(c)).next()?;
-        Some((name, rows.pow(open.matches('[').count() as u32)))
-    };
-    let tail = text.rsplit_once(&format!("\n    {} {{\n", structure(name)));
-    let parts = tail.map_or("", |(_, fields)| fields).split("\n        ");
-    parts.filter_map(listed).collect()
 }
 
 /// The name of the struct that a function returns.

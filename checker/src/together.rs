@@ -1,15 +1,14 @@
-//! The functions of a header that give sines, which must be these. Their operations are those of
-//! the crate `dalembert-sines`, where each result is proved to be within an ulp; what is further
-//! away than `MOST` is the C library's.
+//! The function of a header that gives the sines of several angles, which must be this one. Its
+//! operations are those of the crate `dalembert-sines`, where each result is proved to be within
+//! an ulp; what is further away than `MOST` is the C library's.
 
-use crate::file::{between, whole};
+use crate::file::whole;
 
-/// Of several angles. Literals of f32 end with F for `~`, and functions of the library with f
-/// for `^`; `@` is the name.
-const SEVERAL: &str = "#if defined(__clang__)
-__attribute__((noinline))
+/// Its lines after the first, `#if defined(__clang__)`. Literals of f32 end with F for `~`, and
+/// functions of the library with f for `^`.
+const LINES: &str = "__attribute__((noinline))
 #endif
-static inline void @(const REAL angle[ARM_RESTRICT COUNT], REAL sine[ARM_RESTRICT COUNT], REAL cosine[ARM_RESTRICT COUNT])
+HEAD(const REAL angle[ARM_RESTRICT COUNT], REAL sine[ARM_RESTRICT COUNT], REAL cosine[ARM_RESTRICT COUNT])
 {
 ARM_UNFUSED
 int i;
@@ -32,29 +31,6 @@ cosine[i] = cos^(angle[i]);
 }
 }";
 
-/// Of one angle, in a batch, which says whether it may be far; and what it returns.
-const ONE: &str = "typedef struct {
-REAL sin;
-REAL cos;
-} @_t;
-static inline @_t @(const int far, const REAL angle)
-{
-ARM_UNFUSED
-const REAL x0 = (fabs^(angle) <= MOST~) ? angle : 0.0~;
-STEPS
-const unsigned int turns = (unsigned int)(int)x3;
-const REAL one = ((turns & 1U) == 0U) ? SINE : COSINE;
-const REAL other = ((turns & 1U) == 0U) ? COSINE : SINE;
-@_t pair;
-pair.sin = ((turns & 2U) == 0U) ? one : -one;
-pair.cos = (((turns + 1U) & 2U) == 0U) ? other : -other;
-if ((far != 0) && !(fabs^(angle) <= MOST~)) {
-pair.sin = sin^(angle);
-pair.cos = cos^(angle);
-}
-return pair;
-}";
-
 /// The operations, x1 and on: a quarter turn in three parts is taken off, and polynomials follow.
 const DOUBLE: &str = "x0*0.6366197723675814 x1+6755399441055744.0 x2-6755399441055744.0
     x3*1.5707963267941523 x0-x4 x3*7.443547480480255e-13 x5-x6 x3*6.36831716351095e-25
@@ -71,17 +47,15 @@ const SINGLE: &str = "x0*0.63661975 x1+12582912.0 x2-12582912.0 x3*1.5707855 x0-
     x18+-0.0013887301 x19*x12 x20+0.041666646 x12*0.5 1.0-x22 x11*x23 x7*x12 x25*x17
     x24+x26 x7-x27 1.0-x23 x29-x22 x13*x21 x7*x11 x31+x32 x30+x33 x23+x34";
 
-/// The lines of the function that is named in a line; the header's name is in capitals.
-pub(crate) fn lines(header: &str, line: &str) -> Option<String> {
-    let several = line.strip_prefix("static inline void ");
-    let several = several.and_then(|list| list.split_once('('));
-    let name = several.map_or_else(|| between(line, "} ", "_t;"), |(name, _)| Some(name))?;
-    let (module, count) = name.split_once("_sincos").or(name.split_once("_sines_"))?;
-    let module = module.to_ascii_uppercase();
+/// The lines of the function that has this head, after the first; the header's name is in capitals.
+pub(crate) fn lines(header: &str, head: &str) -> Option<String> {
+    let (before, list) = head.split_once("_sines_")?;
+    let count = list.split_once('(')?.0;
+    let module = before
+        .strip_prefix("static inline void ")?
+        .to_ascii_uppercase();
     let is_single = module == format!("{header}_F32");
-    let is_counted = several.is_some() && whole(count).is_some();
-    let is_known = is_counted || several.is_none() && count.is_empty();
-    (is_known && (is_single || module == header)).then_some(())?;
+    (whole(count).is_some() && (is_single || module == header)).then_some(())?;
     let (real, operations, [sine, cosine], most, ends) = match is_single {
         true => ("float", SINGLE, ["x28", "x35"], "100.0", ["F", "f"]),
         false => ("double", DOUBLE, ["x40", "x47"], "8192.0", ["", ""]),
@@ -97,8 +71,7 @@ pub(crate) fn lines(header: &str, line: &str) -> Option<String> {
     };
     let steps = operations.split_whitespace().enumerate().map(step);
     let shift = operations.split(['+', ' ']).nth(2)?;
-    let text = if is_counted { SEVERAL } else { ONE };
-    let mut text = text.replace("STEPS", &steps.collect::<Vec<String>>().join("\n"));
+    let mut text = LINES.replace("STEPS", &steps.collect::<Vec<String>>().join("\n"));
     for (word, meant) in [
         ("SHIFT", shift),
         ("COSINE", cosine),
@@ -109,9 +82,8 @@ pub(crate) fn lines(header: &str, line: &str) -> Option<String> {
         ("~", ends[0]),
         ("^", ends[1]),
         ("ARM", header),
-        ("@", name),
     ] {
         text = text.replace(word, meant);
     }
-    Some(text)
+    Some(text.replacen("HEAD", head.split_once('(')?.0, 1))
 }

@@ -203,11 +203,6 @@ impl Values<'_> {
         let sums = (joints.len() - 1) as f64;
         let rounded = 2.0 * sums * sums * self.scalar.unit * range.magnitude();
         let mut exact = if is_sine { sin } else { cos };
-        let farthest = joints.len() as f64 * self.program.near;
-        if !(farthest <= self.scalar.farthest) {
-            let why = "a sum of angles is far where the batch asks of none";
-            return Err(Fault::certificate(why));
-        }
         let (error, mut size) = match source {
             // An ulp of a number up to one is at most two units.
             Source::Library => (2.0 * self.scalar.unit + rounded, 1.0),
