@@ -23,6 +23,8 @@ pub struct Line {
     pub module: String,
     /// Its name.
     pub name: String,
+    /// Its text, and the line of the file where that begins, from one.
+    pub text: (String, usize),
     /// The bounds that were shown, or the reason why none was.
     pub result: Result<Distance, Fault>,
 }
@@ -86,6 +88,7 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
     let line = |found: &Found| Line {
         module: found.module.to_owned(),
         name: found.name.to_owned(),
+        text: (found.text.clone(), found.line),
         result: distance(found, &setting),
     };
     // These compute no dynamics: one says where a box is, one which angles there are.
