@@ -14,7 +14,7 @@ fn what_is_found_is_filled_in() {
     let limits = "limits = { position = [-3, 3], velocity = 2, acceleration = 5 }";
     let (folder, file) = arm("dossier", "planar2r", "");
     let text = fs::read_to_string(&file).unwrap();
-    let text = text.replace("mass = 1\n", &format!("mass = 1\n{limits}\n"));
+    let text = text.replace("limits = { position = [\"-pi\", \"pi\"] }", limits);
     fs::write(&file, text).unwrap();
     let header = folder.join("arm.h");
     let generate = |outputs: &str| {

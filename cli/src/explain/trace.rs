@@ -76,12 +76,13 @@ fn words(trace: &Trace) -> String {
                value gives other operations\n";
     };
     let (reached, operations) = trace.operations;
-    let count_of = match constants.len() {
-        1 => "1 constant has".to_owned(),
-        more => format!("{more} constants have"),
+    let how = match trace.is_searched {
+        true => "as a search with another value has it",
+        false => "as few as could",
     };
     text += &format!(
-        "  {count_of} to follow it; {reached} of {operations} operations read that, or what does\n"
+        "  constants that follow it: {}, {how}; {reached} of {operations} operations read them, or what does\n",
+        constants.len()
     );
     let mut rows = vec![
         ["lines", "constant", "", "reaches"]
@@ -129,6 +130,7 @@ fn of_function(trace: &Trace) -> Value {
         "results_that_change": trace.results.0,
         "results": trace.results.1,
         "constants": constants.map(|all| all.iter().map(of_constant).collect::<Vec<_>>()),
+        "is_searched": trace.is_searched,
         "operations_reached": trace.operations.0,
         "operations": trace.operations.1,
     })

@@ -6,7 +6,8 @@
 //! that follow from the statement, as [`exact`](super::exact) evaluates programs, ∂f/∂p by the
 //! recursion of Newton and Euler over the robot's own numbers. Of the solutions of these linear
 //! equations one is taken whose constants are as few as can be: if one of them stayed, the others
-//! would not do. Where either of two constants would do it is the first in the program's order.
+//! would not do. Where either of two constants would do it is the last in the program's order, which
+//! is as near to the results as can be.
 //! If there is no solution, no constants do: the program has its form because of the very number.
 
 use std::cell::RefCell;
@@ -79,7 +80,8 @@ pub fn reach(
     transcript.program(program);
     let challenge = transcript.seal();
     let point = challenge.draw(0).ok_or(Unreached::Unfit)?;
-    let places = places(program);
+    let mut places = places(program);
+    places.reverse();
     let equations = Equations {
         scene_robot,
         program,
@@ -233,6 +235,7 @@ impl Equations<'_> {
                 follow.push(*place);
             }
         }
+        follow.sort_unstable();
         let constants = Some(follow);
         Some(Reach { outputs, constants })
     }

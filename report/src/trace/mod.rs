@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::Generated;
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, generate};
 use dalembert_codegen::workspace::program::fused::fusion;
 use dalembert_codegen::workspace::program::{Literal, Operand, Operation, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneError;
@@ -19,6 +19,10 @@ use dalembert_codegen::workspace::verify::reach::{Place, Unreached, reach};
 use dalembert_model::robot::Robot;
 
 use parameter::Parameter;
+
+/// By how many thousandths a number is changed to see which constants a search changes: it may
+/// find other operations.
+const OTHERS: [i64; 4] = [1, 2, 5, 10];
 
 /// What a number reaches in a function.
 #[derive(Clone, Debug)]
@@ -29,6 +33,9 @@ pub struct Trace {
     pub results: (Vec<String>, usize),
     /// The constants that follow it; none if the code has its form because of the very number.
     pub constants: Option<Vec<Follower>>,
+    /// `true` if a search with another value finds the same operations, and these are the constants
+    /// that it changes; else they are as few as could follow the number.
+    pub is_searched: bool,
     /// How many operations what these constants are in reaches, of how many.
     pub operations: (usize, usize),
 }
@@ -92,8 +99,13 @@ pub fn trace(
 ) -> Result<Vec<Trace>, TraceError> {
     let setting = |robot: &Robot| request.scene_robot(robot).map_err(TraceError::Scene);
     let scene_robot = setting(robot)?;
-    let [once, twice] = parameter.others(robot);
-    let others = [&setting(&once)?, &setting(&twice)?];
+    let [once, twice] = [1, 2].map(|by| setting(&parameter.with(robot, by)));
+    let others = [&once?, &twice?];
+    let anew = Request {
+        plan: None,
+        ..request.clone()
+    };
+    let mut changed: Vec<Vec<GeneratedFunction>> = Vec::new();
     let mut traces = Vec::new();
     for own in &generated.functions {
         if own.admitted.is_some() {
@@ -123,7 +135,19 @@ pub fn trace(
                 results: entries(outputs),
             }
         };
-        let constants = reached.constants.as_ref();
+        let mut searched = None;
+        for (index, by) in OTHERS.iter().enumerate() {
+            if searched.is_some() || own.planned || reached.constants.is_none() {
+                break;
+            }
+            if changed.len() == index {
+                changed.push(searched_with(&anew, parameter, robot, *by));
+            }
+            let mut others = changed[index].iter();
+            let other = others.find(|other| other.function == function);
+            searched = other.and_then(|other| differing(program, &other.program));
+        }
+        let constants = searched.as_ref().or(reached.constants.as_ref());
         let constants = constants.map(|all| all.iter().map(follower).collect());
         traces.push(Trace {
             function,
@@ -132,10 +156,45 @@ pub fn trace(
                 program.outputs.len(),
             ),
             constants,
+            is_searched: searched.is_some(),
             operations: (all.len(), program.steps.len()),
         });
     }
     Ok(traces)
+}
+
+/// What a search finds with another value of a number.
+fn searched_with(
+    anew: &Request,
+    parameter: &Parameter,
+    robot: &Robot,
+    by: i64,
+) -> Vec<GeneratedFunction> {
+    // It may be that nothing can be generated with it: then no search says anything.
+    let changed = generate(&parameter.with(robot, by), anew).ok();
+    changed.map_or(Vec::new(), |changed| changed.functions)
+}
+
+/// Where the constants of two programs differ; `None` if they differ otherwise.
+fn differing(program: &Program, other: &Program) -> Option<Vec<Place>> {
+    let mut shape = program.clone();
+    let mut places = Vec::new();
+    let mut same = |own: &mut Operand, other: &Operand, place: Place| {
+        if let (Operand::Constant(own), Operand::Constant(other)) = (own, other)
+            && own != other
+        {
+            *own = other.clone();
+            places.push(place);
+        }
+    };
+    for (index, (own, other)) in shape.steps.iter_mut().zip(&other.steps).enumerate() {
+        same(&mut own.left, &other.left, Place::Step(index, 0));
+        same(&mut own.right, &other.right, Place::Step(index, 1));
+    }
+    for (index, (own, other)) in shape.outputs.iter_mut().zip(&other.outputs).enumerate() {
+        same(&mut own.value, &other.value, Place::Output(index));
+    }
+    (shape == *other).then_some(places)
 }
 
 /// The steps and results that read a place, or read what reads it.

@@ -2,6 +2,7 @@
 
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Joint, JointKind, Robot, values};
+use num_traits::{One, Zero};
 
 /// The keys of a joint, as a message lists them.
 const KEYS: &str = "mass, com.x to com.z, inertia.xx, yy, zz, xy, yz or xz, a, d, alpha, theta, offset, viscous, \
@@ -66,22 +67,24 @@ impl Parameter {
         Ok(parameter)
     }
 
-    /// The robot with two other values of it, as [`reach`] takes them.
-    ///
-    /// [`reach`]: dalembert_codegen::workspace::verify::reach::reach
-    pub fn others(&self, robot: &Robot) -> [Robot; 2] {
-        [1, 2].map(|times: i64| {
-            let mut other = robot.clone();
-            match self.cell(&mut other) {
-                // An odd part, so that nothing becomes zero.
-                Some(Cell::Number(value)) => *value += Rational::new(times.into(), 97.into()),
-                Some(Cell::Angle(value)) => {
-                    *value = Angle::Radians(Rational::new(31.into(), 97.into()));
-                }
-                None => {}
+    /// The robot with the number larger by so many thousandths of it, or of one if it is zero. An
+    /// angle has the same other value, whatever their number.
+    pub fn with(&self, robot: &Robot, thousandths: i64) -> Robot {
+        let mut other = robot.clone();
+        match self.cell(&mut other) {
+            Some(Cell::Number(value)) => {
+                let whole = match value.is_zero() {
+                    true => Rational::one(),
+                    false => value.clone(),
+                };
+                *value += whole * Rational::new(thousandths.into(), 1000.into());
             }
-            other
-        })
+            Some(Cell::Angle(value)) => {
+                *value = Angle::Radians(Rational::new(31.into(), 97.into()));
+            }
+            None => {}
+        }
+        other
     }
 
     fn cell<'r>(&self, robot: &'r mut Robot) -> Option<Cell<'r>> {
@@ -110,7 +113,7 @@ impl Parameter {
             ("a", _) => Cell::Number(a),
             ("mass", _) => Cell::Number(mass),
             ("viscous", _) => Cell::Number(viscous),
-            ("coulomb", _) if !coulomb.numer().eq(&0.into()) => Cell::Number(coulomb),
+            ("coulomb", _) if !coulomb.is_zero() => Cell::Number(coulomb),
             ("armature", _) => Cell::Number(armature),
             ("inertia.xx", _) => Cell::Number(&mut inertia.xx),
             ("inertia.yy", _) => Cell::Number(&mut inertia.yy),
