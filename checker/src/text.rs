@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::certificate::Claim;
 use crate::fault::Fault;
-use crate::file::between;
+use crate::file::{between, whole};
 use crate::program::{Node, Program, Source};
 use crate::quantity::Function;
 
@@ -24,6 +24,7 @@ const MOST_NODES: usize = 20_000;
 /// A function that is being read.
 #[derive(Default)]
 pub(crate) struct Parser<'t> {
+    name: &'t str,
     pub(crate) function: Function,
     pub(crate) scalar: &'t str,
     pub(crate) joints: usize,
@@ -59,6 +60,7 @@ pub(crate) struct Parser<'t> {
 pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
     let text = &claim.text;
     let mut parser = Parser {
+        name: &claim.function,
         function: claim.function()?,
         scalar: &claim.scalar,
         joints,
@@ -66,7 +68,8 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
         lines: text.split('\n').collect(),
         ..Parser::default()
     };
-    let read = match text.starts_with("static inline ") {
+    let of_c = ["static inline ", "typedef struct "];
+    let read = match of_c.iter().any(|start| text.starts_with(start)) {
         true => parser.c_function(),
         false => parser.rust_function(),
     };
@@ -83,28 +86,28 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
 
 impl<'t> Parser<'t> {
     pub(crate) fn next(&mut self) -> Option<&'t str> {
-        let line = *self.lines.get(self.line)?;
-        self.line += 1;
+        let left = self.lines.get(self.line..)?;
+        self.line += 1 + left.iter().position(|line| !line.is_empty())?;
+        let line = self.lines[self.line - 1];
         let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
         is_plain.then(|| line.trim_matches(' '))
     }
 
     fn rust_function(&mut self) -> Option<()> {
-        let (function, scalar) = (self.function, self.scalar);
+        let (scalar, fields) = (self.scalar, self.function.fields.clone());
         let (joints, rows) = (self.joints, self.rows);
         let mut line = self.next()?;
         if line == "#[must_use]" {
             line = self.next()?;
         }
-        let fields = function.fields;
         let array =
             |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
         let is_struct = fields.len() > 1;
         let returned = match is_struct {
-            true => structure(function.name),
+            true => structure(self.name),
             false => array(fields.first()?.1.axes()),
         };
-        let head = format!("pub fn {}(", function.name);
+        let head = format!("pub fn {}(", self.name);
         let list = between(line, &head, &format!(") -> {returned} {{"))?;
         for part in list.split(", ") {
             let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
@@ -346,6 +349,27 @@ impl<'t> Parser<'t> {
         }
         Some(())
     }
+}
+
+/// The fields of the struct that a text returns, and how many entries each has; none if it
+/// returns no struct.
+pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t str, usize)> {
+    let declared = |line: &'t str| {
+        let (name, length) = line.split_once(' ')?.1.split_once('[')?;
+        Some((name, whole(length.strip_suffix("];")?)?))
+    };
+    if let Some(fields) = text.strip_prefix("typedef struct {\n") {
+        let lines = fields.lines().filter(|line| !line.is_empty());
+        return lines.map_while(declared).collect();
+    }
+    let tail = text.rsplit_once(&format!("\n    {} {{\n", structure(name)));
+    let tail = tail.map_or("", |(_, fields)| fields);
+    let listed = |(place, _): (usize, &str)| {
+        let name = tail[..place].rsplit(' ').next()?;
+        let open = tail[place + 2..].split(|c| !"[ \n".contains(c)).next()?;
+        Some((name, rows.pow(open.matches('[').count() as u32)))
+    };
+    tail.match_indices(": ").filter_map(listed).collect()
 }
 
 /// The name of the struct that a function returns.

@@ -255,7 +255,8 @@ fn problems(functions: &[(&Line, Body)], source: &str) -> [(bool, &'static str);
         ),
         (
             source.contains("in_box("),
-            "The code holds inside a box only, and does not ask by itself whether a state is inside.",
+            "The code holds inside a box only, and does not ask by itself whether a state is inside; the checker does not \
+             look at `in_box`.",
         ),
         (
             polynomials,
