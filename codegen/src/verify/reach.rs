@@ -125,7 +125,7 @@ fn rates(scene_robot: &SceneRobot, others: [&SceneRobot; 2]) -> Option<Vec<Exact
 }
 
 /// Where constants are, in the program's order.
-fn places(program: &Program) -> Vec<(Place, &Exact)> {
+fn places<'p>(program: &'p Program) -> Vec<(Place, &'p Exact)> {
     let steps = program.steps.iter().enumerate();
     let of_steps = steps.flat_map(|(index, step)| {
         [
@@ -135,8 +135,8 @@ fn places(program: &Program) -> Vec<(Place, &Exact)> {
     });
     let outputs = program.outputs.iter().enumerate();
     let of_outputs = outputs.map(|(index, output)| (Place::Output(index), &output.value));
-    let constant = |(place, operand)| match operand {
-        &Operand::Constant(ref value) => Some((place, value)),
+    let constant = |(place, operand): (Place, &'p Operand)| match operand {
+        Operand::Constant(value) => Some((place, value)),
         _ => None,
     };
     of_steps.chain(of_outputs).filter_map(constant).collect()

@@ -270,7 +270,7 @@ fn line<'t>(
         }
         Place::Output(_) => {
             let literal = literal(program, place, scalar);
-            let last = lines().filter(|(_, line)| line.starts_with("let ")).last();
+            let last = lines().rfind(|(_, line)| line.starts_with("let "));
             let behind = last.map_or(0, |(number, _)| number);
             lines().find(|(number, line)| *number > behind && line.contains(&literal))
         }
