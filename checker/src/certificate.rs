@@ -4,10 +4,9 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
-use crate::file::Found;
+use crate::file::{Found, results};
 use crate::quantity::{FUNCTIONS, Function};
 use crate::scene::Setting;
-use crate::text;
 
 /// The longest file, and the most certificates in it.
 const MOST_BYTES: usize = 16 << 20;
@@ -70,10 +69,10 @@ impl Claim {
             return Ok(known);
         }
         let rows = self.rows.len();
-        let results = text::results(&self.function, &self.text, rows);
+        let returned = results(&self.function, &self.text, rows);
         let names = FUNCTIONS.map(|(name, _)| name).join(", ");
-        let why = match Function::bundle(&results, rows) {
-            Ok(bundle) if !results.is_empty() => return Ok(bundle),
+        let why = match Function::bundle(&returned, rows) {
+            Ok(bundle) if !returned.is_empty() => return Ok(bundle),
             Ok(_) => format!("expected one of {names}, or a bundle"),
             Err(result) => format!("it returns `{result}`"),
         };

@@ -120,6 +120,35 @@ pub(crate) fn whole(word: &str) -> Option<usize> {
     (word == format!("{number}")).then_some(number)
 }
 
+/// The fields of the struct that a text returns, and how many entries each has; none if it
+/// returns no struct.
+pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t str, usize)> {
+    let declared = |line: &'t str| {
+        let (name, length) = line.split_once(' ')?.1.split_once('[')?;
+        Some((name, whole(length.strip_suffix("];")?)?))
+    };
+    if let Some(fields) = text.strip_prefix("typedef struct {\n") {
+        let lines = fields.lines().filter(|line| !line.is_empty());
+        return lines.map_while(declared).collect();
+    }
+    let tail = text.rsplit_once(&format!("\n    {} {{\n", structure(name)));
+    let tail = tail.map_or("", |(_, fields)| fields);
+    let listed = |(place, _): (usize, &str)| {
+        let name = tail[..place].rsplit(' ').next()?;
+        let open = tail[place + 2..].split(|c| !"[ \n".contains(c)).next()?;
+        Some((name, rows.pow(open.matches('[').count() as u32)))
+    };
+    tail.match_indices(": ").filter_map(listed).collect()
+}
+
+/// The name of the struct that a function returns.
+pub(crate) fn structure(name: &str) -> String {
+    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
+    words
+        .map(|(first, rest)| first.to_ascii_uppercase() + rest)
+        .collect()
+}
+
 /// Whether a line is empty, an attribute or a comment: documentation, or the first line of a file.
 fn is_plain((number, line): (usize, &str)) -> bool {
     let words = line.trim_start_matches(' ');
