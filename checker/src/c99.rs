@@ -2,12 +2,13 @@
 //!
 //! Nothing is skipped but comments. Every directive is one of those below, so that no macro
 //! gives a word another meaning, and what is defined has the header's name in front of its
-//! own. Sines of the header's own are those of `together`; structs are not read.
+//! own. Sines of the header's own are those of `together`. A function's text begins with its
+//! struct, if it has one.
 
 use crate::fault::Fault;
-use crate::file::{Found, between, is_letter, whole};
+use crate::file::{Found, Lines, between, is_letter, item, whole};
 use crate::program::{Node, Source};
-use crate::quantity::{FUNCTIONS, Quantity};
+use crate::quantity::FUNCTIONS;
 use crate::text::Parser;
 use crate::together;
 
@@ -36,94 +37,93 @@ const BEHIND: &str = "#if FUSES\n#pragma GCC pop_options\n#endif\n#endif";
 const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || \
      defined(__FP_FAST_FMAF)) && (defined(__cplusplus) || !defined(__STRICT_ANSI__))";
 
+fn fault((number, line): (usize, &str)) -> Fault {
+    Fault::Text(number, format!("not of a header that is checked: `{line}`"))
+}
+
+/// Reads lines that have to be these; a header that calls no sines needs no library.
+fn take(lines: &mut Lines, expected: &str) -> Result<(), Fault> {
+    for expected in expected.lines() {
+        match lines.split_first() {
+            Some((first, behind)) if first.1 == expected => *lines = behind,
+            _ if expected == "#include <math.h>" => {}
+            first => return Err(fault(first.map_or((1, ""), |(first, _)| *first))),
+        }
+    }
+    Ok(())
+}
+
 /// Reads a header.
 ///
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
-    let fault = |(number, line): (usize, &str)| {
-        Fault::Text(number, format!("not of a header that is checked: `{line}`"))
-    };
+    let is_batch = |line: &str| line.contains("_batch(const size_t n");
+    if let Some(line) = source.lines().position(is_batch) {
+        let why = "batches are not checked: `--entries single` prints the same functions alone";
+        return Err(Fault::Text(line + 1, why.into()));
+    }
     let lines = code(source).map_err(fault)?;
-    let name = lines
-        .first()
-        .and_then(|(_, line)| between(line, "#ifndef ", "_H"));
-    let name = name.unwrap_or("");
+    let mut lines = lines.as_slice();
+    let guard = lines.first().map_or("", |(_, line)| line);
+    let name = between(guard, "#ifndef ", "_H").unwrap_or("");
     let known = |text: &str| text.replace("FUSES", FUSES).replace("ARM", name);
-    let mut lines = lines.into_iter().peekable();
-    for expected in known(BEFORE).lines() {
-        // A header that calls no sines needs no library.
-        let is_there = lines.next_if(|(_, line)| *line == expected).is_some();
-        if !is_there && expected != "#include <math.h>" {
-            return Err(fault(lines.next().unwrap_or((1, ""))));
+    take(&mut lines, &known(BEFORE))?;
+    let behind = known(BEHIND);
+    let (mut all, mut structure): (Vec<Found>, Option<Found>) = (Vec::new(), None);
+    while let Some(&first) = lines.first() {
+        if behind.starts_with(first.1) && structure.is_none() {
+            take(&mut lines, &behind)?;
+            return lines.first().map_or(Ok(all), |line| Err(fault(*line)));
         }
-    }
-    let mut all = Vec::new();
-    loop {
-        while let Some(first) = lines.next_if(|(_, line)| *line == "#if defined(__clang__)") {
-            let head = lines.clone().nth(2).unwrap_or(first);
-            let sines = together::lines(name, head.1).ok_or_else(|| fault(head))?;
-            for expected in sines.lines() {
-                let next = lines.next_if(|(_, line)| *line == expected);
-                next.ok_or_else(|| fault(head))?;
-            }
+        if first.1 == "#if defined(__clang__)" {
+            let head = lines.get(3).unwrap_or(&first);
+            let sines = together::lines(name, head.1).ok_or_else(|| fault(*head))?;
+            take(&mut lines, &sines)?;
+            continue;
         }
-        let Some(head) = lines.next_if(|(_, line)| line.starts_with("static inline ")) else {
-            break;
+        let before = lines;
+        let found = item(&mut lines).filter(|found| !found.text.contains('#'));
+        let mut found = found.ok_or_else(|| fault(first))?;
+        let last = before[before.len() - lines.len() - 1].1;
+        let named = match first.1.strip_prefix("static inline ") {
+            Some(head) if last == "}" => head.split_once('(').map(|(before, _)| before),
+            _ => between(last, "} ", ";").filter(|_| first.1 == "typedef struct {"),
         };
-        let mut text = format!("{}\n", head.1);
-        let mut depth = 0usize;
-        let last = loop {
-            let next = lines.next_if(|(_, line)| !line.starts_with('#'));
-            let (number, line) = next.ok_or_else(|| fault(head))?;
-            let count = |brace| line.matches(brace).count();
-            depth += count('{');
-            let is_end = depth == count('}');
-            depth = depth
-                .checked_sub(count('}'))
-                .ok_or_else(|| fault((number, line)))?;
-            text += &format!("{line}\n");
-            if is_end {
-                break line;
-            }
-        };
-        let named = head
-            .1
-            .split_once('(')
-            .and_then(|(before, _)| before.rsplit(' ').next());
-        let own = named.and_then(|named| named.split_at_checked(name.len()));
-        let (module, word) = own.unwrap_or_default();
-        let is_own = module.to_ascii_uppercase() == name && word.chars().all(is_letter);
-        let Some(word) = word.strip_prefix('_').filter(|_| is_own && last == "}") else {
-            return Err(fault(head));
-        };
+        let named = named.and_then(|named| named.rsplit(' ').next());
+        let named = named.unwrap_or_default();
+        let own = named.split_at_checked(name.len()).unwrap_or_default();
+        let is_own = own.0.to_ascii_uppercase() == name && own.1.chars().all(is_letter);
+        let word = own.1.strip_prefix('_').filter(|_| is_own);
+        let word = word.ok_or_else(|| fault(first))?;
         let word = word.strip_prefix("f32_").unwrap_or(word);
-        let module = named.and_then(|named| named.strip_suffix(word));
-        let module = module.unwrap_or_default().trim_end_matches('_');
-        // Words of a long name are shortened.
-        let is_short = |long: &str| {
-            let mut pairs = word.split('_').zip(long.split('_'));
-            let alike = pairs.all(|(short, long)| short.len() > 1 && long.starts_with(short));
-            alike && word.split('_').count() == long.split('_').count()
-        };
-        let function = FUNCTIONS.iter().find(|function| is_short(function.name));
-        let (name, line) = (function.map_or(word, |function| function.name), head.0);
-        all.push(Found {
-            module,
-            name,
-            line,
-            text,
-        });
+        let module = named.strip_suffix(word).unwrap_or("");
+        found.module = module.trim_end_matches('_');
+        match structure.take() {
+            None if last != "}" => structure = Some(found),
+            None => {
+                // Words of a long name are shortened; those of a bundle's are its own.
+                let mut known = FUNCTIONS.iter().map(|(name, _)| *name);
+                found.name = known.find(|name| is_short(word, name)).unwrap_or(word);
+                all.push(found);
+            }
+            Some(own) => {
+                let gap = found.line - own.line - own.text.lines().count();
+                found.text = own.text + &"\n".repeat(gap) + &found.text;
+                (found.name, found.line) = (word, own.line);
+                all.push(found);
+            }
+        }
     }
-    let behind: Vec<(usize, &str)> = lines.collect();
-    match behind
-        .iter()
-        .map(|(_, line)| *line)
-        .eq(known(BEHIND).lines())
-    {
-        true => Ok(all),
-        false => Err(fault(behind.first().copied().unwrap_or((1, "")))),
-    }
+    let end = source.lines().count();
+    Err(Fault::Text(end, "the header does not end".into()))
+}
+
+/// Whether a name is another whose words are shortened.
+fn is_short(word: &str, long: &str) -> bool {
+    let mut pairs = word.split('_').zip(long.split('_'));
+    let is_alike = pairs.all(|(short, long)| short.len() > 1 && long.starts_with(short));
+    is_alike && word.split('_').count() == long.split('_').count()
 }
 
 /// The lines that are neither empty nor comments, with their numbers; or the first line that
@@ -153,46 +153,55 @@ fn code(source: &str) -> Result<Vec<(usize, &str)>, (usize, &str)> {
 }
 
 impl<'t> Parser<'t> {
-    /// Reads a function of a header.
+    /// Reads a function of a header, after its struct.
     pub(crate) fn c_function(&mut self) -> Option<()> {
         let (float, suffix) = match self.scalar {
             "f32" => ("float", "F"),
             _ => ("double", ""),
         };
         self.suffix = suffix;
-        let (fields, rows) = (self.function.fields, self.rows);
-        let length = |quantity: Quantity| rows.pow(quantity.axes() as u32);
-        let is_number = fields.iter().all(|(_, quantity)| quantity.axes() == 0);
+        let fields = self.function.fields.iter();
+        let fields = fields.map(|(field, quantity)| (*field, quantity.length(self.rows)));
+        let fields: Vec<(&str, usize)> = fields.collect();
+        let mut quantities = self.function.fields.iter().map(|(_, own)| own);
+        let has_axes = quantities.any(|own| own.axes() > 0);
+        let (mut head, mut before) = (self.next()?, "");
+        let is_struct = head == "typedef struct {";
+        let is_number = !is_struct && !has_axes;
+        let arrays = fields.iter().filter(|_| !is_number);
+        let arrays = arrays.map(|(field, length)| (format!("{float} {field}"), *length));
+        let mut results: Vec<(String, usize)> = arrays.collect();
+        if is_struct {
+            for (array, length) in results {
+                (self.next()? == format!("{array}[{length}];")).then_some(())?;
+            }
+            let name = between(self.next()?, "} ", ";")?;
+            results = vec![(format!("{name} result"), 1)];
+            (head, before) = (self.next()?, "result->");
+        }
         let result = if is_number { float } else { "void" };
-        let list = self
-            .next()?
-            .strip_prefix("static inline ")?
-            .strip_prefix(result)?;
-        let mut arrays = fields.iter().filter(|_| !is_number);
+        let list = head.strip_prefix("static inline ")?.strip_prefix(result)?;
+        let mut results = results.into_iter();
         for parameter in list.split_once('(')?.1.strip_suffix(')')?.split(", ") {
             let (before, count) = parameter.strip_suffix(']')?.split_once("_RESTRICT ")?;
             let before = before.split_once('[')?.0;
-            let argument = before
-                .strip_prefix("const ")
-                .and_then(|b| b.strip_prefix(float));
+            let argument = before.strip_prefix("const ");
+            let argument = argument.and_then(|argument| argument.strip_prefix(float));
             let expected = match argument.and_then(|argument| argument.strip_prefix(' ')) {
                 Some(argument) => self.argument(argument).map(|()| self.joints)?,
                 None => {
-                    let (field, quantity) = arrays.next()?;
-                    (before == format!("{float} {field}")).then(|| length(*quantity))?
+                    let (array, length) = results.next()?;
+                    (before == array).then_some(length)?
                 }
             };
             (count == expected.to_string()).then_some(())?;
         }
-        arrays.next().is_none().then_some(())?;
+        results.next().is_none().then_some(())?;
         (self.next()? == "{" && self.next()?.ends_with("_UNFUSED")).then_some(())?;
         let mut line = self.next()?;
         while let Some(rest) = line.trim_start_matches("const ").strip_prefix(float) {
-            let rest = between(rest, " ", ";")?;
-            match rest
-                .split_once(" = ")
-                .filter(|_| line.starts_with("const "))
-            {
+            let (rest, is_constant) = (between(rest, " ", ";")?, line.starts_with("const "));
+            match rest.split_once(" = ").filter(|_| is_constant) {
                 Some((name, value)) => self.c_statement(name, value)?,
                 None => self.called(rest, float)?,
             }
@@ -202,13 +211,11 @@ impl<'t> Parser<'t> {
         while ["(void)q;", "(void)qd;", "(void)qdd;"].contains(&line) {
             line = self.next()?;
         }
-        for (field, quantity) in fields {
-            for index in 0..length(*quantity) {
-                let target = match is_number {
-                    true => "return ".to_owned(),
-                    false => format!("{field}[{index}] = "),
-                };
-                let value = line.strip_prefix(target.as_str())?.strip_suffix(';')?;
+        for (field, length) in fields {
+            for index in 0..length {
+                let target = format!("{before}{field}[{index}] = ");
+                let target = if is_number { "return " } else { &target };
+                let value = line.strip_prefix(target)?.strip_suffix(';')?;
                 let value = self.operand(value)?;
                 self.program.outputs.push(value);
                 line = self.next()?;

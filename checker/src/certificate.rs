@@ -4,7 +4,7 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
-use crate::file::Found;
+use crate::file::{Found, results};
 use crate::quantity::{FUNCTIONS, Function};
 use crate::scene::Setting;
 
@@ -60,14 +60,24 @@ impl Claim {
         }
     }
 
-    /// The function.
+    /// The function; where the text returns a struct of another name, the bundle of its fields.
     ///
     /// # Errors
-    /// It is none of those that are checked.
+    /// It is none of those that are checked, or returns what they do not.
     pub fn function(&self) -> Result<Function, Fault> {
-        let names = FUNCTIONS.map(|function| function.name).join(", ");
-        let missing = || Fault::certificate(format!("`function`: expected one of {names}"));
-        Function::named(&self.function).ok_or_else(missing)
+        if let Some(known) = Function::named(&self.function) {
+            return Ok(known);
+        }
+        let rows = self.rows.len();
+        let returned = results(&self.function, &self.text, rows);
+        let names = FUNCTIONS.map(|(name, _)| name).join(", ");
+        let why = match Function::bundle(&returned, rows) {
+            Ok(bundle) if !returned.is_empty() => return Ok(bundle),
+            Ok(_) => format!("expected one of {names}, or a bundle"),
+            Err(result) => format!("it returns `{result}`"),
+        };
+        let why = format!("`{}` is not checked: {why}", self.function);
+        Err(Fault::certificate(why))
     }
 
     /// The rows, from zero.
@@ -86,18 +96,13 @@ impl Claim {
         let known = ["f64", "f32"].contains(&self.scalar.as_str());
         let has_rows = count < 64 && !self.rows.contains(&0);
         let has_total = self.total.len() == outputs && self.total.iter().all(is_bound);
-        let needed = |good: bool, why| good.then_some(()).ok_or_else(|| Fault::certificate(why));
-        needed(self.certificate == 2, "`certificate`: expected format 2")?;
-        needed(known, "`scalar`: expected f64 or f32")?;
-        needed(has_rows, "`rows`: expected joints, from 1")?;
-        needed(
-            self.scale.len() == outputs,
-            "`scale`: expected one an output",
-        )?;
-        needed(
-            has_total,
-            "`total`: expected E, zero or above, one an output",
-        )
+        let (has_format, has_scale) = (self.certificate == 2, self.scale.len() == outputs);
+        Fault::unless(has_format, "`certificate`: expected format 2")?;
+        Fault::unless(known, "`scalar`: expected f64 or f32")?;
+        Fault::unless(has_rows, "`rows`: expected joints, from 1")?;
+        Fault::unless(has_scale, "`scale`: expected one an output")?;
+        let why = "`total`: expected E, zero or above, one an output";
+        Fault::unless(has_total, why)
     }
 }
 
@@ -106,17 +111,14 @@ impl Claim {
 /// # Errors
 /// What has not a certificate's fields; what they say is for [`crate::audit`] to judge.
 pub fn read(text: &str) -> Result<Vec<Claim>, Fault> {
-    if text.len() > MOST_BYTES {
-        return Err(Fault::certificate(format!("more than {MOST_BYTES} bytes")));
-    }
+    let why = format!("more than {MOST_BYTES} bytes");
+    Fault::unless(text.len() <= MOST_BYTES, &why)?;
     let read: Result<Vec<Claim>, serde_json::Error> = match text.trim_start().starts_with('[') {
         true => serde_json::from_str(text),
         false => serde_json::from_str(text).map(|one| vec![one]),
     };
     let claims = read.map_err(|error| Fault::certificate(error.to_string()))?;
-    if !(1..=MOST_CLAIMS).contains(&claims.len()) {
-        let why = format!("1 to {MOST_CLAIMS} in a file, not {}", claims.len());
-        return Err(Fault::certificate(why));
-    }
+    let why = format!("1 to {MOST_CLAIMS} in a file, not {}", claims.len());
+    Fault::unless((1..=MOST_CLAIMS).contains(&claims.len()), &why)?;
     Ok(claims)
 }

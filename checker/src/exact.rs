@@ -23,6 +23,8 @@ pub struct Line {
     pub module: String,
     /// Its name.
     pub name: String,
+    /// Its text, and the line of the file where that begins, from one.
+    pub text: (String, usize),
     /// The bounds that were shown, or the reason why none was.
     pub result: Result<Distance, Fault>,
 }
@@ -86,6 +88,7 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
     let line = |found: &Found| Line {
         module: found.module.to_owned(),
         name: found.name.to_owned(),
+        text: (found.text.clone(), found.line),
         result: distance(found, &setting),
     };
     // These compute no dynamics: one says where a box is, one which angles there are.
@@ -101,10 +104,11 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
 }
 
 fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
-    let head = found.text.lines().next().unwrap_or("");
-    let is_single = head.contains("[f32; ") || head.contains("const float ");
+    let of_singles = ["[f32; ", "const float "];
+    let is_single = of_singles.iter().any(|word| found.text.contains(word));
     let claim = Claim::exact(found, is_single, setting);
-    let unknown = |_| Fault::Text(found.line, format!("`{}` is not checked", found.name));
+    let why = |fault: Fault| fault.to_string().replace("certificate: ", "");
+    let unknown = |fault| Fault::Text(found.line, why(fault));
     let places = claim.function().map_err(unknown)?.places(claim.rows.len());
     let all = measure(&claim, setting, |_| f64::INFINITY).map_err(|fault| match fault {
         Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),

@@ -29,6 +29,11 @@ impl Fault {
     pub(crate) fn certificate(why: impl Into<String>) -> Fault {
         Fault::Certificate(why.into())
     }
+
+    /// Refuses a certificate unless something holds.
+    pub(crate) fn unless(holds: bool, why: &str) -> Result<(), Fault> {
+        holds.then_some(()).ok_or_else(|| Fault::certificate(why))
+    }
 }
 
 impl fmt::Display for Fault {

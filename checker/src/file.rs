@@ -11,7 +11,7 @@ use crate::fault::Fault;
 pub const MOST_BYTES: usize = 32 << 20;
 
 /// A function of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Found<'t> {
     /// The module that it is in; empty where the file is the module.
     pub module: &'t str,
@@ -41,66 +41,66 @@ const FORBIDDEN: [&str; 12] = [
     "crate", "return",
 ];
 
+/// Lines of code that are still to be read, with their numbers.
+pub(crate) type Lines<'l, 't> = &'l [(usize, &'t str)];
+
+/// Reads an item up to where all that it opens is closed, without a name so far.
+pub(crate) fn item<'t>(lines: &mut Lines<'_, 't>) -> Option<Found<'t>> {
+    let (mut found, mut depth) = (Found::default(), 0usize);
+    found.line = lines.first()?.0;
+    loop {
+        let (&(number, line), behind) = lines.split_first()?;
+        let count = |brackets: [char; 3]| line.matches(brackets).count();
+        let before = found.text.matches('\n').count();
+        found.text += &"\n".repeat(number - found.line - before);
+        found.text += &format!("{line}\n");
+        *lines = behind;
+        depth = (depth + count(['{', '[', '('])).checked_sub(count(['}', ']', ')']))?;
+        if depth == 0 && line.ends_with(['}', ';']) {
+            return Some(found);
+        }
+    }
+}
+
 /// Reads a file.
 ///
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
-    let mut all = Vec::new();
-    let mut open: Option<Found> = None;
-    let (mut module, mut depth, mut has_items) = (None, 0usize, false);
-    for (index, line) in source.split('\n').enumerate() {
-        let fault = || Fault::Text(index + 1, format!("nothing that is generated: `{line}`"));
-        let words = line.trim_start_matches(' ');
-        let is_plain = words.is_empty() || is_documentation(words, index) || is_attribute(words);
+    let fault = |(number, line): (usize, &str)| {
+        Fault::Text(number, format!("nothing that is generated: `{line}`"))
+    };
+    let numbered = source.split('\n').enumerate();
+    let numbered = numbered.map(|(index, line)| (index + 1, line));
+    let lines: Vec<(usize, &str)> = numbered.filter(|line| !is_plain(*line)).collect();
+    let is_known =
+        |line: &str| is_code(line.trim_start_matches(' ')) || module_head(line).is_some();
+    if let Some(line) = lines.iter().find(|(_, line)| !is_known(line)) {
+        return Err(fault(*line));
+    }
+    let (mut lines, mut all) = (lines.as_slice(), Vec::new());
+    let (mut module, mut has_items) = (None, false);
+    while let Some(&first) = lines.first() {
+        let words = first.1.trim_start_matches(' ');
         // At the top stand modules, or the items of a file that is one.
-        if let (0, false, false, Some(name)) = (depth, has_items, is_plain, module_head(line)) {
-            (module, depth) = (Some(name), 1);
+        let head = module_head(first.1).filter(|_| module.is_none() && !has_items);
+        if head.is_some() || module.is_some() && words == "}" {
+            (module, lines) = (head, &lines[1..]);
             continue;
         }
-        if let Some(found) = open.as_mut() {
-            found.text.push_str(line);
-            found.text.push('\n');
-        }
-        if is_plain {
-            continue;
-        }
-        let items = usize::from(module.is_some());
-        let is_end = words == "}" && depth == 1 && items == 1;
-        has_items |= module.is_none() && depth == 0;
-        let is_known = depth > items || is_end || is_item(words);
-        if !is_code(words) || !is_known || has_items && module.is_some() {
-            return Err(fault());
-        }
-        if let Some(name) = words.strip_prefix("pub fn ").filter(|_| depth == items) {
+        let found = item(&mut lines).filter(|_| is_item(words));
+        let mut found = found.ok_or_else(|| fault(first))?;
+        has_items |= module.is_none();
+        if let Some(name) = words.strip_prefix("pub fn ") {
             let end = name.find(|c: char| !is_letter(c)).unwrap_or(0);
-            open = Some(Found {
-                module: module.unwrap_or(""),
-                name: &name[..end],
-                line: index + 1,
-                text: format!("{line}\n"),
-            });
-        }
-        for brace in words.chars() {
-            match brace {
-                '{' | '[' | '(' => depth += 1,
-                '}' | ']' | ')' => depth = depth.checked_sub(1).ok_or_else(fault)?,
-                _ => {}
-            }
-        }
-        if depth <= items {
-            all.extend(open.take());
-        }
-        if depth == 0 {
-            module = None;
+            (found.module, found.name) = (module.unwrap_or(""), &name[..end]);
+            all.push(found);
         }
     }
-    match depth {
-        0 => Ok(all),
-        _ => Err(Fault::Text(
-            source.lines().count(),
-            "a brace is not closed".into(),
-        )),
+    let end = source.lines().count();
+    match module {
+        None => Ok(all),
+        Some(_) => Err(Fault::Text(end, "a brace is not closed".into())),
     }
 }
 
@@ -120,10 +120,41 @@ pub(crate) fn whole(word: &str) -> Option<usize> {
     (word == format!("{number}")).then_some(number)
 }
 
-/// A comment that is a line by itself: documentation, or the first line of a file.
-fn is_documentation(words: &str, index: usize) -> bool {
-    let is_first = index == 0 && words.starts_with("// Generated by ");
-    (is_first || words.starts_with("///") || words.starts_with("//!")) && !words.contains('\r')
+/// The fields of the struct that a text returns, and how many entries each has; none if it
+/// returns no struct.
+pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t str, usize)> {
+    let declared = |line: &'t str| {
+        let (name, length) = line.split_once(' ')?.1.split_once('[')?;
+        Some((name, whole(length.strip_suffix("];")?)?))
+    };
+    if let Some(fields) = text.strip_prefix("typedef struct {\n") {
+        let lines = fields.lines().filter(|line| !line.is_empty());
+        return lines.map_while(declared).collect();
+    }
+    let tail = text.rsplit_once(&format!("\n    {} {{\n", structure(name)));
+    let tail = tail.map_or("", |(_, fields)| fields);
+    let listed = |(place, _): (usize, &str)| {
+        let name = tail[..place].rsplit(' ').next()?;
+        let open = tail[place + 2..].split(|c| !"[ \n".contains(c)).next()?;
+        Some((name, rows.pow(open.matches('[').count() as u32)))
+    };
+    tail.match_indices(": ").filter_map(listed).collect()
+}
+
+/// The name of the struct that a function returns.
+pub(crate) fn structure(name: &str) -> String {
+    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
+    words
+        .map(|(first, rest)| first.to_ascii_uppercase() + rest)
+        .collect()
+}
+
+/// Whether a line is empty, an attribute or a comment: documentation, or the first line of a file.
+fn is_plain((number, line): (usize, &str)) -> bool {
+    let words = line.trim_start_matches(' ');
+    let is_first = number == 1 && words.starts_with("// Generated by ");
+    let is_comment = is_first || words.starts_with("///") || words.starts_with("//!");
+    words.is_empty() || is_comment && !words.contains('\r') || is_attribute(words)
 }
 
 fn is_attribute(words: &str) -> bool {

@@ -95,8 +95,7 @@ impl Literal {
     }
 
     pub(crate) fn double(&self, key: &str) -> Result<f64, Fault> {
-        let read = self.number().map(|(value, _)| value);
-        read.ok_or_else(|| Fault::robot(key, "expected a number in decimal, below 1e100"))
+        Ok(self.real(key)?.value)
     }
 
     /// A number that may be missing, and then is NaN.

@@ -105,18 +105,14 @@ impl Number for Polynomial {
             true => vec![],
             false => vec![(0, real.value)],
         };
-        Polynomial {
-            terms,
-            rest: real.radius,
-        }
+        let rest = real.radius;
+        Polynomial { terms, rest }
     }
 
     fn negated(&self) -> Polynomial {
         let terms = self.terms.iter().map(|&(key, c)| (key, -c)).collect();
-        Polynomial {
-            terms,
-            rest: self.rest,
-        }
+        let rest = self.rest;
+        Polynomial { terms, rest }
     }
 
     fn plus(&self, other: &Polynomial) -> Polynomial {
@@ -171,10 +167,8 @@ impl Number for Polynomial {
         }
         sort(&mut terms);
         let product = merged(terms, rest);
-        match product.terms.len() <= MOST_TERMS {
-            true => Ok(product),
-            false => Err(Fault::Large),
-        }
+        let is_short = product.terms.len() <= MOST_TERMS;
+        is_short.then_some(product).ok_or(Fault::Large)
     }
 }
 

@@ -47,6 +47,11 @@ impl Quantity {
         }
     }
 
+    /// Returns the number of its entries over so many rows.
+    pub(crate) fn length(self, rows: usize) -> usize {
+        rows.pow(self.axes() as u32)
+    }
+
     /// Returns the number of arguments among q, q̇ and q̈, in this order.
     fn arguments(self) -> usize {
         match self {
@@ -60,42 +65,54 @@ impl Quantity {
 /// The name of a result, and what it is.
 pub type Field = (&'static str, Quantity);
 
-/// A generated function.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// A generated function, or a bundle of what such return.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Function {
-    /// Its name.
-    pub name: &'static str,
     /// Its results; of several there is a struct.
-    pub fields: &'static [Field],
-}
-
-const fn of(name: &'static str, fields: &'static [Field]) -> Function {
-    Function { name, fields }
+    pub fields: Vec<Field>,
 }
 
 /// The functions that are checked.
-pub const FUNCTIONS: [Function; 9] = [
-    of("inverse_dynamics", &[("tau", Torque)]),
-    of("gravity", &[("c", Gravity)]),
-    of("inertia", &[("d", Inertia)]),
-    of("coriolis", &[("h", Coriolis)]),
-    of(
+pub const FUNCTIONS: [(&str, &[Field]); 9] = [
+    ("inverse_dynamics", &[("tau", Torque)]),
+    ("gravity", &[("c", Gravity)]),
+    ("inertia", &[("d", Inertia)]),
+    ("coriolis", &[("h", Coriolis)]),
+    (
         "manipulator_equation",
         &[("d", Inertia), ("h", Coriolis), ("c", Gravity)],
     ),
-    of(
+    (
         "dynamic_coefficients",
         &[("d", Inertia), ("h", Christoffel), ("c", Gravity)],
     ),
-    of("kinetic_energy", &[("kinetic", KineticEnergy)]),
-    of("momentum", &[("p", Momentum), ("ct_qd", MomentumSlope)]),
-    of("coriolis_matrix", &[("c_matrix", CoriolisMatrix)]),
+    ("kinetic_energy", &[("kinetic", KineticEnergy)]),
+    ("momentum", &[("p", Momentum), ("ct_qd", MomentumSlope)]),
+    ("coriolis_matrix", &[("c_matrix", CoriolisMatrix)]),
 ];
 
 impl Function {
     /// The function of a name.
     pub fn named(name: &str) -> Option<Function> {
-        FUNCTIONS.into_iter().find(|function| function.name == name)
+        let known = FUNCTIONS.iter().find(|(own, _)| *own == name);
+        known.map(|(_, fields)| Function {
+            fields: fields.to_vec(),
+        })
+    }
+
+    /// The bundle of results that have these names and numbers of entries, over so many rows; or
+    /// the name that no function's result has.
+    pub(crate) fn bundle<'t>(
+        results: &[(&'t str, usize)],
+        rows: usize,
+    ) -> Result<Function, &'t str> {
+        let known = |&(name, length): &(&'t str, usize)| {
+            let mut all = FUNCTIONS.iter().flat_map(|(_, fields)| fields.iter());
+            let is_own = |field: &&Field| field.0 == name && field.1.length(rows) == length;
+            all.find(is_own).copied().ok_or(name)
+        };
+        let fields = results.iter().map(known).collect::<Result<_, _>>()?;
+        Ok(Function { fields })
     }
 
     /// Returns the number of arguments among q, q̇ and q̈, in this order.
@@ -107,11 +124,11 @@ impl Function {
     /// Of each output its quantity and the places of its joints among so many rows.
     pub fn places(&self, rows: usize) -> Vec<(Quantity, Vec<usize>)> {
         let mut places = Vec::new();
-        for &(_, quantity) in self.fields {
+        for &(_, quantity) in &self.fields {
             let axes = quantity.axes() as u32;
             let digit = |index: usize, axis: u32| index / rows.pow(axes - 1 - axis) % rows;
             let place = |index: usize| (0..axes).map(|axis| digit(index, axis)).collect();
-            places.extend((0..rows.pow(axes)).map(|index| (quantity, place(index))));
+            places.extend((0..quantity.length(rows)).map(|index| (quantity, place(index))));
         }
         places
     }
@@ -134,7 +151,7 @@ impl Function {
             work,
         };
         let mut outputs = Vec::new();
-        for &(_, quantity) in self.fields {
+        for &(_, quantity) in &self.fields {
             outputs.extend(at.quantity(quantity)?);
         }
         Ok(outputs)

@@ -44,11 +44,8 @@ impl Ring {
         let count = setting.joints.len();
         let good = |range: &[f64; 2]| range[0] <= range[1] && range.iter().all(|x| x.abs() < 1e30);
         for list in [&claim.position, &claim.velocity, &claim.acceleration] {
-            if list.len() != count || !list.iter().all(good) {
-                return Err(Fault::certificate(format!(
-                    "expected {count} finite ranges of q, qd, qdd"
-                )));
-            }
+            let why = format!("expected {count} finite ranges of q, qd, qdd");
+            Fault::unless(list.len() == count && list.iter().all(good), &why)?;
         }
         let mut ring = Ring {
             states: Vec::new(),

@@ -11,6 +11,7 @@ use crate::number::Real;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, bound = "S: Deserialize<'de>")]
+#[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 pub(crate) struct File<S> {
     pub(crate) convention: Option<Convention>,
     pub(crate) gravity: [Literal; 3],
@@ -21,16 +22,11 @@ pub(crate) struct File<S> {
     #[serde(default = "BTreeMap::new")]
     pub(crate) scene: BTreeMap<String, S>,
     /// These, and the frames that are fixed to links, move nothing.
-    #[serde(rename = "name")]
-    _name: IgnoredAny,
-    #[serde(rename = "allow")]
-    _allow: Option<IgnoredAny>,
-    #[serde(rename = "outputs")]
-    _outputs: Option<IgnoredAny>,
-    #[serde(rename = "tool")]
-    _tool: Option<IgnoredAny>,
-    #[serde(rename = "frame")]
-    _frames: Option<IgnoredAny>,
+    name: IgnoredAny,
+    allow: Option<IgnoredAny>,
+    outputs: Option<IgnoredAny>,
+    tool: Option<IgnoredAny>,
+    frame: Option<IgnoredAny>,
 }
 
 #[derive(Clone, Copy, PartialEq, Deserialize)]
@@ -88,6 +84,7 @@ impl Step {
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 pub(crate) struct Row {
     pub(crate) name: Option<String>,
     pub(crate) kind: Option<Kind>,
@@ -104,11 +101,9 @@ pub(crate) struct Row {
     inertia: Option<[Literal; 6]>,
     viscous: Literal,
     coulomb: Literal,
-    #[serde(rename = "coulomb_width")]
-    _width: IgnoredAny,
+    coulomb_width: IgnoredAny,
     armature: Literal,
-    #[serde(rename = "frame")]
-    _frame: IgnoredAny,
+    frame: IgnoredAny,
     pub(crate) limits: Limits,
 }
 
@@ -273,10 +268,9 @@ impl Row {
     /// The ends of a range of positions, if they are in order.
     pub(crate) fn range(&self, [low, high]: &[Literal; 2], why: &str) -> Result<[f64; 2], Fault> {
         let range = [self.position(low)?, self.position(high)?];
-        match range[0] < range[1] {
-            true => Ok(range),
-            false => Err(Fault::robot("position", why)),
-        }
+        let is_range = range[0] < range[1];
+        let range = is_range.then_some(range);
+        range.ok_or_else(|| Fault::robot("position", why))
     }
 
     /// Whether the joint turns; else it slides.
@@ -295,8 +289,6 @@ impl Row {
 }
 
 pub(crate) fn not_negative(key: &str, value: f64, why: String) -> Result<(), Fault> {
-    match value >= 0.0 {
-        true => Ok(()),
-        false => Err(Fault::robot(key, why)),
-    }
+    let holds = (value >= 0.0).then_some(());
+    holds.ok_or_else(|| Fault::robot(key, why))
 }

@@ -18,11 +18,10 @@ const MOST_BYTES: usize = 1 << 18;
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 struct Scene {
-    #[serde(rename = "outputs")]
-    _outputs: Option<IgnoredAny>,
-    #[serde(rename = "scalar")]
-    _scalar: Option<IgnoredAny>,
+    outputs: Option<IgnoredAny>,
+    scalar: Option<IgnoredAny>,
     joints: Option<Vec<Literal>>,
     lock: BTreeMap<String, Literal>,
     gravity: Option<[Literal; 3]>,

@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::certificate::Claim;
 use crate::fault::Fault;
-use crate::file::between;
+use crate::file::{between, structure};
 use crate::program::{Node, Program, Source};
 use crate::quantity::Function;
 
@@ -24,6 +24,7 @@ const MOST_NODES: usize = 20_000;
 /// A function that is being read.
 #[derive(Default)]
 pub(crate) struct Parser<'t> {
+    name: &'t str,
     pub(crate) function: Function,
     pub(crate) scalar: &'t str,
     pub(crate) joints: usize,
@@ -59,6 +60,7 @@ pub(crate) struct Parser<'t> {
 pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
     let text = &claim.text;
     let mut parser = Parser {
+        name: &claim.function,
         function: claim.function()?,
         scalar: &claim.scalar,
         joints,
@@ -66,7 +68,8 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
         lines: text.split('\n').collect(),
         ..Parser::default()
     };
-    let read = match text.starts_with("static inline ") {
+    let of_c = ["static inline ", "typedef struct "];
+    let read = match of_c.iter().any(|start| text.starts_with(start)) {
         true => parser.c_function(),
         false => parser.rust_function(),
     };
@@ -83,28 +86,28 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
 
 impl<'t> Parser<'t> {
     pub(crate) fn next(&mut self) -> Option<&'t str> {
-        let line = *self.lines.get(self.line)?;
-        self.line += 1;
+        let left = self.lines.get(self.line..)?;
+        self.line += 1 + left.iter().position(|line| !line.is_empty())?;
+        let line = self.lines[self.line - 1];
         let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
         is_plain.then(|| line.trim_matches(' '))
     }
 
     fn rust_function(&mut self) -> Option<()> {
-        let (function, scalar) = (self.function, self.scalar);
+        let (scalar, fields) = (self.scalar, self.function.fields.clone());
         let (joints, rows) = (self.joints, self.rows);
         let mut line = self.next()?;
         if line == "#[must_use]" {
             line = self.next()?;
         }
-        let fields = function.fields;
         let array =
             |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
         let is_struct = fields.len() > 1;
         let returned = match is_struct {
-            true => structure(function.name),
+            true => structure(self.name),
             false => array(fields.first()?.1.axes()),
         };
-        let head = format!("pub fn {}(", function.name);
+        let head = format!("pub fn {}(", self.name);
         let list = between(line, &head, &format!(") -> {returned} {{"))?;
         for part in list.split(", ") {
             let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
@@ -346,14 +349,6 @@ impl<'t> Parser<'t> {
         }
         Some(())
     }
-}
-
-/// The name of the struct that a function returns.
-fn structure(name: &str) -> String {
-    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
-    words
-        .map(|(first, rest)| first.to_ascii_uppercase() + rest)
-        .collect()
 }
 
 /// Both parts of `(one, other)`.

@@ -4,9 +4,10 @@
 
 use crate::file::whole;
 
-/// Its lines after the first, `#if defined(__clang__)`. Literals of f32 end with F for `~`, and
+/// Its lines. Literals of f32 end with F for `~`, and
 /// functions of the library with f for `^`.
-const LINES: &str = "__attribute__((noinline))
+const LINES: &str = "#if defined(__clang__)
+__attribute__((noinline))
 #endif
 HEAD(const REAL angle[ARM_RESTRICT COUNT], REAL sine[ARM_RESTRICT COUNT], REAL cosine[ARM_RESTRICT COUNT])
 {
@@ -47,7 +48,7 @@ const SINGLE: &str = "x0*0.63661975 x1+12582912.0 x2-12582912.0 x3*1.5707855 x0-
     x18+-0.0013887301 x19*x12 x20+0.041666646 x12*0.5 1.0-x22 x11*x23 x7*x12 x25*x17
     x24+x26 x7-x27 1.0-x23 x29-x22 x13*x21 x7*x11 x31+x32 x30+x33 x23+x34";
 
-/// The lines of the function that has this head, after the first; the header's name is in capitals.
+/// The lines of the function that has this head; the header's name is in capitals.
 pub(crate) fn lines(header: &str, head: &str) -> Option<String> {
     let (before, list) = head.split_once("_sines_")?;
     let count = list.split_once('(')?.0;

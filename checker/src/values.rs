@@ -112,38 +112,30 @@ impl Values<'_> {
                         .iter()
                         .map(|&(joint, negative)| (joint, negative != minus));
                     let sum: Vec<(usize, bool)> = a.iter().copied().chain(behind).collect();
-                    if sum.len() > MAX_JOINTS {
-                        return Err(Fault::certificate("an angle is the sum of too many"));
-                    }
+                    let is_short = sum.len() <= MAX_JOINTS;
+                    Fault::unless(is_short, "an angle is the sum of too many")?;
                     return Ok(Meaning::Angle(sum));
                 }
                 let (a, b) = (number(all, a)?, number(all, b)?);
                 let negated = minus.then(|| b.exact.negated());
-                let sum = a.exact.plus(negated.as_ref().unwrap_or(&b.exact));
-                let size = self.ring.size(&sum).min((a.size + b.size) * SLACK);
+                let exact = a.exact.plus(negated.as_ref().unwrap_or(&b.exact));
+                let size = self.ring.size(&exact).min((a.size + b.size) * SLACK);
                 let error = self.scalar.rounded(size, a.error + b.error);
-                Value {
-                    exact: sum,
-                    size,
-                    error,
-                }
+                Value { exact, size, error }
             }
             Node::Mul(a, b) | Node::Fused(a, b, _) => {
                 let (a, b) = (number(all, a)?, number(all, b)?);
-                let mut result = a.exact.times(&b.exact, work)?;
+                let mut exact = a.exact.times(&b.exact, work)?;
                 let mut size = a.size * b.size * SLACK;
                 let mut inherited = a.error * b.size + b.error * a.size + a.error * b.error;
                 if let Node::Fused(_, _, c) = node {
                     let c = number(all, c)?;
-                    result = result.plus(&c.exact);
+                    exact = exact.plus(&c.exact);
                     (size, inherited) = ((size + c.size) * SLACK, inherited + c.error);
                 }
-                let size = self.ring.size(&result).min(size);
-                Value {
-                    exact: result,
-                    size,
-                    error: self.scalar.rounded(size, inherited * SLACK),
-                }
+                let size = self.ring.size(&exact).min(size);
+                let error = self.scalar.rounded(size, inherited * SLACK);
+                Value { exact, size, error }
             }
             Node::Sine(a, is_sine, source) => {
                 let Some(joints) = angle(a) else {
@@ -203,7 +195,7 @@ impl Values<'_> {
         let sums = (joints.len() - 1) as f64;
         let rounded = 2.0 * sums * sums * self.scalar.unit * range.magnitude();
         let mut exact = if is_sine { sin } else { cos };
-        let (error, mut size) = match source {
+        let (mut error, mut size) = match source {
             // An ulp of a number up to one is at most two units.
             Source::Library => (2.0 * self.scalar.unit + rounded, 1.0),
             Source::Block(block, result) => {
@@ -222,19 +214,12 @@ impl Values<'_> {
                 (0.0, 1.0 + most)
             }
         };
-        size *= SLACK;
-        Ok(Value {
-            exact,
-            size,
-            error: error * SLACK,
-        })
+        (size, error) = (size * SLACK, error * SLACK);
+        Ok(Value { exact, size, error })
     }
 }
 
 fn exact(exact: Polynomial, size: f64) -> Value {
-    Value {
-        exact,
-        size: size * SLACK,
-        error: 0.0,
-    }
+    let (size, error) = (size * SLACK, 0.0);
+    Value { exact, size, error }
 }

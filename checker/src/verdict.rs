@@ -182,9 +182,8 @@ pub fn measure(
         if !(found.seen.off <= found.bound()) {
             let (place, off) = (index + 1, found.seen.off);
             let why = format!("output {place} is off by {off:.3e} at a state");
-            return Err(Fault::certificate(format!(
-                "{why}, more than the checker's own bound"
-            )));
+            let why = format!("{why}, more than the checker's own bound");
+            return Err(Fault::certificate(why));
         }
         all.push(found);
     }
@@ -194,12 +193,10 @@ pub fn measure(
 /// Whether a claim is about this robot in its scene: the same rows, a box that has all
 /// states of the file's, a scale of the same kind.
 fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
-    if setting.rows != claim.rows() {
-        return Err(Fault::certificate("`rows` are not those of the scene"));
-    }
-    if setting.tolerance.is_some() && claim.relative_to != setting.relative_to {
-        return Err(Fault::certificate("`relative_to` is not that of the scene"));
-    }
+    let has_rows = setting.rows == claim.rows();
+    Fault::unless(has_rows, "`rows` are not those of the scene")?;
+    let is_relative = setting.tolerance.is_none() || claim.relative_to == setting.relative_to;
+    Fault::unless(is_relative, "`relative_to` is not that of the scene")?;
     let arguments = claim.function()?.arguments();
     let inside = |(own, claimed): (&[f64; 2], &[f64; 2])| {
         let slack = BOX_SLACK * (own[0].abs() + own[1].abs());
@@ -211,12 +208,8 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
     let has_all = |(own, claimed): (&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
         own.len() == claimed.len() && own.iter().zip(claimed.iter()).all(inside)
     };
-    match lists.all(has_all) {
-        true => Ok(()),
-        false => Err(Fault::certificate(
-            "the box lacks states of the scene, or of the joints' limits",
-        )),
-    }
+    let why = "the box lacks states of the scene, or of the joints' limits";
+    Fault::unless(lists.all(has_all), why)
 }
 
 /// A number that a rounded one is not below; zero is exact.
@@ -251,17 +244,14 @@ fn attainable(
         Some("actuator") => places.iter().map(actuator).collect::<Result<_, Fault>>()?,
         Some("range") => witness::reached(claim, setting)?,
         _ => {
-            return Err(Fault::certificate(
-                "`relative_to` is neither actuator nor range",
-            ));
+            let why = "`relative_to` is neither actuator nor range";
+            return Err(Fault::certificate(why));
         }
     };
     for (scale, most) in claim.scale.iter().zip(&most) {
         let is_reached = *scale >= 0.0 && *scale <= most * (1.0 + SCALE_SLACK);
-        if !(is_reached || *scale == 0.0) {
-            let why = format!("`scale` {scale:e} is above {most:e}, the largest that is reached");
-            return Err(Fault::certificate(why));
-        }
+        let why = format!("`scale` {scale:e} is above {most:e}, the largest that is reached");
+        Fault::unless(is_reached || *scale == 0.0, &why)?;
     }
     Ok(most)
 }

@@ -256,3 +256,77 @@ fn headers_that_are_not_generated() {
     let changed = source.replace("14.715F", "14.715");
     assert!(!report(&changed).is_shown());
 }
+
+/// Bundles: what is found is the same in both languages, and each result is held against the
+/// quantity whose name it has.
+#[test]
+fn bundles() {
+    let [header, rust] =
+        ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-bundle.{kind}"));
+    is_same(&header, &rust);
+    let shown = |source: &str| {
+        let lines = report(source).lines;
+        let shown = |name: &str| {
+            let mut own = lines.iter().filter(|line| line.name == name);
+            own.all(|line| line.result.as_ref().is_ok_and(|found| found.is_shown()))
+        };
+        [shown("gravity"), shown("servo")]
+    };
+    for (path, changes) in [
+        (
+            &header,
+            vec![
+                ("result->tau[0] = ", "result->tau[1] = "),
+                ("result->c[0] = ", "result->tau[0] = "),
+                ("    double c[2];\n", "    float c[2];\n"),
+                ("    double c[2];\n", "    double p[2];\n"),
+                ("    double c[2];\n", ""),
+                ("    double h[8];\n", "    double h[2];\n"),
+                ("    double h[8];\n", "    double h[9];\n"),
+                ("    double tau[2];\n", "    double y[2];\n"),
+                ("planar2r_servo_t result[", "planar2r_other_t result["),
+                ("result[PLANAR2R_RESTRICT 1]", "result[PLANAR2R_RESTRICT 2]"),
+                (
+                    "result[PLANAR2R_RESTRICT 1])",
+                    "result[PLANAR2R_RESTRICT 1], double c[PLANAR2R_RESTRICT 2])",
+                ),
+            ],
+        ),
+        (
+            &rust,
+            vec![
+                ("        tau: [", "        p: ["),
+                ("        c: [", "        d: ["),
+                ("        c: [", "        c: [-"),
+            ],
+        ),
+    ] {
+        let source = file(path);
+        assert_eq!(shown(&source), [true; 2]);
+        for (from, to) in changes {
+            assert!(source.contains(from), "{from}");
+            assert_eq!(shown(&source.replacen(from, to, 1)), [true, false], "{to}");
+        }
+    }
+    // What none of the functions returns is named.
+    let other = file(&header).replace("kinetic", "jacobian");
+    let found = report(&other).lines;
+    let fault = found.iter().find_map(|line| line.result.as_ref().err());
+    let fault = fault.unwrap().to_string();
+    assert!(
+        fault.contains("`servo` is not checked: it returns `jacobian`"),
+        "{fault}"
+    );
+}
+
+/// A function of many states is not read, and nobody can take it for one that was.
+#[test]
+fn batches_are_refused_by_name() {
+    let batch = "static inline void planar2r_gravity_batch(const size_t n, const double *q, double *c)\n{\n}\n";
+    let end = "\n#if defined(__GNUC__) && !defined(__clang__) && (defined(__FP";
+    let source = header();
+    let place = source.rfind(end).unwrap();
+    let with = format!("{}\n{batch}{}", &source[..place], &source[place..]);
+    let fault = check(&with, &robot(), None).unwrap_err().to_string();
+    assert!(fault.contains("batches are not checked"), "{fault}");
+}

@@ -1,6 +1,6 @@
 //! `dalembert explain` as a user runs it.
 
-use crate::support::{robot, run, temporary};
+use crate::support::{arm, robot, run, temporary};
 use serde_json::Value;
 
 #[test]
@@ -155,4 +155,126 @@ fn states_have_bounds() {
         assert_eq!(ran.code, 2, "{states}");
         assert!(ran.out.is_empty());
     }
+}
+
+/// The lines of generated code that begin with a name, by their numbers.
+fn constants(arm: &str) -> Vec<(usize, String)> {
+    let ran = run(&["generate", arm, "--outputs", "inverse_dynamics"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let lines = ran.out.lines().enumerate();
+    let lines = lines.filter(|(_, line)| line.trim().starts_with("let t"));
+    lines
+        .map(|(index, line)| (index + 1, line.trim().to_owned()))
+        .collect()
+}
+
+/// What is traced of a number are the lines that change when it does, and the results that
+/// golden formulas make depend on it.
+#[test]
+fn traced_lines_are_those_that_change() {
+    let (folder, arm) = arm("explain_trace", "puma560", "");
+    let before = constants(&arm);
+    for (number, from, to, results) in [
+        ("joint2.mass", "mass = 17.4\n", "mass = 17.5\n", 2),
+        ("shoulder.com.x", "com = [-0.3638, ", "com = [-0.3639, ", 2),
+        ("joint3.inertia.yy", "0.086, 0.0125", "0.087, 0.0125", 2),
+    ] {
+        let ran = run(&["explain", &arm, "--trace", number, "--json"]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let json: Value = serde_json::from_str(&ran.out).unwrap();
+        let function = &json["functions"][0];
+        assert_eq!(
+            function["results_that_change"].as_array().unwrap().len(),
+            results
+        );
+        let followers = function["constants"].as_array().unwrap().iter();
+        let lines = followers.flat_map(|own| own["lines"].as_array().unwrap());
+        let mut traced: Vec<(usize, String)> = lines
+            .map(|line| {
+                let number = line["line"].as_u64().unwrap() as usize;
+                (number, line["code"].as_str().unwrap().to_owned())
+            })
+            .collect();
+        traced.sort();
+        let robot = std::fs::read_to_string(&arm).unwrap();
+        assert!(robot.contains(from), "{number}");
+        let other = folder.join("other.toml");
+        std::fs::write(&other, robot.replacen(from, to, 1)).unwrap();
+        let after = constants(other.to_str().unwrap());
+        assert_eq!(before.len(), after.len(), "{number}: another form");
+        let changed = before
+            .iter()
+            .zip(&after)
+            .filter(|(own, other)| own != other);
+        let changed: Vec<(usize, String)> = changed.map(|(own, _)| own.clone()).collect();
+        assert_eq!(traced, changed, "{number}");
+    }
+}
+
+/// m₂ l₁ c₂ = 0.5 in the sine and the cosine of q₂, I₂ + m₂ c₂² = 1/3: with another centre of mass
+/// the search finds other operations, and these constants are the fewest that could follow it.
+#[test]
+fn constants_of_the_planar_arm_by_hand() {
+    let ran = run(&[
+        "explain",
+        &robot("planar2r"),
+        "--trace",
+        "elbow.com.x",
+        "--json",
+    ]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    let function = &json["functions"][0];
+    let constants = function["constants"].as_array().unwrap().iter();
+    let constants: Vec<&str> = constants
+        .map(|own| own["constant"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        constants,
+        ["0.5", "0.3333333333333333", "0.5"],
+        "{}",
+        ran.out
+    );
+}
+
+#[test]
+fn what_reaches_nothing_and_what_gives_the_form() {
+    let trace = |name: &str| run(&["explain", &robot("puma560"), "--trace", name]);
+    for (name, said) in [
+        ("joint1.mass", "no result changes with it"),
+        (
+            "joint1.viscous",
+            "the code has its form because of this very value",
+        ),
+        ("joint2.inertia.zz", "constants that follow it: 1,"),
+    ] {
+        let ran = trace(name);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        assert!(ran.out.contains(said), "{name}: {}", ran.out);
+    }
+    for (name, said) in [
+        (
+            "joint9.mass",
+            "there is no joint `joint9`: expected joint1 to joint6",
+        ),
+        ("joint2.colour", "there is no `colour` of joint 2"),
+        ("gravity.w", "expected x, y or z"),
+        ("mass", "expected JOINT.KEY or gravity.AXIS"),
+    ] {
+        let ran = trace(name);
+        assert_eq!(ran.code, 2, "{name}");
+        assert!(ran.err.contains(said) && ran.out.is_empty(), "{}", ran.err);
+    }
+    let tolerance = "\n[scene.rough]\noutputs = [\"gravity\"]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n";
+    let (_, arm) = arm("explain_trace_tolerance", "planar2r", tolerance);
+    let ran = run(&[
+        "explain",
+        &arm,
+        "--scene",
+        "rough",
+        "--trace",
+        "joint2.mass",
+    ]);
+    assert_eq!(ran.code, 2, "{}", ran.out);
+    assert!(ran.err.contains("for the scene's tolerance"), "{}", ran.err);
 }

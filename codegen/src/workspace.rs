@@ -172,7 +172,7 @@ pub mod random {
 }
 
 pub mod scene {
-    pub use crate::scene::{SceneKey, SceneRobot, input_hash, motion};
+    pub use crate::scene::{SceneError, SceneKey, SceneRobot, input_hash, motion};
     pub mod base {
         pub use crate::scene::base::{BaseParameters, Parameter};
     }
@@ -223,6 +223,9 @@ pub mod verify {
     }
     pub mod parameters {
         pub use crate::verify::parameters::prove_base;
+    }
+    pub mod reach {
+        pub use crate::verify::reach::{Place, Reach, Unreached, reach};
     }
     pub mod reference {
         pub use crate::verify::reference::{Reference, TrueValue};

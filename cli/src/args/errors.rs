@@ -67,6 +67,13 @@ pub struct CertifyArgs {
     /// for certificates that `tradeoff` wrote for other tolerances
     #[arg(long, value_name = "E", value_parser = positive_parser())]
     pub tolerance: Option<f64>,
+    /// Of a generated file: write what was found, and what a person must answer for, as a
+    /// checklist in Markdown
+    #[arg(long, value_name = "FILE")]
+    pub dossier: Option<PathBuf>,
+    /// Write over a checklist that is there, and what was filled in
+    #[arg(long, requires = "dossier")]
+    pub force: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

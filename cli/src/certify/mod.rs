@@ -3,7 +3,11 @@
 //!
 //! - this file: the claims of a certificate
 //! - [`whole_file`]: every function of a generated file
+//! - [`dossier`]: what was found of it, as a checklist for whoever argues that it is safe
+//! - [`body`]: what the text of a function shows
 
+mod body;
+mod dossier;
 mod whole_file;
 
 use std::path::Path;
@@ -22,7 +26,11 @@ pub fn run(args: &CertifyArgs) -> Outcome {
     let robot = text(&args.robot)?;
     let kind = args.certificate.extension().and_then(|kind| kind.to_str());
     match kind {
-        Some("rs" | "h") => whole_file::run(args, &source, &robot),
+        Some("rs" | "h" | "cuh") => whole_file::run(args, &source, &robot),
+        _ if args.dossier.is_some() => Err(Failure::Input(format!(
+            "error: --dossier is of a generated file (.rs, .h), and `{}` is none",
+            args.certificate.display()
+        ))),
         _ => certificates(args, &source, &robot),
     }
 }

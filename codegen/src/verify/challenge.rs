@@ -149,7 +149,13 @@ impl Challenge {
         let mut odd = words.map(|word| (word >> 2) | (1 << 62) | 3);
         let prime = odd.find_map(Prime::new)?;
         let seed = *self;
-        Some(Point { seed, index, prime })
+        let state = 0;
+        Some(Point {
+            seed,
+            index,
+            prime,
+            state,
+        })
     }
 
     /// Words of the stream of a value: its kind and name, block after block.
@@ -174,12 +180,19 @@ pub(crate) struct Point {
     seed: Challenge,
     index: usize,
     prime: Prime,
+    /// Which of the states modulo this prime.
+    state: usize,
 }
 
 impl Point {
     /// The prime.
     pub(crate) fn prime(&self) -> Prime {
         self.prime
+    }
+
+    /// Another state, with the same prime and the same constants.
+    pub(crate) fn with_state(self, state: usize) -> Point {
+        Point { state, ..self }
     }
 
     /// A residue, each equally likely.
@@ -200,7 +213,7 @@ impl Point {
     /// The value of an input.
     pub(crate) fn input(&self, input: Input) -> Residue {
         let free = |kind: &str, joint: usize| {
-            Residue::new(self.prime, self.residue(kind, &joint.to_string()))
+            Residue::new(self.prime, self.residue(kind, &self.name(joint)))
         };
         match input {
             Input::Sin(angle) => angle.pair(|joint| self.joint(joint)).sin,
@@ -211,7 +224,15 @@ impl Point {
     }
 
     fn joint(&self, joint: usize) -> SinCosPair<Residue> {
-        self.circle("joint", &joint.to_string())
+        self.circle("joint", &self.name(joint))
+    }
+
+    /// What tells an entry of a state from those of others.
+    fn name(&self, entry: usize) -> String {
+        match self.state {
+            0 => entry.to_string(),
+            state => format!("{entry} of state {state}"),
+        }
     }
 
     /// The value of a constant; `None` if the prime divides a denominator or a

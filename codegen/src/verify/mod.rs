@@ -5,6 +5,7 @@
 //! - [`exact`]: the program equals Lagrange–Euler as written, modulo primes
 //! - [`challenge`]: which primes and points, drawn from what is to be proved
 //! - [`parameters`]: base parameters give every torque, modulo primes
+//! - [`reach`]: which constants follow a number of the robot file
 //! - [`singular`]: whether D has an inverse, and which joint it lacks one for
 //! - [`condition`]: how close D is to singular at a state
 //! - [`miss`], [`degree`], [`ratio`], `size`: how likely that check is to miss a difference
@@ -22,6 +23,7 @@ mod lanes;
 pub(crate) mod miss;
 pub(crate) mod parameters;
 pub(crate) mod ratio;
+pub(crate) mod reach;
 pub(crate) mod reference;
 pub(crate) mod rounding;
 pub(crate) mod running;
